@@ -1,0 +1,78 @@
+"""Linear elasticity of a solid: stiffness matrix, stress, and geometric stiffness of a stressed state.
+
+Each weak form is a batched matrix product over scikit-fem's basis arrays. One product serves all: the
+Gram matrix of the shape-function gradients, from which the isotropic law picks its terms.
+"""
+
+from collections.abc import Iterator
+
+import numpy as np
+import scipy.sparse as sp
+
+from fem.material import Isotropic
+from fem.space import Space
+from meshes.solid import Floats
+
+# Bounds the memory of a batch to a few hundred megabytes whatever the mesh.
+CELLS_AT_ONCE = 2000
+IDENTITY = np.eye(3)
+
+
+def batches(space: Space) -> Iterator[slice]:
+    """Slices over the cells."""
+    for start in range(0, len(space.weights), CELLS_AT_ONCE):
+        yield slice(start, start + CELLS_AT_ONCE)
+
+
+def gradient_gram(gradients: Floats, weights: Floats) -> Floats:
+    """∫ ∂N_i/∂x_a ∂N_j/∂x_b dV, as (m, k, k, 3, 3) over i, j, a, b."""
+    m, q, k, _ = gradients.shape
+    flat = gradients.reshape(m, q, 3 * k)
+    gram = np.swapaxes(flat * weights[:, :, None], 1, 2) @ flat
+    return gram.reshape(m, k, 3, k, 3).transpose(0, 1, 3, 2, 4)
+
+
+def isotropic_blocks(gram: Floats, material: Isotropic) -> Floats:
+    """λ ∂_a N_i ∂_b N_j + μ ∂_b N_i ∂_a N_j + μ δ_ab ∇N_i·∇N_j, integrated."""
+    mu = material.shear_modulus
+    blocks = material.lame * gram + mu * np.swapaxes(gram, -1, -2)
+    trace = mu * np.einsum("...cc->...", gram)
+    for a in range(3):
+        blocks[..., a, a] += trace
+    return blocks
+
+
+def stiffness_matrix(space: Space, material: Isotropic) -> sp.csr_matrix:
+    """K of ∫ σ(u):ε(v) dV, (dofs, dofs) sparse, N/mm."""
+    k = space.connectivity.shape[1]
+    local = np.empty((len(space.weights), k, k, 3, 3))
+    for part in batches(space):
+        local[part] = isotropic_blocks(gradient_gram(space.gradients[part], space.weights[part]), material)
+    return space.matrix(local)
+
+
+def stress(space: Space, material: Isotropic, u: Floats) -> Floats:
+    """Cauchy stress of small displacements `u` at the integration points, (m, q, 3, 3) MPa."""
+    gradient = space.displacement_gradient(u)
+    strain = 0.5 * (gradient + np.swapaxes(gradient, -1, -2))
+    volumetric = np.einsum("...aa->...", strain)[..., None, None]
+    return 2.0 * material.shear_modulus * strain + material.lame * volumetric * IDENTITY
+
+
+def scalar_geometric_blocks(gradients: Floats, weighted_stress: Floats) -> Floats:
+    """∫ ∇N_i·σ·∇N_j dV, (m, k, k), for `weighted_stress` = σ times the integration weight, (m, q, 3, 3)."""
+    m, q, k, _ = gradients.shape
+    pushed = (gradients @ weighted_stress).transpose(0, 2, 1, 3).reshape(m, k, 3 * q)
+    return pushed @ gradients.transpose(0, 1, 3, 2).reshape(m, 3 * q, k)
+
+
+def geometric_stiffness_matrix(space: Space, sigma: Floats) -> sp.csr_matrix:
+    """K_g of ∫ σ_ab ∂_a u·∂_b v dV for the stress `sigma` (m, q, 3, 3) MPa; (dofs, dofs) sparse, N/mm."""
+    k = space.connectivity.shape[1]
+    local = np.zeros((len(space.weights), k, k, 3, 3))
+    for part in batches(space):
+        weighted = sigma[part] * space.weights[part][:, :, None, None]
+        scalar = scalar_geometric_blocks(space.gradients[part], weighted)
+        for a in range(3):
+            local[part][..., a, a] = scalar
+    return space.matrix(local)

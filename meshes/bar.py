@@ -1,0 +1,145 @@
+"""A bar as geometry: a section swept along x from the face "base" (x = 0) to the face "tip" (x = length)."""
+
+from dataclasses import dataclass
+from itertools import pairwise
+from math import isfinite
+
+from meshes.section import Patch, Point, Rectangle, Section, rectangle, require_positive
+
+
+@dataclass(frozen=True)
+class Lug:
+    """Hinge lug: a block `length` (x) by `width` (y) by `height` (z), mm, united with the section at each end."""
+
+    length: float
+    width: float
+    height: float
+
+    def __post_init__(self) -> None:
+        require_positive(self)
+
+
+@dataclass(frozen=True)
+class Zone:
+    """A stretch of the bar with one cross-section; `graded_to` names the end with the smaller elements."""
+
+    start: float
+    end: float
+    patches: tuple[Patch, ...]
+    graded_to: str | None = None
+
+
+@dataclass(frozen=True)
+class Bar:
+    """A straight bar between two end faces `length` mm apart; `lug` None means the section runs to both faces."""
+
+    section: Section
+    length: float
+    lug: Lug | None = None
+
+    def __post_init__(self) -> None:
+        if not (isfinite(self.length) and self.length > 0.0):
+            raise ValueError(f"length is {self.length:g}, allowed is a length above 0 mm")
+        if self.lug is not None and 2 * self.lug.length >= self.length:
+            raise ValueError(
+                f"lug length is {self.lug.length:g} mm, allowed is less than half of length = {self.length:g} mm"
+            )
+
+    @property
+    def sweepable(self) -> bool:
+        """Whether hexahedra can be swept: always without lugs; with lugs when the section is made of rectangles."""
+        return self.lug is None or all(not any(p.arcs) and is_rectangle(p) for p in self.section.patches())
+
+    def zones(self) -> tuple[Zone, ...]:
+        """Stretches along x, with the body cut at mid-length; ValueError if the bar is not sweepable."""
+        middle = self.length / 2
+        if self.lug is None:
+            body = self.section.patches()
+            return (Zone(0.0, middle, body, "start"), Zone(middle, self.length, body, "end"))
+        if not self.sweepable:
+            raise ValueError("a block lug on a curved section cannot be swept, allowed is a section of rectangles")
+        body, ends = split_on_common_grid(self.section.patches(), self.lug)
+        a = self.lug.length
+        return (
+            Zone(0.0, a, ends),
+            Zone(a, middle, body, "start"),
+            Zone(middle, self.length - a, body, "end"),
+            Zone(self.length - a, self.length, ends),
+        )
+
+    def exact_moments(self) -> tuple[float, float, float]:
+        """Volume in mm³, ∫z² dV and ∫y² dV in mm⁵ of the body with its lugs."""
+        area, (iy, iz) = self.section.area, self.section.second_moments
+        if self.lug is None:
+            return area * self.length, iy * self.length, iz * self.length
+        block = Rectangle(self.lug.width, self.lug.height)
+        shared = overlap(self.section.patches(), block)
+        inner = self.length - 2 * self.lug.length
+        totals = []
+        for body, lug, common in zip(
+            (area, iy, iz), (block.area, *block.second_moments), (shared[0], shared[1], shared[2]), strict=True
+        ):
+            totals.append(body * inner + (body + lug - common) * 2 * self.lug.length)
+        return totals[0], totals[1], totals[2]
+
+
+def is_rectangle(patch: Patch) -> bool:
+    """Whether the patch is an axis-parallel rectangle."""
+    return len({y for y, _ in patch.corners}) == 2 and len({z for _, z in patch.corners}) == 2
+
+
+def extent(patch: Patch) -> tuple[Point, Point]:
+    """Smallest and largest (y, z) of a patch of straight edges."""
+    ys, zs = zip(*patch.corners, strict=True)
+    return (min(ys), min(zs)), (max(ys), max(zs))
+
+
+def contains(patch: Patch, y: float, z: float) -> bool:
+    (y0, z0), (y1, z1) = extent(patch)
+    return y0 < y < y1 and z0 < z < z1
+
+
+def split_on_common_grid(section: tuple[Patch, ...], lug: Lug) -> tuple[tuple[Patch, ...], tuple[Patch, ...]]:
+    """Body patches and end patches cut along one grid, so that swept elements of both meet face to face."""
+    block = rectangle(-lug.width / 2, lug.width / 2, -lug.height / 2, lug.height / 2)
+    everything = (*section, block)
+    ys = grid_lines([y for p in everything for y, _ in p.corners])
+    zs = grid_lines([z for p in everything for _, z in p.corners])
+    body, ends = [], []
+    for z0, z1 in pairwise(zs):
+        for y0, y1 in pairwise(ys):
+            y, z = (y0 + y1) / 2, (z0 + z1) / 2
+            inside = any(contains(p, y, z) for p in section)
+            if inside:
+                body.append(rectangle(y0, y1, z0, z1))
+            if inside or contains(block, y, z):
+                ends.append(rectangle(y0, y1, z0, z1))
+    return tuple(body), tuple(ends)
+
+
+def grid_lines(values: list[float]) -> list[float]:
+    """Sorted values, those closer than a nanometre taken as one."""
+    lines: list[float] = []
+    for value in sorted(values):
+        if not lines or value - lines[-1] > 1e-6:
+            lines.append(value)
+    return lines
+
+
+def overlap(section: tuple[Patch, ...], block: Rectangle) -> tuple[float, float, float]:
+    """Area, ∫z² dA, ∫y² dA of the part that a section of rectangles shares with a centred block.
+
+    Raises ValueError for a section with arcs, whose overlap with a block has no such sum.
+    """
+    total = [0.0, 0.0, 0.0]
+    for patch in section:
+        if any(patch.arcs) or not is_rectangle(patch):
+            raise ValueError("the overlap of a curved section with a block lug is not available in closed form")
+        (y0, z0), (y1, z1) = extent(patch)
+        y0, y1 = max(y0, -block.width / 2), min(y1, block.width / 2)
+        z0, z1 = max(z0, -block.height / 2), min(z1, block.height / 2)
+        if y1 > y0 and z1 > z0:
+            total[0] += (y1 - y0) * (z1 - z0)
+            total[1] += (y1 - y0) * (z1**3 - z0**3) / 3
+            total[2] += (z1 - z0) * (y1**3 - y0**3) / 3
+    return total[0], total[1], total[2]

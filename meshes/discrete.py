@@ -1,0 +1,57 @@
+"""A solid mesh as scikit-fem sees it, with the map from its scalar unknowns to our nodes."""
+
+from dataclasses import dataclass
+
+import numpy as np
+import skfem
+from scipy.spatial import cKDTree
+from skfem.io.meshio import INV_HEX_MAPPING
+
+from meshes.solid import Ints, SolidMesh
+
+ELEMENTS = {
+    "hexahedron20": skfem.ElementHexS2,
+    "hexahedron27": skfem.ElementHex2,
+    "tetra10": skfem.ElementTetP2,
+}
+# Full integration with positive weights: 27 points in a hexahedron, 14 in a tetrahedron.
+INTEGRATION_ORDER = 5
+
+
+@dataclass(frozen=True)
+class Discrete:
+    """scikit-fem's scalar basis of a solid mesh, and `nodes[i, e]`: our node of local function i in cell e."""
+
+    basis: skfem.Basis
+    nodes: Ints
+
+
+def discretise(mesh: SolidMesh) -> Discrete:
+    """Build the scalar basis of the quadratic element that belongs to the mesh kind.
+
+    Raises ValueError if a cell is inside out or the unknowns do not sit on the nodes of the mesh.
+    """
+    basis = skfem.Basis(as_skfem(mesh), ELEMENTS[mesh.kind](), intorder=INTEGRATION_ORDER)
+    determinant = basis.mapping.detDF(basis.X)
+    if np.any(determinant * np.sign(determinant[:, :1]) <= 0.0):
+        raise ValueError("the mesh has a cell of zero or negative volume, allowed are cells right side out")
+    distance, node = cKDTree(mesh.points).query(basis.doflocs.T)
+    extent = float(np.ptp(mesh.points, axis=0).max())
+    if distance.max() > 1e-6 * extent or len(np.unique(node)) != len(mesh.points):
+        raise ValueError("the mesh has mid-edge nodes off the middle of straight edges, which this cell does not take")
+    return Discrete(basis, node[basis.element_dofs].astype(np.int64))
+
+
+def as_skfem(mesh: SolidMesh) -> skfem.Mesh:
+    """The scikit-fem mesh: straight-edged for 20-node cells, curved for 27-node hexahedra and 10-node tetrahedra."""
+    if mesh.kind == "hexahedron27":
+        return skfem.MeshHex2(
+            np.ascontiguousarray(mesh.points.T), np.ascontiguousarray(mesh.cells.T[INV_HEX_MAPPING]), validate=False
+        )
+    if mesh.kind == "tetra10":
+        return skfem.MeshTet2(
+            np.ascontiguousarray(mesh.points.T), np.ascontiguousarray(mesh.cells.T), validate=False
+        )
+    corners, numbering = np.unique(mesh.cells[:, :8], return_inverse=True)
+    cells = numbering.reshape(-1, 8).T[INV_HEX_MAPPING[:8]]
+    return skfem.MeshHex(np.ascontiguousarray(mesh.points[corners].T), np.ascontiguousarray(cells), validate=False)

@@ -1,0 +1,98 @@
+"""Solid meshes to and from files through meshio, and a cache of meshes by the hash of their input."""
+
+import hashlib
+import tempfile
+from pathlib import Path
+
+import gmsh
+import meshio
+import numpy as np
+
+from meshes.bar import Bar
+from meshes.gmsh_session import session
+from meshes.resolution import Resolution
+from meshes.solid import FACET_OF, SolidMesh
+from meshes.sweep import build_swept
+from meshes.tets import build_tetrahedra
+
+# Part of the cache key: raise it when the same input would give another mesh.
+MESHER = 1
+FACES = ("base", "tip", "side")
+
+
+def mesh_bar(bar: Bar, resolution: Resolution, tetrahedra: bool = False) -> SolidMesh:
+    """Mesh a bar: swept hexahedra where its shape allows, else (or on request) tetrahedra.
+
+    Raises ValueError if the mesh size cannot work, RuntimeError if gmsh fails.
+    """
+    require_workable(bar, resolution)
+    with session("bar"), tempfile.TemporaryDirectory() as folder:
+        try:
+            (build_tetrahedra if tetrahedra or not bar.sweepable else build_swept)(bar, resolution)
+        except Exception as error:
+            if type(error) is not Exception:  # gmsh raises the bare class
+                raise
+            raise RuntimeError(f"gmsh could not mesh the bar: {error}") from error
+        path = Path(folder) / "bar.msh"
+        gmsh.write(str(path))
+        return read_mesh(path)
+
+
+def require_workable(bar: Bar, resolution: Resolution) -> None:
+    """Raise ValueError for a mesh size that resolves nothing or that no machine could hold."""
+    coarsest = bar.length / 4
+    if resolution.size > coarsest:
+        raise ValueError(
+            f"mesh size is {resolution.size:g} mm, allowed is at most a quarter of the bar's length, {coarsest:g} mm"
+        )
+    size = resolution.size / resolution.level
+    volume = bar.section.area * bar.length
+    if volume / size**3 > 3e6:
+        raise ValueError(
+            f"mesh size {size:g} mm would take more than three million elements, "
+            f"allowed is at least {(volume / 3e6) ** (1 / 3):.3g} mm"
+        )
+
+
+def read_mesh(path: Path) -> SolidMesh:
+    """Read a mesh with the named faces base, tip and side; ValueError if a face or the body is missing."""
+    raw = meshio.read(path, file_format="gmsh")
+    kind = next((k for k in FACET_OF if k in raw.cells_dict), None)
+    if kind is None:
+        raise ValueError(f"{path}: no quadratic solid cells found, allowed are {', '.join(FACET_OF)}")
+    facets = raw.cells_dict[FACET_OF[kind]]
+    tags = raw.cell_data_dict["gmsh:physical"][FACET_OF[kind]]
+    faces = {}
+    for name in FACES:
+        if name not in raw.field_data:
+            raise ValueError(f"{path}: face {name!r} is missing, needed are {', '.join(FACES)}")
+        faces[name] = facets[tags == raw.field_data[name][0]].astype(np.int64)
+    return SolidMesh(np.asarray(raw.points, float), raw.cells_dict[kind].astype(np.int64), kind, faces)
+
+
+def write_mesh(mesh: SolidMesh, path: Path) -> None:
+    """Write the mesh with its named faces as a gmsh file; whole or not at all."""
+    names = {name: np.array([i + 1, 2]) for i, name in enumerate(FACES)}
+    names["body"] = np.array([len(FACES) + 1, 3])
+    cells = [(FACET_OF[mesh.kind], mesh.faces[name]) for name in FACES] + [(mesh.kind, mesh.cells)]
+    tags = [np.full(len(block), i + 1) for i, (_, block) in enumerate(cells)]
+    data = {"gmsh:physical": tags, "gmsh:geometrical": tags}
+    out = meshio.Mesh(mesh.points, cells, cell_data=data, field_data=names)
+    path.parent.mkdir(parents=True, exist_ok=True)
+    part = path.with_suffix(".part")
+    meshio.write(part, out, file_format="gmsh22")
+    part.replace(path)
+
+
+def cached_mesh(bar: Bar, resolution: Resolution, folder: Path, tetrahedra: bool = False) -> SolidMesh:
+    """The mesh of this input, from `folder` if it has been made before; a damaged file is made again."""
+    key = repr((MESHER, gmsh.__version__, bar, resolution, tetrahedra))
+    path = folder / f"bar-{hashlib.sha256(key.encode()).hexdigest()[:20]}.msh"
+    if path.exists():
+        try:
+            return read_mesh(path)
+        except (meshio.ReadError, ValueError, KeyError):
+            path.unlink()
+    mesh = mesh_bar(bar, resolution, tetrahedra)
+    write_mesh(mesh, path)
+    return mesh

@@ -1,0 +1,1 @@
+"""One cited mechanism per file."""
