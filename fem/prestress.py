@@ -1,0 +1,39 @@
+"""The stressed state of a linkage driven by one platform coordinate, and its geometric stiffness."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+import scipy.sparse as sp
+
+from fem.elasticity import geometric_stiffness_matrix, stress
+from fem.linear import LinearModel
+from fem.linkage import PLATFORM
+from meshes.solid import Floats
+
+
+@dataclass(frozen=True)
+class Prestress:
+    """State for a unit displacement of the driven coordinate with others held.
+
+    displacements : node displacements (dofs,) of each member in its own frame, mm
+    wrench        : (6,) exerted on the platform at its point, base frame, N and N·mm
+    geometric     : geometric stiffness in the linkage's unknowns, sparse symmetric
+    """
+
+    displacements: tuple[Floats, ...]
+    wrench: Floats
+    geometric: sp.csr_matrix
+
+
+def prestress(model: LinearModel, driven: str, held: Sequence[str]) -> Prestress:
+    """Drive one platform coordinate by a unit, mm or rad, with the `held` ones at zero and the rest free of load."""
+    r = model.reduction
+    motion = model.motions([driven], held)[:, 0]
+    fields = tuple(t @ motion for t in r.transforms(r.rest))
+    sigmas = [stress(m.space, model.material, u) for m, u in zip(model.linkage.members, fields, strict=True)]
+    kg = [geometric_stiffness_matrix(m.space, s) for m, s in zip(model.linkage.members, sigmas, strict=True)]
+    nodal = [k @ u for k, u in zip(model.matrices, fields, strict=True)]
+    geometric = r.reduce(kg, r.rest) + r.curvature(nodal, r.rest)
+    wrench = np.asarray(model.reduced @ motion)[r.platform(PLATFORM)]
+    return Prestress(fields, wrench, geometric.tocsr())
