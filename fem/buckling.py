@@ -7,7 +7,7 @@ import numpy as np
 from scipy.sparse.linalg import LinearOperator, eigsh
 
 from fem.linear import LinearModel
-from fem.linkage import Linkage
+from fem.linkage import PLATFORM, Linkage
 from fem.prestress import prestress
 from meshes.solid import Floats
 
@@ -49,7 +49,7 @@ def buckling(model: LinearModel, held: Sequence[str], count: int = 6, driven: st
     inverse_factors, vectors = eigsh(kg, count, k, which="LA", Minv=inverse, v0=start)
     if np.any(inverse_factors <= 0.0):
         raise RuntimeError(f"fewer than {count} buckling modes were found in compression")
-    unit = float(state.wrench["x y z rx ry rz".split().index(driven)])
+    unit = float(state.wrench[PLATFORM.index(driven)])
     modes = []
     for index in np.argsort(-inverse_factors):
         motion = np.zeros(r.size)
@@ -78,7 +78,7 @@ def plane_of(linkage: Linkage, fields: Sequence[Floats]) -> str:
     sideways, total = np.zeros(2), 0.0
     for member, field in zip(linkage.members, fields, strict=True):
         u = field.reshape(-1, 3)
-        station = np.round(member.space.mesh.points[:, 0] / member.length, 6)
+        station = np.round(member.space.mesh.points[:, 0] / member.tip_middle[0], 6)
         _, index, counts = np.unique(station, return_inverse=True, return_counts=True)
         for axis in (1, 2):
             mean = np.bincount(index, u[:, axis]) / counts

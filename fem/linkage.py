@@ -25,20 +25,21 @@ class Member:
     space     : displacement space of its mesh
     origin    : (3,) base-frame position of the middle of its base face, mm
     turn      : (3, 3) rotation from the bar's frame to the base frame, unloaded
+    tip_middle : (3,) middle of its tip face in the bar's frame, mm
     base_axis, tip_axis : hinge axis of the face, or None where it is clamped
     """
 
     space: Space
     origin: Floats
     turn: Floats
-    length: float
+    tip_middle: Floats
     base_axis: Axis | None = None
     tip_axis: Axis | None = None
 
     @property
     def tip(self) -> Floats:
         """Base-frame position of the middle of the tip face, mm."""
-        return self.origin + self.turn @ np.array([self.length, 0.0, 0.0])
+        return self.origin + self.turn @ self.tip_middle
 
 
 @dataclass(frozen=True)
@@ -62,14 +63,15 @@ class Linkage:
 def single_bar(space: Space, length: float, pinned: bool = False) -> Linkage:
     """One bar from the origin along x, both faces clamped or both pinned about y."""
     axis = Y_AXIS if pinned else None
-    member = Member(space, np.zeros(3), np.eye(3), length, axis, axis)
+    member = Member(space, np.zeros(3), np.eye(3), np.array([length, 0.0, 0.0]), axis, axis)
     return Linkage((member,), member.tip)
 
 
 def parallelogram(space: Space, length: float, width: float, q: float) -> Linkage:
     """Two equal bars at z = ∓width/2, pinned about y at both ends, turned by R_y(q), q in rad."""
     turn = rotation(np.array([0.0, q, 0.0]))
+    along = np.array([length, 0.0, 0.0])
     members = tuple(
-        Member(space, np.array([0.0, 0.0, eta * width / 2]), turn, length, Y_AXIS, Y_AXIS) for eta in (-1.0, 1.0)
+        Member(space, np.array([0.0, 0.0, eta * width / 2]), turn, along, Y_AXIS, Y_AXIS) for eta in (-1.0, 1.0)
     )
-    return Linkage(members, turn @ np.array([length, 0.0, 0.0]))
+    return Linkage(members, turn @ along)

@@ -1,0 +1,177 @@
+"""Nonlinear load path of a linkage of solid bars, driven by one platform coordinate."""
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from fem.large_strain import force_and_tangent
+from fem.linear import LinearModel
+from fem.linkage import PLATFORM, Linkage, Member
+from fem.reduction import Placement, Reduction
+from fem.rigid_face import PlatformPose
+from fem.rotation import rotation_vector
+from fem.solvers import SolveError
+from fem.space import Space
+from meshes.solid import Floats
+
+RELATIVE_RESIDUAL = 1e-7
+ITERATIONS = 12
+SMALLEST_STEP = 1.0 / 64
+
+
+@dataclass(frozen=True)
+class State:
+    """Inner displacements (n,) mm, and where the rigid faces are."""
+
+    inner: Floats
+    at: Placement
+
+    def moved(self, step: Floats) -> "State":
+        """The state after a Newton step in all unknowns."""
+        count = len(self.inner)
+        pose = self.at.pose.moved(step[count : count + 6])
+        return State(self.inner + step[:count], Placement(pose, self.at.angles + step[count + 6 :]))
+
+
+@dataclass(frozen=True)
+class Equilibrium:
+    """A converged point: platform displacement (6,) mm and rad (rotation vector), wrench (6,) on the platform."""
+
+    displacement: Floats
+    wrench: Floats
+    iterations: int
+    negative_eigenvalues: int
+
+
+@dataclass(frozen=True)
+class Path:
+    """Converged points in order; `failure` is empty, or says where and why the path ended early."""
+
+    points: tuple[Equilibrium, ...]
+    failure: str
+
+    def column(self, quantity: str, coordinate: str) -> Floats:
+        """One coordinate of "displacement" or "wrench" along the path."""
+        return np.array([getattr(p, quantity)[PLATFORM.index(coordinate)] for p in self.points])
+
+
+def follow(
+    model: LinearModel,
+    held: Sequence[str],
+    values: Sequence[float],
+    driven: str = "x",
+    on_point: Callable[[Equilibrium], None] | None = None,
+) -> Path:
+    """Drive one platform coordinate through `values` (displacements from the unloaded pose, mm).
+
+    The `held` coordinates stay at zero, the others are free of load. A step that does not converge is cut in
+    halves. Raises ValueError when only some of the three rotations are held.
+    """
+    rotations = [name for name in ("rx", "ry", "rz") if name in held]
+    if len(rotations) not in (0, 3):
+        raise ValueError(f"held rotations are {', '.join(rotations)}, allowed are all three or none")
+    r = model.reduction
+    state = State(np.zeros(r.starts[-1]), r.rest)
+    scale = float(abs(model.reduced[r.platform([driven])[0], r.platform([driven])[0]]))
+    points: list[Equilibrium] = []
+    here, before, last = 0.0, None, 0.0
+    for target in values:
+        fraction = 1.0
+        while here != target:
+            goal = here + fraction * (target - here)
+            start = state if before is None else extrapolated(before, state, (goal - here) / (here - last))
+            try:
+                found, point = settle(model, held, driven, start, goal, scale)
+            except SolveError as error:
+                fraction /= 2.0
+                if fraction < SMALLEST_STEP:
+                    return Path(tuple(points), f"no equilibrium was found past {driven} = {here:.4g} mm: {error}")
+                before = None
+                continue
+            before, state, last, here = state, found, here, goal
+        points.append(point)
+        if on_point is not None:
+            on_point(point)
+    return Path(tuple(points), "")
+
+
+def extrapolated(before: State, now: State, ratio: float) -> State:
+    """The straight continuation of the last step."""
+    inner = now.inner + ratio * (now.inner - before.inner)
+    spin = rotation_vector(now.at.pose.orientation @ before.at.pose.orientation.T)
+    shift = now.at.pose.position - before.at.pose.position
+    pose = now.at.pose.moved(ratio * np.concatenate((shift, spin)))
+    return State(inner, Placement(pose, now.at.angles + ratio * (now.at.angles - before.at.angles)))
+
+
+def settle(
+    model: LinearModel, held: Sequence[str], driven: str, start: State, value: float, scale: float
+) -> tuple[State, Equilibrium]:
+    """Newton's method at one value of the driven coordinate; raises SolveError if it does not converge.
+
+    `scale` N/mm times the size of the driven displacement is the load that the residual is measured against.
+    """
+    r = model.reduction
+    free = r.others([driven, *held])
+    state = start
+    limit = RELATIVE_RESIDUAL * scale * max(abs(value), 1e-3)
+    for iteration in range(ITERATIONS):
+        state = pinned_down(r, state, driven, value)
+        residual, tangent = residual_and_tangent(model, state)
+        factor = model.solver(tangent[free][:, free])
+        error = float(np.abs(residual[free]).max())
+        if error < limit:
+            displacement = np.concatenate(
+                (state.at.pose.position - model.linkage.point, rotation_vector(state.at.pose.orientation))
+            )
+            wrench = residual[r.platform(PLATFORM)]
+            return state, Equilibrium(displacement, wrench, iteration, factor.negative_eigenvalues)
+        step = np.zeros(r.size)
+        step[free] = factor(-residual[free])
+        if not np.all(np.isfinite(step)) or np.abs(step).max() > 100.0:
+            break
+        state = state.moved(step)
+    raise SolveError(f"Newton's method stopped at a residual of {error:.2g}, allowed is {limit:.2g}")
+
+
+def pinned_down(r: Reduction, state: State, driven: str, value: float) -> State:
+    """The state with the driven coordinate at its value."""
+    position = state.at.pose.position.copy()
+    axis = PLATFORM.index(driven)
+    position[axis] = r.linkage.point[axis] + value
+    return State(state.inner, Placement(PlatformPose(position, state.at.pose.orientation), state.at.angles))
+
+
+def residual_and_tangent(model: LinearModel, state: State) -> tuple[Floats, "object"]:
+    """Generalised forces (size,) and their symmetric tangent at a state."""
+    r = model.reduction
+    fields = r.displacements(state.inner, state.at)
+    evaluated = [
+        force_and_tangent(m.space, model.material, u) for m, u in zip(r.linkage.members, fields, strict=True)
+    ]
+    forces = [f for f, _ in evaluated]
+    residual = sum((t.T @ f for t, f in zip(r.transforms(state.at), forces, strict=True)), np.zeros(r.size))
+    tangent = r.reduce([k for _, k in evaluated], state.at) + r.curvature(forces, state.at)
+    return residual, tangent.tocsr()
+
+
+def with_imperfection(linkage: Linkage, displacements: Sequence[Floats], amplitude: float) -> Linkage:
+    """The linkage with every bar bent, free of stress, into one mode shape.
+
+    `displacements` are the node displacements (dofs,) of each member, as a buckling mode gives them; the shape of
+    the member that moves most is given to all, `amplitude` mm at its largest. Every bar gets the same shape,
+    so that equal bars stay equal even where their separate modes have the same load.
+    """
+    shapes = [np.asarray(d).reshape(-1, 3) for d in displacements]
+    sizes = [float(np.linalg.norm(s, axis=1).max()) for s in shapes]
+    largest = int(np.argmax(sizes))
+    shape = shapes[largest] * (amplitude / sizes[largest])
+    space = linkage.members[largest].space
+    bent = Space.of(space.mesh.moved(shape))
+    shift = shape[space.mesh.face_nodes("tip")].mean(axis=0)
+    members = tuple(
+        Member(bent, m.origin, m.turn, m.tip_middle + shift, m.base_axis, m.tip_axis) for m in linkage.members
+    )
+    first = linkage.members[largest]
+    return Linkage(members, linkage.point + first.turn @ shift)
