@@ -5,8 +5,11 @@ Every answer is checked against its own equations: a singular system is a `Solve
 
 import importlib.util
 import os
+import sys
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import cache
+from pathlib import Path
 from typing import Protocol
 
 import numpy as np
@@ -93,6 +96,7 @@ class PardisoFactor:
     def __post_init__(self) -> None:
         import pypardiso
 
+        find_mkl()
         self.upper = sp.triu(self.matrix, format="csr")
         self.upper.sort_indices()
         self.scale = float(np.abs(self.matrix.data).max())
@@ -124,6 +128,15 @@ def direct(matrix: sp.spmatrix) -> Factor:
     return (PardisoFactor if has_pardiso() else SuperLUFactor)(matrix.tocsr())
 
 
+@cache
 def has_pardiso() -> bool:
     """Whether MKL's pardiso can be called on this machine."""
     return importlib.util.find_spec("pypardiso") is not None
+
+
+@cache
+def find_mkl() -> None:
+    """Tell pypardiso where MKL is: left alone it searches the whole environment at every factorisation."""
+    library = next(iter(sorted(Path(sys.prefix, "lib").glob("libmkl_rt.so*"))), None)
+    if library is not None:
+        os.environ.setdefault("PYPARDISO_MKL_RT", str(library))
