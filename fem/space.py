@@ -55,7 +55,7 @@ class Space:
         basis = discrete.basis
         gradients = np.stack([function[0].grad for function in basis.basis], axis=-1)
         return Space(
-            mesh, np.ascontiguousarray(gradients.transpose(1, 2, 3, 0)), np.asarray(basis.dx), discrete.nodes.T.copy()
+            mesh, np.ascontiguousarray(gradients.transpose(1, 2, 3, 0)), np.asarray(basis.dx), discrete.connectivity
         )
 
     @property

@@ -9,7 +9,7 @@ from meshes.section import Patch, Point, Rectangle, Section, rectangle, require_
 
 @dataclass(frozen=True)
 class Lug:
-    """Hinge lug: a block `length` (x) by `width` (y) by `height` (z), mm, united with the section at each end."""
+    """Hinge lug: a block `length` (x) by `width` (y) by `height` (z), mm, in place of the section at each end."""
 
     length: float
     width: float
@@ -69,18 +69,12 @@ class Bar:
 
     def exact_moments(self) -> tuple[float, float, float]:
         """Volume in mm³, ∫z² dV and ∫y² dV in mm⁵ of the body with its lugs."""
-        area, (iy, iz) = self.section.area, self.section.second_moments
-        if self.lug is None:
-            return area * self.length, iy * self.length, iz * self.length
-        block = Rectangle(self.lug.width, self.lug.height)
-        shared = overlap(self.section.patches(), block)
-        inner = self.length - 2 * self.lug.length
-        totals = []
-        for body, lug, common in zip(
-            (area, iy, iz), (block.area, *block.second_moments), (shared[0], shared[1], shared[2]), strict=True
-        ):
-            totals.append(body * inner + (body + lug - common) * 2 * self.lug.length)
-        return totals[0], totals[1], totals[2]
+        outer = 0.0 if self.lug is None else 2 * self.lug.length
+        block = self.section if self.lug is None else Rectangle(self.lug.width, self.lug.height)
+        body = (self.section.area, *self.section.second_moments)
+        ends = (block.area, *block.second_moments)
+        volume, iy, iz = (b * (self.length - outer) + e * outer for b, e in zip(body, ends, strict=True))
+        return volume, iy, iz
 
 
 def is_rectangle(patch: Patch) -> bool:
@@ -109,10 +103,9 @@ def split_on_common_grid(section: tuple[Patch, ...], lug: Lug) -> tuple[tuple[Pa
     for z0, z1 in pairwise(zs):
         for y0, y1 in pairwise(ys):
             y, z = (y0 + y1) / 2, (z0 + z1) / 2
-            inside = any(contains(p, y, z) for p in section)
-            if inside:
+            if any(contains(p, y, z) for p in section):
                 body.append(rectangle(y0, y1, z0, z1))
-            if inside or contains(block, y, z):
+            if contains(block, y, z):
                 ends.append(rectangle(y0, y1, z0, z1))
     return tuple(body), tuple(ends)
 
@@ -124,22 +117,3 @@ def grid_lines(values: list[float]) -> list[float]:
         if not lines or value - lines[-1] > 1e-6:
             lines.append(value)
     return lines
-
-
-def overlap(section: tuple[Patch, ...], block: Rectangle) -> tuple[float, float, float]:
-    """Area, ∫z² dA, ∫y² dA of the part that a section of rectangles shares with a centred block.
-
-    Raises ValueError for a section with arcs, whose overlap with a block has no such sum.
-    """
-    total = [0.0, 0.0, 0.0]
-    for patch in section:
-        if any(patch.arcs) or not is_rectangle(patch):
-            raise ValueError("the overlap of a curved section with a block lug is not available in closed form")
-        (y0, z0), (y1, z1) = extent(patch)
-        y0, y1 = max(y0, -block.width / 2), min(y1, block.width / 2)
-        z0, z1 = max(z0, -block.height / 2), min(z1, block.height / 2)
-        if y1 > y0 and z1 > z0:
-            total[0] += (y1 - y0) * (z1 - z0)
-            total[1] += (y1 - y0) * (z1**3 - z0**3) / 3
-            total[2] += (z1 - z0) * (y1**3 - y0**3) / 3
-    return total[0], total[1], total[2]

@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 
 import numpy as np
+import scipy.sparse as sp
 import skfem
 from scipy.spatial import cKDTree
 from skfem.io.meshio import INV_HEX_MAPPING
@@ -20,10 +21,30 @@ INTEGRATION_ORDER = 5
 
 @dataclass(frozen=True)
 class Discrete:
-    """scikit-fem's scalar basis of a solid mesh, and `nodes[i, e]`: our node of local function i in cell e."""
+    """scikit-fem's scalar basis of a solid mesh, and `nodes[k]`: our node of its unknown k."""
 
     basis: skfem.Basis
     nodes: Ints
+
+    @property
+    def connectivity(self) -> Ints:
+        """(m, k) node of each local function in each cell."""
+        return np.ascontiguousarray(self.nodes[self.basis.element_dofs].T)
+
+    def face_mass(self, x: float) -> sp.csr_matrix:
+        """∫ N_i N_j dA over the boundary face at `x` mm, sparse over our nodes, mm².
+
+        Raises ValueError if no boundary facet lies there.
+        """
+        mesh = self.basis.mesh
+        extent = float(np.ptp(mesh.p[0]))
+        facets = mesh.facets_satisfying(lambda p: np.abs(p[0] - x) < 1e-6 * extent, boundaries_only=True)
+        if not len(facets):
+            raise ValueError(f"no face of the mesh lies at x = {x:g} mm")
+        face = skfem.FacetBasis(mesh, self.basis.elem, facets=facets, intorder=INTEGRATION_ORDER)
+        mass = skfem.BilinearForm(lambda u, v, _: u * v).assemble(face).tocoo()
+        shape = (len(self.nodes), len(self.nodes))
+        return sp.csr_matrix((mass.data, (self.nodes[mass.row], self.nodes[mass.col])), shape=shape)
 
 
 def discretise(mesh: SolidMesh) -> Discrete:
@@ -39,7 +60,7 @@ def discretise(mesh: SolidMesh) -> Discrete:
     extent = float(np.ptp(mesh.points, axis=0).max())
     if distance.max() > 1e-6 * extent or len(np.unique(node)) != len(mesh.points):
         raise ValueError("the mesh has mid-edge nodes off the middle of straight edges, which this cell does not take")
-    return Discrete(basis, node[basis.element_dofs].astype(np.int64))
+    return Discrete(basis, node.astype(np.int64))
 
 
 def as_skfem(mesh: SolidMesh) -> skfem.Mesh:

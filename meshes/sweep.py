@@ -89,7 +89,8 @@ def divide_curves(bar: Bar, resolution: Resolution) -> None:
             low, high = sorted((e.start, e.end))
             graded_to = next(g for (s, t), g in grading.items() if abs(s - low) + abs(t - high) < 1e-6)
             if graded_to is not None:
-                count, ratio = resolution.along(e.length)
+                # Half the whole bar, so that a longer lug moves the elements but never changes their number.
+                count, ratio = resolution.along(bar.length / 2)
                 grows = (graded_to == "start") == (e.start < e.end)
                 ratio = ratio if grows else 1.0 / ratio
         gmsh.model.mesh.setTransfiniteCurve(curve, count + 1, "Progression", ratio)

@@ -11,10 +11,12 @@ def build_tetrahedra(bar: Bar, resolution: Resolution) -> None:
     """Fill the open gmsh model with the bar united to one solid, meshed with 10-node tetrahedra."""
     occ = gmsh.model.occ
     surfaces = [(2, add_patch(patch, 0.0)) for patch in bar.section.patches()]
-    made = occ.extrude(surfaces, bar.length, 0.0, 0.0)
+    a = 0.0 if bar.lug is None else bar.lug.length
+    occ.translate(surfaces, a, 0.0, 0.0)
+    made = occ.extrude(surfaces, bar.length - 2 * a, 0.0, 0.0)
     parts = [entity for entity in made if entity[0] == 3]
     if bar.lug is not None:
-        w, h, a = bar.lug.width, bar.lug.height, bar.lug.length
+        w, h = bar.lug.width, bar.lug.height
         parts += [(3, occ.addBox(x, -w / 2, -h / 2, a, w, h)) for x in (0.0, bar.length - a)]
     if len(parts) > 1:
         occ.fuse(parts[:1], parts[1:])
