@@ -18,7 +18,7 @@ from vjm.frames import Array, inverse_rotation_jacobian, log, moment, moment_gra
 
 
 class Role(Enum):
-    """What sets a coordinate: nothing (passive joint), a drive (actuated joint) or a spring (virtual joint)."""
+    """What sets a coordinate: nothing (passive joint), a drive (actuated) or a spring (virtual)."""
 
     PASSIVE = "passive"
     ACTUATED = "actuated"
@@ -35,7 +35,7 @@ class Fixed:
 
 @dataclass(frozen=True, eq=False)
 class Joint:
-    """One coordinate: translation along (mm) or rotation about (rad) a unit axis of the frame it stands in."""
+    """One coordinate: translation along (mm) or rotation about (rad) a unit axis of its own frame."""
 
     kind: Literal["translation", "rotation"]
     axis: tuple[float, float, float]
@@ -61,7 +61,7 @@ Element = Fixed | Joint
 
 @dataclass(frozen=True, eq=False)
 class Kinematics:
-    """A chain at given coordinates: pose (..., 6), Jacobian (..., 6, n) of the pose, and Hessians on demand."""
+    """A chain at given coordinates: pose (..., 6), its Jacobian (..., 6, n), and Hessians on demand."""
 
     pose: Array
     jacobian: Array
@@ -69,7 +69,7 @@ class Kinematics:
     _angular: Array
 
     def hessian(self, multiplier: ArrayLike) -> Array:
-        """Second derivative (..., n, n) of Psi = pose^T lambda at fixed lambda (..., 6), conjugate to the pose.
+        """Second derivative (..., n, n) of Psi = pose^T lambda at fixed lambda (..., 6).
 
         A joint nearer the base carries those after it along: d²p/dx_i dx_j = w_i x v_j and
         dw_j/dx_i = w_i x w_j for i before j, v and w being columns of the spatial velocity Jacobian.

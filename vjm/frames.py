@@ -126,7 +126,7 @@ def move_stiffness(stiffness: ArrayLike, r: ArrayLike) -> Array:
 
 
 def rotate_stiffness(stiffness: ArrayLike, rotation: ArrayLike) -> Array:
-    """Components of a 6x6 in the frame A, given those in B; `rotation` (..., 3, 3) takes B components to A."""
+    """Components of a 6x6 in the frame A, given those in B; `rotation` (..., 3, 3) takes B to A."""
     rotation = np.asarray(rotation, dtype=float)
     q = np.zeros((*rotation.shape[:-2], 6, 6))
     q[..., :3, :3] = q[..., 3:, 3:] = rotation

@@ -49,8 +49,8 @@ class Parallelogram:
     on it, the critical loads do (`vjm.closed_forms`).
     The last factor of Eq. 1 is the constant rotation R_y(q); printed as R_y(-q_i2), it would let the platform
     slip past the hinges (rank 4).
-    ValueError for lengths that are not positive, |q| of 90 degrees or more, a K_b that is not symmetric positive
-    definite.
+    ValueError for lengths that are not positive, |q| of 90 degrees or more, a K_b that is not
+    symmetric positive definite.
     """
 
     length: float
