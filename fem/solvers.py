@@ -18,8 +18,9 @@ from scipy.sparse.linalg import splu
 
 from meshes.solid import Floats
 
-# The same bits on every x86-64 machine and run; has to stand before MKL is loaded.
-os.environ.setdefault("MKL_CBWR", "COMPATIBLE")
+# The same bits in every run; has to stand before MKL is loaded. "COMPATIBLE" would hold on older processors too,
+# but factorises four times slower (measured: 6.5 s against 1.6 s at 69 000 unknowns).
+os.environ.setdefault("MKL_CBWR", "AVX2")
 
 RESIDUAL_LIMIT = 1e-8
 GROWTH_LIMIT = 1e12

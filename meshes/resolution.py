@@ -8,7 +8,7 @@ from math import isfinite, log
 
 # A cell in the middle of the bar is this many times as long as one at its ends, where warping and the
 # rigid faces make the stress vary within a few millimetres.
-STRETCH = 4.0
+STRETCH = 8.0
 
 
 @dataclass(frozen=True)

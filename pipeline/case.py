@@ -1,0 +1,184 @@
+"""A validation case: TOML in, frozen Case out; every complaint names the file, the key, what was found and allowed."""
+
+import tomllib
+from math import isfinite
+from pathlib import Path
+from typing import Annotated, Any, Literal
+
+from pydantic import BaseModel, ConfigDict, Field, ValidationError, field_validator, model_validator
+
+from pipeline.errors import InputError
+
+SHIPPED = Path(__file__).parent / "cases"
+Matrix = tuple[tuple[float, ...], ...]
+Length = Annotated[float, Field(gt=0.0, allow_inf_nan=False)]
+
+
+class Part(BaseModel):
+    """A table of the case file; unknown keys are refused."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True)
+
+
+class Material(Part):
+    """Isotropic material."""
+
+    E_MPa: Annotated[float, Field(gt=0.0, allow_inf_nan=False)]
+    nu: Annotated[float, Field(gt=-1.0, lt=0.5)]
+    source: str = ""
+
+
+class LinkageSize(Part):
+    """Length between the pins, distance of the bars, and the angles to look at."""
+
+    length_mm: Length
+    width_mm: Length
+    angles_deg: Annotated[tuple[Annotated[float, Field(ge=-60.0, le=60.0)], ...], Field(min_length=1)] = (0.0,)
+
+
+class ISectionSize(Part):
+    """I-section: flanges along y, height along z."""
+
+    kind: Literal["i_section"]
+    flange_width_mm: Length
+    flange_thickness_mm: Length
+    height_mm: Length
+    web_mm: Length
+
+
+class RectangleSize(Part):
+    """Solid rectangle: width along y, height along z."""
+
+    kind: Literal["rectangle"]
+    width_mm: Length
+    height_mm: Length
+
+
+class RoundSize(Part):
+    """Solid round."""
+
+    kind: Literal["round"]
+    diameter_mm: Length
+
+
+class TubeSize(Part):
+    """Round tube."""
+
+    kind: Literal["tube"]
+    outer_diameter_mm: Length
+    wall_mm: Length
+
+
+class LugSize(Part):
+    """Block in place of the section at both ends."""
+
+    length_mm: Length
+    width_mm: Length
+    height_mm: Length
+
+
+SectionSize = Annotated[ISectionSize | RectangleSize | RoundSize | TubeSize, Field(discriminator="kind")]
+
+
+class BarChoice(Part):
+    """Either dimensions, or the family of which the one that meets the paper's matrix is to be found."""
+
+    section: SectionSize | None = None
+    lug: LugSize | None = None
+    family: Literal["i_section"] | None = None
+    meets: Literal["paper"] | None = None
+
+    @model_validator(mode="after")
+    def one_way(self) -> "BarChoice":
+        if (self.section is None) == (self.family is None):
+            raise ValueError("allowed is one of the two: section (dimensions), or family with meets")
+        if self.family is not None and (self.meets is None or self.lug is not None):
+            raise ValueError('a family needs meets = "paper" and takes no lug: it is found too')
+        return self
+
+
+class Paper(Part):
+    """Published matrices to stand beside the computed ones."""
+
+    source: str
+    bar_stiffness: Matrix
+    half_linkage_stiffness: Matrix | None = None
+    linkage_angle_deg: float | None = None
+
+    @field_validator("bar_stiffness", "half_linkage_stiffness")
+    @classmethod
+    def six_by_six(cls, value: Matrix | None) -> Matrix | None:
+        if value is None:
+            return None
+        if len(value) != 6 or any(len(row) != 6 for row in value):
+            raise ValueError("allowed is a matrix of 6 rows with 6 numbers")
+        if not all(isfinite(x) for row in value for x in row):
+            raise ValueError("allowed are finite numbers")
+        if any(value[i][j] != value[j][i] for i in range(6) for j in range(i)):
+            raise ValueError("allowed is a symmetric matrix")
+        return value
+
+
+class MeshSize(Part):
+    """Coarse element size; the levels of detail refine it."""
+
+    size_mm: Length = 8.0
+
+
+class Case(Part):
+    """Everything a validation run needs to know."""
+
+    schema_version: Annotated[Literal[1], Field(alias="schema")]
+    name: Annotated[str, Field(pattern=r"^[A-Za-z0-9_.-]+$")]
+    title: str
+    source: str = ""
+    material: Material
+    linkage: LinkageSize
+    bar: BarChoice
+    paper: Paper | None = None
+    mesh: MeshSize = MeshSize()
+
+    @model_validator(mode="after")
+    def matrix_to_meet(self) -> "Case":
+        if self.bar.meets == "paper" and self.paper is None:
+            raise ValueError("bar.meets is 'paper', but there is no [paper] table with bar_stiffness")
+        return self
+
+
+def shipped_cases() -> list[str]:
+    """Names of the cases that come with the project."""
+    return sorted(path.stem for path in SHIPPED.glob("*.toml"))
+
+
+def load_case(name: str) -> Case:
+    """The shipped case of this name, or the case in the TOML file at this path; InputError says what is wrong."""
+    path = SHIPPED / f"{name}.toml" if name in shipped_cases() else Path(name)
+    if path.suffix != ".toml" or not path.is_file():
+        allowed = ", ".join(shipped_cases())
+        raise InputError(f"case {name!r} is unknown, allowed are {allowed} or the path of a .toml file")
+    try:
+        raw = tomllib.loads(path.read_text(encoding="utf-8"))
+    except (tomllib.TOMLDecodeError, UnicodeDecodeError, OSError) as error:
+        raise InputError(f"{path}: not a readable TOML file: {error}") from error
+    try:
+        return Case.model_validate(raw)
+    except ValidationError as error:
+        raise InputError("; ".join(f"{path}: {complaint(e)}" for e in error.errors())) from error
+
+
+def complaint(error: Any) -> str:
+    """One of pydantic's complaints as place, what was found, what is allowed."""
+    place = ".".join(str(step) for step in error["loc"] if step not in ("i_section", "rectangle", "round", "tube"))
+    kind = error["type"]
+    if kind == "missing":
+        return f"{place} is missing"
+    if kind == "extra_forbidden":
+        return f"{place} is not a key of this table"
+    message = error["msg"].removeprefix("Value error, ")
+    found = error["input"]
+    shown = repr(found) if isinstance(found, int | float | str) else "what stands there"
+    wanted = message[0].lower() + message[1:]
+    if kind == "value_error":
+        return f"{place}: {wanted}" if place else wanted
+    wanted = wanted.removeprefix("input should be ")
+    return f"{place} is {shown}, allowed is: {wanted}"

@@ -1,0 +1,138 @@
+"""Find the bar whose solid stiffness meets a given 6x6: space mapping from the beam oracle to the solid.
+
+The closed-form beam is the cheap model, the solid the true one. Each round fits the beam, its eight entries
+multiplied by the ratio solid / beam of the round before, to the matrix; at the fixed point the solid itself is
+what fits. A round costs one solid solve.
+Source of the method: J. W. Bandler et al., Space mapping: the state of the art, IEEE Trans. Microwave Theory Tech.
+52 (2004) 337-361.
+
+The family: an I-section of four dimensions; at each end a lug of the flange's width that reaches to the middle of
+the flanges, `length` long. Bars symmetric about their middle cannot meet the paper's matrix exactly: K35 / K33 and
+K26 / K22 of such a bar are half its length.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.optimize import least_squares
+
+from fem.beam import Segment, stepped_stiffness
+from fem.material import Isotropic
+from fem.thin_walled import i_section_constants, rectangle_constants
+from meshes.bar import Bar, Lug
+from meshes.section import ISection, Rectangle
+from meshes.solid import Floats
+
+ENTRIES = {
+    "K11": (0, 0),
+    "K22": (1, 1),
+    "K26": (1, 5),
+    "K33": (2, 2),
+    "K35": (2, 4),
+    "K44": (3, 3),
+    "K55": (4, 4),
+    "K66": (5, 5),
+}
+ROUNDS = 10
+SETTLED = 2e-3
+# A lug has to hold a pin: not shorter than its own flange is thick, not longer than a tenth of the bar.
+LONGEST_LUG = 0.1
+Dimensions = tuple[float, float, float, float, float]
+
+
+@dataclass(frozen=True)
+class Found:
+    """The bar found, the beam fit it started from, the last relative misfits, and how many solids were solved."""
+
+    bar: Bar
+    start: Bar
+    misfits: Floats
+    solves: int
+
+
+def family_member(dimensions: Dimensions, length: float) -> Bar:
+    """Flange width and thickness, height, web, lug length, all in mm, to a bar."""
+    b, t, h, w, a = (float(d) for d in dimensions)
+    return Bar(ISection(b, t, h, w), length, Lug(a, b, h - t))
+
+
+def eight_entries(stiffness: Floats) -> Floats:
+    """(8,) entries of a 6x6 that a bar with two planes of symmetry has."""
+    return np.array([stiffness[ij] for ij in ENTRIES.values()])
+
+
+def thin_walled_stiffness(bar: Bar, material: Isotropic) -> Floats:
+    """(6, 6) of a member of the family as a stepped beam with thin-walled section constants."""
+    assert bar.lug is not None and isinstance(bar.section, ISection)
+    block = rectangle_constants(Rectangle(bar.lug.width, bar.lug.height))
+    lug = Segment.of(block, material, bar.lug.length)
+    body = Segment.of(i_section_constants(bar.section), material, bar.length - 2 * bar.lug.length)
+    return stepped_stiffness([lug, body, lug])
+
+
+def find_bar(
+    target: Floats,
+    length: float,
+    material: Isotropic,
+    solid: Callable[[Bar], Floats],
+    on_round: Callable[[int, float], None] | None = None,
+) -> Found:
+    """The member of the family whose `solid` 6x6 meets `target` best in the relative root mean square.
+
+    Raises RuntimeError if the rounds do not settle or the beam cannot be fitted.
+    """
+    wanted = eight_entries(target)
+    bounds = search_bounds(wanted, length, material)
+    x = np.log(np.sqrt(bounds[0] * bounds[1]))
+    ratio = np.ones(8)
+    start, misfits, best = None, np.full(8, np.inf), None
+    for round_number in range(ROUNDS + 1):
+        x_next = fit_beam(x, wanted / ratio, bounds, length, material)
+        moved = float(np.abs(x_next - x).max())
+        x = x_next
+        bar = family_member(tuple(np.exp(x)), length)
+        start = start or bar
+        solid_entries = eight_entries(solid(bar))
+        misfits = solid_entries / wanted - 1.0
+        rms = float(np.sqrt(np.mean(misfits**2)))
+        if on_round is not None:
+            on_round(round_number, rms)
+        if best is None or rms < best[0]:
+            best = (rms, bar, misfits)
+        if round_number and moved < SETTLED:
+            return Found(bar, start, misfits, round_number + 1)
+        ratio = solid_entries / eight_entries(thin_walled_stiffness(bar, material))
+    raise RuntimeError(
+        f"the search for the bar did not settle in {ROUNDS} rounds, its best has {best[0]:.2%} root mean square"
+    )
+
+
+def search_bounds(wanted: Floats, length: float, material: Isotropic) -> tuple[Floats, Floats]:
+    """Bounds of the five dimensions, around those of a slender uniform I-bar with the wanted A, Iy and Iz."""
+    area = wanted[0] * length / material.E
+    height = 2.9 * np.sqrt(wanted[3] * length**3 / (12 * material.E) / area)
+    width = 4.5 * np.sqrt(wanted[1] * length**3 / (12 * material.E) / area)
+    flange, web = area / (4 * width), area / (2 * height)
+    middle = np.array([width, flange, height, web, np.sqrt(flange * LONGEST_LUG * length)])
+    spread = np.array([2.0, 2.0, 1.5, 2.0, np.sqrt(LONGEST_LUG * length / flange)])
+    return middle / spread, middle * spread
+
+
+def fit_beam(
+    x: Floats, wanted: Floats, bounds: tuple[Floats, Floats], length: float, material: Isotropic
+) -> Floats:
+    """Logarithms of the dimensions whose beam has the wanted entries, by bounded least squares."""
+
+    def misfit(at: Floats) -> Floats:
+        try:
+            bar = family_member(tuple(np.exp(at)), length)
+        except ValueError:
+            # Outside the family (a web wider than the flange): farther off than any member of it.
+            return np.full(8, 10.0)
+        return eight_entries(thin_walled_stiffness(bar, material)) / wanted - 1.0
+
+    solution = least_squares(misfit, x, bounds=(np.log(bounds[0]), np.log(bounds[1])), diff_step=1e-4, xtol=1e-7)
+    if not solution.success:
+        raise RuntimeError(f"the beam could not be fitted to the matrix: {solution.message}")
+    return np.asarray(solution.x)
