@@ -1,13 +1,13 @@
-"""Closed forms of beams, the oracle of the solid model: Timoshenko's 6x6, restrained warping, Euler's loads.
+"""Closed form of a bar as a stepped beam, the oracle of the solid model: Timoshenko's 6x6 with restrained warping.
 
 A stepped beam is a row of uniform segments; its compliance at the tip is the sum of theirs.
-Sources: S. P. Timoshenko, J. M. Gere, Theory of Elastic Stability, 2nd ed., McGraw-Hill 1961, sections 2.1, 2.17
-(shear, Engesser), 5.3, 5.4 (torsional buckling); V. Z. Vlasov, Thin-walled Elastic Beams, 1961 (warping).
+Sources: S. P. Timoshenko, Strength of Materials, part I, 3rd ed., Van Nostrand 1955 (shear deflection);
+V. Z. Vlasov, Thin-walled Elastic Beams, 2nd ed., 1961 (warping).
 """
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from math import cosh, inf, pi, sinh, sqrt, tanh
+from math import inf, sqrt, tanh
 
 import numpy as np
 
@@ -56,7 +56,7 @@ def stepped_stiffness(segments: Sequence[Segment]) -> Floats:
         lever[4, 2], lever[5, 1] = -beyond, beyond
         compliance += lever.T @ segment_compliance(segment) @ lever
         beyond += segment.length
-    return np.linalg.inv(compliance)
+    return np.asarray(np.linalg.inv(compliance), float)
 
 
 def segment_compliance(s: Segment) -> Floats:
@@ -86,37 +86,5 @@ def one_end_warping_factor(s: Segment) -> float:
     if s.EIw == 0.0:
         return 1.0
     k = sqrt(s.GJ / s.EIw)
-    one = s.length - sinh(k * s.length) / (k * cosh(k * s.length))
+    one = s.length - tanh(k * s.length) / k
     return one / (s.length - 2.0 / k * tanh(k * s.length / 2.0))
-
-
-def euler_load(EI: float, length: float, waves: float, GA: float = inf) -> float:
-    """Critical compression, N: π² EI waves² / L², lowered by shear after Engesser.
-
-    `waves` is the number of half sine waves on the length: 1/2, 3/2 .. for a free tip, 1, 2 .. for a guided or
-    pinned one, 2, 2.861 .. for a clamped one.
-    """
-    slender = pi**2 * EI * waves**2 / length**2
-    return slender / (1.0 + slender / GA)
-
-
-# Half waves of the modes of a bar clamped at the base, from the roots of the characteristic equations:
-# free: cos(kL) = 0; guided and pinned at both ends: sin(kL) = 0; clamped: sin(kL/2) = 0 or tan(kL/2) = kL/2.
-# Roots of tan(u) = u, u = kL/2 (Timoshenko and Gere, section 2.4): half waves 2u/π.
-TAN_ROOTS = (4.493409457909064, 7.725251836937707, 10.904121659428899)
-CLAMPED_WAVES = tuple(sorted([2.0, 4.0, 6.0, *(2 * u / pi for u in TAN_ROOTS)]))
-WAVES = {
-    "free": (0.5, 1.5, 2.5, 3.5, 4.5, 5.5),
-    "guided": (1.0, 2.0, 3.0, 4.0, 5.0, 6.0),
-    "pinned": (1.0, 2.0, 3.0, 4.0, 5.0, 6.0),
-    "clamped": CLAMPED_WAVES,
-}
-
-
-def torsional_load(s: Segment, warping_waves: float, polar_radius_squared: float) -> float:
-    """Compression that buckles a doubly symmetric bar in torsion, N: (GJ + (n π / L)² EIw) / r₀².
-
-    `warping_waves` n: 2 where both ends are held plane and from turning, 1/2 where one end is free of both;
-    `polar_radius_squared` r₀² = (Iy + Iz) / A, mm².
-    """
-    return (s.GJ + (warping_waves * pi / s.length) ** 2 * s.EIw) / polar_radius_squared

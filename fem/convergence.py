@@ -6,6 +6,7 @@ applications, J. Fluids Eng. 130 (2008) 078001: order from the three finest mesh
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 from math import log
 
 import numpy as np
@@ -43,7 +44,7 @@ def extrapolate(sizes: Sequence[float], values: Sequence[float]) -> Extrapolatio
     h, v = [float(s) for s in sizes], [float(x) for x in values]
     if len(h) != len(v) or len(h) < 3:
         raise ValueError(f"{len(v)} values on {len(h)} meshes, needed are at least three of each")
-    if any(a <= b for a, b in zip(h, h[1:], strict=False)):
+    if any(a <= b for a, b in pairwise(h)):
         raise ValueError("mesh sizes are not in falling order")
     (h1, h2, h3), (v1, v2, v3) = h[-3:], v[-3:]
     spread = max(v1, v2, v3) - min(v1, v2, v3)

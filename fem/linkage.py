@@ -72,6 +72,7 @@ def parallelogram(space: Space, length: float, width: float, q: float) -> Linkag
     turn = rotation(np.array([0.0, q, 0.0]))
     along = np.array([length, 0.0, 0.0])
     members = tuple(
-        Member(space, np.array([0.0, 0.0, eta * width / 2]), turn, along, Y_AXIS, Y_AXIS) for eta in (-1.0, 1.0)
+        Member(space, np.array([0.0, 0.0, eta * width / 2]), turn, along, Y_AXIS, Y_AXIS)
+        for eta in (-1.0, 1.0)
     )
     return Linkage(members, turn @ along)

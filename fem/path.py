@@ -4,6 +4,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
+import scipy.sparse as sp
 
 from fem.large_strain import force_and_tangent
 from fem.linear import LinearModel
@@ -86,7 +87,9 @@ def follow(
             except SolveError as error:
                 fraction /= 2.0
                 if fraction < SMALLEST_STEP:
-                    return Path(tuple(points), f"no equilibrium was found past {driven} = {here:.4g} mm: {error}")
+                    return Path(
+                        tuple(points), f"no equilibrium was found past {driven} = {here:.4g} mm: {error}"
+                    )
                 before = None
                 continue
             before, state, last, here = state, found, here, goal
@@ -143,7 +146,7 @@ def pinned_down(r: Reduction, state: State, driven: str, value: float) -> State:
     return State(state.inner, Placement(PlatformPose(position, state.at.pose.orientation), state.at.angles))
 
 
-def residual_and_tangent(model: LinearModel, state: State) -> tuple[Floats, "object"]:
+def residual_and_tangent(model: LinearModel, state: State) -> tuple[Floats, sp.csr_matrix]:
     """Generalised forces (size,) and their symmetric tangent at a state."""
     r = model.reduction
     fields = r.displacements(state.inner, state.at)

@@ -67,7 +67,9 @@ class Reduction:
         """Unknowns of the named platform coordinates; ValueError names a wrong one."""
         for name in names:
             if name not in PLATFORM:
-                raise ValueError(f"platform coordinate {name!r} is unknown, allowed are {', '.join(PLATFORM)}")
+                raise ValueError(
+                    f"platform coordinate {name!r} is unknown, allowed are {', '.join(PLATFORM)}"
+                )
         return np.array([self.starts[-1] + PLATFORM.index(n) for n in names], dtype=np.int64)
 
     def others(self, names: Sequence[str]) -> Ints:
@@ -78,9 +80,7 @@ class Reduction:
 
     def placed(self, at: Placement) -> tuple[tuple[FacePlacement, FacePlacement], ...]:
         """Every face at a placement."""
-        return tuple(
-            (self._place(base, at), self._place(tip, at)) for base, tip in self.faces
-        )
+        return tuple((self._place(base, at), self._place(tip, at)) for base, tip in self.faces)
 
     def _place(self, face: Face, at: Placement) -> FacePlacement:
         angle = at.angles[face.columns[-1] - 6] if face.axis is not None else 0.0
@@ -124,7 +124,9 @@ class Reduction:
         ):
             nodal = force.reshape(-1, 3)
             for face, place in zip(pair, placed, strict=True):
-                total[np.ix_(face.columns, face.columns)] += place.curvature(nodal[face.nodes] @ member.turn.T)
+                total[np.ix_(face.columns, face.columns)] += place.curvature(
+                    nodal[face.nodes] @ member.turn.T
+                )
         start = self.starts[-1]
         return sp.block_diag((sp.csr_matrix((start, start)), sp.csr_matrix(total)), format="csr")
 

@@ -101,7 +101,10 @@ def faces_of(linkage: Linkage) -> tuple[tuple[Face, Face], ...]:
     pairs = []
     for member in linkage.members:
         pair = []
-        for name, axis, pin in (("base", member.base_axis, member.origin), ("tip", member.tip_axis, member.tip)):
+        for name, axis, pin in (
+            ("base", member.base_axis, member.origin),
+            ("tip", member.tip_axis, member.tip),
+        ):
             columns = list(range(6)) if name == "tip" else []
             if axis is not None:
                 columns.append(following)

@@ -72,4 +72,6 @@ def solve_poisson(basis: skfem.Basis, flux: Floats, source: Floats) -> Floats:
 
 def plane_to_skfem(mesh: PlaneMesh) -> skfem.MeshQuad2:
     """The section mesh with curved quadrilaterals."""
-    return skfem.MeshQuad2(np.ascontiguousarray(mesh.points.T), np.ascontiguousarray(mesh.cells.T), validate=False)
+    return skfem.MeshQuad2(
+        np.ascontiguousarray(mesh.points.T), np.ascontiguousarray(mesh.cells.T), validate=False
+    )

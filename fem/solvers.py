@@ -34,7 +34,11 @@ class Factor(Protocol):
     """A factorised matrix."""
 
     name: str
-    negative_eigenvalues: int
+
+    @property
+    def negative_eigenvalues(self) -> int:
+        """Number of negative eigenvalues of the matrix."""
+        ...
 
     def __call__(self, rhs: Floats) -> Floats:
         """Solve for (n,) or (n, r) right-hand sides; raises SolveError if the residual is not small."""
@@ -47,14 +51,18 @@ Solver = Callable[[sp.spmatrix], Factor]
 def checked(matrix: sp.csr_matrix, rhs: Floats, x: Floats, scale: float) -> Floats:
     """`x` if it solves the system; `scale` is the largest entry of the matrix."""
     if not np.all(np.isfinite(x)):
-        raise SolveError("the linear system has no finite solution: the model is not held, or a value is not finite")
+        raise SolveError(
+            "the linear system has no finite solution: the model is not held, or a value is not finite"
+        )
     size = float(np.abs(x).max(initial=0.0))
     load = float(np.abs(rhs).max(initial=0.0))
     residual = float(np.abs(matrix @ x - rhs).max(initial=0.0))
     if size * scale > GROWTH_LIMIT * load and load > 0.0:
         raise SolveError("the linear system is singular to working precision: the model is not held")
     if residual > RESIDUAL_LIMIT * (load + scale * size * 1e-4):
-        raise SolveError(f"the linear system was solved only to a residual of {residual:.2g} on a load of {load:.2g}")
+        raise SolveError(
+            f"the linear system was solved only to a residual of {residual:.2g} on a load of {load:.2g}"
+        )
     return x
 
 

@@ -55,7 +55,10 @@ class Space:
         basis = discrete.basis
         gradients = np.stack([function[0].grad for function in basis.basis], axis=-1)
         return Space(
-            mesh, np.ascontiguousarray(gradients.transpose(1, 2, 3, 0)), np.asarray(basis.dx), discrete.connectivity
+            mesh,
+            np.ascontiguousarray(gradients.transpose(1, 2, 3, 0)),
+            np.asarray(basis.dx),
+            discrete.connectivity,
         )
 
     @property
@@ -77,7 +80,8 @@ class Space:
         nodes = self.connectivity.ravel()
         flat = local.reshape(-1, 3)
         count = len(self.mesh.points)
-        return np.stack([np.bincount(nodes, flat[:, a], count) for a in range(3)], axis=1).ravel()
+        sums = [np.bincount(nodes, flat[:, a], count) for a in range(3)]
+        return np.stack(sums, axis=1).ravel().astype(float)
 
     def displacement_gradient(self, u: Floats) -> Floats:
         """∂u_a/∂X_b at the integration points, (m, q, 3, 3), of nodal displacements `u`, (dofs,) mm."""

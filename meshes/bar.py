@@ -57,7 +57,9 @@ class Bar:
             body = self.section.patches()
             return (Zone(0.0, middle, body, "start"), Zone(middle, self.length, body, "end"))
         if not self.sweepable:
-            raise ValueError("a block lug on a curved section cannot be swept, allowed is a section of rectangles")
+            raise ValueError(
+                "a block lug on a curved section cannot be swept, allowed is a section of rectangles"
+            )
         body, ends = split_on_common_grid(self.section.patches(), self.lug)
         a = self.lug.length
         return (

@@ -59,7 +59,9 @@ def discretise(mesh: SolidMesh) -> Discrete:
     distance, node = cKDTree(mesh.points).query(basis.doflocs.T)
     extent = float(np.ptp(mesh.points, axis=0).max())
     if distance.max() > 1e-6 * extent or len(np.unique(node)) != len(mesh.points):
-        raise ValueError("the mesh has mid-edge nodes off the middle of straight edges, which this cell does not take")
+        raise ValueError(
+            "the mesh has mid-edge nodes off the middle of straight edges, which this cell does not take"
+        )
     return Discrete(basis, node.astype(np.int64))
 
 
@@ -67,7 +69,9 @@ def as_skfem(mesh: SolidMesh) -> skfem.Mesh:
     """The scikit-fem mesh: straight-edged for 20-node cells, curved for 27-node hexahedra and 10-node tetrahedra."""
     if mesh.kind == "hexahedron27":
         return skfem.MeshHex2(
-            np.ascontiguousarray(mesh.points.T), np.ascontiguousarray(mesh.cells.T[INV_HEX_MAPPING]), validate=False
+            np.ascontiguousarray(mesh.points.T),
+            np.ascontiguousarray(mesh.cells.T[INV_HEX_MAPPING]),
+            validate=False,
         )
     if mesh.kind == "tetra10":
         return skfem.MeshTet2(
@@ -75,4 +79,6 @@ def as_skfem(mesh: SolidMesh) -> skfem.Mesh:
         )
     corners, numbering = np.unique(mesh.cells[:, :8], return_inverse=True)
     cells = numbering.reshape(-1, 8).T[INV_HEX_MAPPING[:8]]
-    return skfem.MeshHex(np.ascontiguousarray(mesh.points[corners].T), np.ascontiguousarray(cells), validate=False)
+    return skfem.MeshHex(
+        np.ascontiguousarray(mesh.points[corners].T), np.ascontiguousarray(cells), validate=False
+    )

@@ -95,7 +95,9 @@ class ISection:
     def __post_init__(self) -> None:
         require_positive(self)
         if self.web >= self.flange_width:
-            raise ValueError(f"web is {self.web:g} mm, allowed is less than flange_width = {self.flange_width:g} mm")
+            raise ValueError(
+                f"web is {self.web:g} mm, allowed is less than flange_width = {self.flange_width:g} mm"
+            )
         if 2 * self.flange_thickness >= self.height:
             raise ValueError(
                 f"flange_thickness is {self.flange_thickness:g} mm, allowed is less than half of "
@@ -125,7 +127,9 @@ class ISection:
     def patches(self) -> tuple[Patch, ...]:
         y, w = self.flange_width / 2, self.web / 2
         z, i = self.height / 2, self.web_height / 2
-        flanges = [rectangle(a, b, s, e) for s, e in ((-z, -i), (i, z)) for a, b in ((-y, -w), (-w, w), (w, y))]
+        flanges = [
+            rectangle(a, b, s, e) for s, e in ((-z, -i), (i, z)) for a, b in ((-y, -w), (-w, w), (w, y))
+        ]
         return (*flanges, rectangle(-w, w, -i, i))
 
 
@@ -139,7 +143,10 @@ def ring_patches(inner: float, outer: float, inner_is_arc: bool) -> tuple[Patch,
     """Four patches between two circles, or between a square with that circumscribed circle and a circle."""
     arcs = (False, True, False, inner_is_arc)
     return tuple(
-        Patch((ring_point(inner, k), ring_point(outer, k), ring_point(outer, k + 1), ring_point(inner, k + 1)), arcs)
+        Patch(
+            (ring_point(inner, k), ring_point(outer, k), ring_point(outer, k + 1), ring_point(inner, k + 1)),
+            arcs,
+        )
         for k in range(4)
     )
 

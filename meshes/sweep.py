@@ -33,7 +33,7 @@ def build_swept(bar: Bar, resolution: Resolution) -> None:
 
 def extrude_zone(zone: Zone) -> list[tuple[int, int]]:
     """One solid for each patch of the zone, as gmsh (dimension, tag) pairs."""
-    solids = []
+    solids: list[tuple[int, int]] = []
     for patch in zone.patches:
         surface = add_patch(patch, zone.start)
         made = gmsh.model.occ.extrude([(2, surface)], zone.end - zone.start, 0.0, 0.0)
@@ -106,7 +106,9 @@ def opposite_edges(curves: list[Curve]) -> dict[Curve, Curve]:
         return c
 
     for surface in gmsh.model.getEntities(2):
-        a, b, c, d = (abs(tag) for _, tag in gmsh.model.getBoundary([surface], combined=False, oriented=False))
+        a, b, c, d = (
+            abs(tag) for _, tag in gmsh.model.getBoundary([surface], combined=False, oriented=False)
+        )
         parent[find(a)] = find(c)
         parent[find(b)] = find(d)
     return {c: find(c) for c in curves}

@@ -33,7 +33,9 @@ class LinkageSize(Part):
 
     length_mm: Length
     width_mm: Length
-    angles_deg: Annotated[tuple[Annotated[float, Field(ge=-60.0, le=60.0)], ...], Field(min_length=1)] = (0.0,)
+    angles_deg: Annotated[tuple[Annotated[float, Field(ge=-60.0, le=60.0)], ...], Field(min_length=1)] = (
+        0.0,
+    )
 
 
 class ISectionSize(Part):
@@ -168,7 +170,9 @@ def load_case(name: str) -> Case:
 
 def complaint(error: Any) -> str:
     """One of pydantic's complaints as place, what was found, what is allowed."""
-    place = ".".join(str(step) for step in error["loc"] if step not in ("i_section", "rectangle", "round", "tube"))
+    place = ".".join(
+        str(step) for step in error["loc"] if step not in ("i_section", "rectangle", "round", "tube")
+    )
     kind = error["type"]
     if kind == "missing":
         return f"{place} is missing"

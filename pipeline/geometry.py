@@ -37,4 +37,4 @@ def bar_of(choice: BarChoice, length: float) -> Bar:
 
 def described(section: Section) -> dict[str, float | str]:
     """A section as the numbers of a result file."""
-    return {"kind": KINDS[type(section)], **{f"{k}_mm": float(v) for k, v in asdict(section).items()}}  # type: ignore[call-overload,index]
+    return {"kind": KINDS[type(section)], **{f"{k}_mm": float(v) for k, v in asdict(section).items()}}  # type: ignore[call-overload]

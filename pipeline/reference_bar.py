@@ -23,17 +23,8 @@ from fem.thin_walled import i_section_constants, rectangle_constants
 from meshes.bar import Bar, Lug
 from meshes.section import ISection, Rectangle
 from meshes.solid import Floats
+from pipeline.entries import eight_entries
 
-ENTRIES = {
-    "K11": (0, 0),
-    "K22": (1, 1),
-    "K26": (1, 5),
-    "K33": (2, 2),
-    "K35": (2, 4),
-    "K44": (3, 3),
-    "K55": (4, 4),
-    "K66": (5, 5),
-}
 ROUNDS = 10
 SETTLED = 2e-3
 # A lug has to hold a pin: not shorter than its own flange is thick, not longer than a tenth of the bar.
@@ -43,9 +34,11 @@ Dimensions = tuple[float, float, float, float, float]
 
 @dataclass(frozen=True)
 class Found:
-    """The bar found, the beam fit it started from, the last relative misfits, and how many solids were solved."""
+    """The bar found with its solid (6, 6), the beam fit it started from, the relative misfits of the eight entries,
+    and how many solids were solved."""
 
     bar: Bar
+    stiffness: Floats
     start: Bar
     misfits: Floats
     solves: int
@@ -55,11 +48,6 @@ def family_member(dimensions: Dimensions, length: float) -> Bar:
     """Flange width and thickness, height, web, lug length, all in mm, to a bar."""
     b, t, h, w, a = (float(d) for d in dimensions)
     return Bar(ISection(b, t, h, w), length, Lug(a, b, h - t))
-
-
-def eight_entries(stiffness: Floats) -> Floats:
-    """(8,) entries of a 6x6 that a bar with two planes of symmetry has."""
-    return np.array([stiffness[ij] for ij in ENTRIES.values()])
 
 
 def thin_walled_stiffness(bar: Bar, material: Isotropic) -> Floats:
@@ -85,26 +73,22 @@ def find_bar(
     wanted = eight_entries(target)
     bounds = search_bounds(wanted, length, material)
     x = np.log(np.sqrt(bounds[0] * bounds[1]))
-    ratio = np.ones(8)
-    start, misfits, best = None, np.full(8, np.inf), None
+    ratio, start = np.ones(8), None
     for round_number in range(ROUNDS + 1):
-        x_next = fit_beam(x, wanted / ratio, bounds, length, material)
-        moved = float(np.abs(x_next - x).max())
-        x = x_next
+        following = fit_beam(x, wanted / ratio, bounds, length, material)
+        moved, x = float(np.abs(following - x).max()), following
         bar = family_member(tuple(np.exp(x)), length)
         start = start or bar
-        solid_entries = eight_entries(solid(bar))
-        misfits = solid_entries / wanted - 1.0
+        stiffness = solid(bar)
+        misfits = eight_entries(stiffness) / wanted - 1.0
         rms = float(np.sqrt(np.mean(misfits**2)))
         if on_round is not None:
             on_round(round_number, rms)
-        if best is None or rms < best[0]:
-            best = (rms, bar, misfits)
         if round_number and moved < SETTLED:
-            return Found(bar, start, misfits, round_number + 1)
-        ratio = solid_entries / eight_entries(thin_walled_stiffness(bar, material))
+            return Found(bar, stiffness, start, misfits, round_number + 1)
+        ratio = eight_entries(stiffness) / eight_entries(thin_walled_stiffness(bar, material))
     raise RuntimeError(
-        f"the search for the bar did not settle in {ROUNDS} rounds, its best has {best[0]:.2%} root mean square"
+        f"the search for the bar did not settle in {ROUNDS} rounds, the last had {rms:.2%} misfit"
     )
 
 
@@ -132,7 +116,9 @@ def fit_beam(
             return np.full(8, 10.0)
         return eight_entries(thin_walled_stiffness(bar, material)) / wanted - 1.0
 
-    solution = least_squares(misfit, x, bounds=(np.log(bounds[0]), np.log(bounds[1])), diff_step=1e-4, xtol=1e-7)
+    solution = least_squares(
+        misfit, x, bounds=(np.log(bounds[0]), np.log(bounds[1])), diff_step=1e-4, xtol=1e-7
+    )
     if not solution.success:
         raise RuntimeError(f"the beam could not be fitted to the matrix: {solution.message}")
     return np.asarray(solution.x)

@@ -49,8 +49,8 @@ class SecondRoute(Record):
 
     stiffness: Matrix
     entries: list[Entry]
-    warping_mm: dict[str, float]
-    """RMS of what the fit leaves of the tip face's displacement under each load, per mm at the face's corner."""
+    leftover: dict[str, float]
+    """Under each unit wrench (Fx .. Mz), the part of the tip face's displacement that is no rigid motion (RMS)."""
     explanation: str
 
 

@@ -33,7 +33,12 @@ class Workshop:
         return hashlib.sha256(text.encode()).hexdigest()[:20]
 
     def reuse(
-        self, stage: str, inputs: object, kind: type[T], compute: Callable[[Stage], T], files: tuple[str, ...] = ()
+        self,
+        stage: str,
+        inputs: object,
+        kind: type[T],
+        compute: Callable[[Stage], T],
+        files: tuple[str, ...] = (),
     ) -> T:
         """The stage's result from disk if it was made with the same inputs and code, else computed and kept.
 
