@@ -1,0 +1,116 @@
+"""What a report is made of: sections of blocks. The page and the Markdown twin print the same ones."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+
+@dataclass(frozen=True)
+class Column:
+    """A column's title and unit; `numeric` columns are aligned on the decimal point."""
+
+    title: str
+    unit: str = ""
+    numeric: bool = True
+
+
+@dataclass(frozen=True)
+class Cell:
+    """A cell's text and a small remark after it."""
+
+    text: str
+    mark: str = ""
+
+    @property
+    def whole(self) -> str:
+        """What stands left of the decimal point."""
+        return self.text[: self._cut()]
+
+    @property
+    def fraction(self) -> str:
+        """The decimal point and what follows, or the power of ten."""
+        return self.text[self._cut() :]
+
+    def _cut(self) -> int:
+        cut = self.text.find(".")
+        return cut if cut >= 0 else len(self.text)
+
+
+@dataclass(frozen=True)
+class Table:
+    """A table; a row whose first cell is empty continues the group above it."""
+
+    caption: str
+    columns: Sequence[Column]
+    rows: Sequence[Sequence[Cell]]
+    notes: Sequence[str] = ()
+
+    def fraction_width(self, column: int) -> int:
+        """Characters right of the point that the column reserves, so that the points stand in one line."""
+        return max((len(row[column].fraction) for row in self.rows), default=0)
+
+
+def table(
+    caption: str, columns: Sequence[Column], rows: Sequence[Sequence[str | Cell]], *notes: str
+) -> Table:
+    """A table whose cells may be given as plain text."""
+    cells = [[c if isinstance(c, Cell) else Cell(c) for c in row] for row in rows]
+    return Table(caption, columns, cells, notes)
+
+
+@dataclass(frozen=True)
+class Tables:
+    """Small tables that may stand side by side."""
+
+    tables: Sequence[Table]
+
+
+@dataclass(frozen=True)
+class Text:
+    """A paragraph."""
+
+    text: str
+
+
+@dataclass(frozen=True)
+class Bullets:
+    """A list of sentences."""
+
+    items: Sequence[str]
+
+
+@dataclass(frozen=True)
+class Code:
+    """Commands, one a line."""
+
+    text: str
+
+
+@dataclass(frozen=True)
+class Figure:
+    """A figure: the page prefers the plot, then the drawing, then the picture; Markdown takes the picture."""
+
+    name: str
+    caption: str
+    plot: Any = None
+    svg: str = ""
+    png: bytes = field(default=b"", repr=False)
+
+
+@dataclass(frozen=True)
+class Gallery:
+    """Figures that may stand side by side."""
+
+    figures: Sequence[Figure]
+
+
+Block = Tables | Text | Bullets | Code | Figure | Gallery | Table
+
+
+@dataclass(frozen=True)
+class Section:
+    """A headed part of the report."""
+
+    anchor: str
+    title: str
+    blocks: Sequence[Block]

@@ -1,0 +1,201 @@
+"""Tables of the parallelogram: stiffness, critical loads and where the linear model holds."""
+
+from collections.abc import Sequence
+from itertools import zip_longest
+from typing import Any
+
+from reports.blocks import Cell, Column, Table, table
+from reports.formats import DASH, entry_of, entry_unit, fixed, held_label, number, percent, symbol
+from reports.load import Json
+from reports.style import model_label
+
+MODELS = ("solid FE", "beam formula", "VJM, spring at tip", "VJM, spring at middle", "VJM, spring at base")
+
+
+def used_entries(item: Json) -> list[str]:
+    """Upper-triangle entries that are not negligible in at least one of the models."""
+    matrices = [item[key] for key in ("closed_form", "vjm", "fea", "doubled_bar")]
+    entries = []
+    for i in range(6):
+        for j in range(i, 6):
+            # A coupling is compared with the diagonal it couples, since its unit differs from theirs.
+            if any(abs(m[i][j]) > 1e-6 * abs(m[i][i] * m[j][j]) ** 0.5 for m in matrices):
+                entries.append(f"K{i + 1}{j + 1}")
+    return entries
+
+
+def stiffness(item: Json) -> Table:
+    """Half of K_p at one angle by every model."""
+    printed = item["paper"]
+    rows = []
+    for entry in used_entries(item):
+        closed, fea = entry_of(item["closed_form"], entry), entry_of(item["fea"], entry)
+        paper = "" if printed is None else number(entry_of(printed, entry) / 2)
+        row = [
+            symbol(entry),
+            entry_unit(entry),
+            number(closed / 2),
+            small(entry_of(item["vjm"], entry) / 2, item, entry),
+            small(fea / 2, item, entry),
+            percent(fea / closed - 1.0) if closed else DASH,
+            paper,
+            number(entry_of(item["doubled_bar"], entry) / 2),
+        ]
+        rows.append([cell for cell, keep in zip(row, kept(printed), strict=True) if keep])
+    columns = [
+        Column("entry", numeric=False),
+        Column("unit", numeric=False),
+        Column("Eq. 11"),
+        Column("VJM, Eq. 10"),
+        Column("solid FE"),
+        Column("FE / Eq. 11 − 1", "%"),
+        Column("paper, Eq. 13"),
+        Column("K_b, reference"),
+    ]
+    columns = [column for column, keep in zip(columns, kept(printed), strict=True) if keep]
+    caption = f"K_p / 2 at q = {item['q_deg']:g}°, {item['frame']} frame"
+    return table(caption, columns, rows, f"{DASH}: Eq. 11 has a zero there.")
+
+
+def kept(printed: Any) -> list[bool]:
+    """The paper's column is dropped where the paper prints nothing."""
+    return [True] * 6 + [printed is not None, True]
+
+
+def small(value: float, item: Json, entry: str) -> str:
+    """A number that is rounding beside the bar's own entry is printed as 0."""
+    scale = abs(entry_of(item["doubled_bar"], entry))
+    return "0" if abs(value) < 1e-6 * scale else number(value)
+
+
+def ranks(items: Sequence[Json]) -> Table:
+    """Rank of K_p and the singular values of the FE matrix."""
+    rows = [
+        [
+            fixed(item["q_deg"], 0),
+            str(item["rank"]),
+            percent(item["worst_fea_deviation"]).removeprefix("+"),
+            *(number(value, 4) for value in item["singular_values_fea"]),
+        ]
+        for item in items
+    ]
+    columns = [Column("q", "°"), Column("rank"), Column("FE off Eq. 11", "%")]
+    columns += [Column(f"σ{i}", "") for i in range(1, 1 + max(len(i["singular_values_fea"]) for i in items))]
+    return table(
+        "Rank, and singular values of the solid-FE K_p",
+        columns,
+        rows,
+        "Rank of Eq. 11; the zero direction is z of the bar frame. Singular values mix N/mm, N and N·mm.",
+        "FE off Eq. 11: the worst entry, against Eq. 11 with the K_b that the solid model has.",
+    )
+
+
+def groups(items: Sequence[Json]) -> dict[tuple[float, tuple[str, ...]], dict[str, list[Json]]]:
+    """Items by (q, held), then by the model's label, in the order of the result."""
+    found: dict[tuple[float, tuple[str, ...]], dict[str, list[Json]]] = {}
+    for item in items:
+        key = (item["q_deg"], tuple(item["held"]))
+        found.setdefault(key, {}).setdefault(model_label(item), []).append(item)
+    return found
+
+
+def load_cell(item: Json | None) -> Cell:
+    """A critical load in kN; tension is marked, and a search without a find says how far it went."""
+    if item is None:
+        return Cell("")
+    if item["load_N"] is None:
+        searched = item.get("searched_N")
+        return Cell(DASH, "none found" if searched is None else f"none up to {number(searched / 1e3, 3)} kN")
+    return Cell(number(item["load_N"] / 1e3, 4), "tension" if item["load_N"] < 0 else "")
+
+
+def critical(result: Json) -> Table:
+    """Critical loads of the parallelogram, one line for each angle and held set."""
+    items = result["critical"]
+    models = [m for m in MODELS if any(model_label(item) == m for item in items)]
+    models += list(dict.fromkeys(label for item in items if (label := model_label(item)) not in models))
+    rows = []
+    for (q, held), by_model in groups(items).items():
+        lines = zip_longest(*(by_model.get(model, []) for model in models))
+        for first, line in enumerate(lines):
+            row = [Cell("" if first else fixed(q, 0)), Cell("" if first else held_label(held))]
+            for model, item in zip(models, line, strict=True):
+                row.append(load_cell(item))
+                if model != "solid FE":
+                    row.append(Cell(number(None if item is None else item.get("ratio_to_solid"), 3)))
+            rows.append(row)
+    columns = [Column("q", "°"), Column("held", numeric=False)]
+    for model in models:
+        columns.append(Column(model.replace(", spring at", ""), "kN"))
+        if model != "solid FE":
+            columns.append(Column("ratio"))
+    return table(
+        "By angle and by what is held",
+        columns,
+        rows,
+        "Compression positive, tension negative; both bars together, platform driven along x.",
+        "Ratio: to solid FE.",
+        "VJM tip, middle, base: where the bar's lumped spring sits.",
+    )
+
+
+def closed_forms(result: Json) -> Table | None:
+    """Numerical critical loads against their own closed forms."""
+    rows = [
+        [
+            fixed(item["q_deg"], 0),
+            held_label(item["held"]),
+            model_label(item),
+            number(item["load_N"]),
+            number(item["closed_form_N"]),
+            number(item["load_N"] / item["closed_form_N"] - 1.0, 2),
+        ]
+        for item in result["critical"]
+        if item.get("closed_form_N") and item["load_N"]
+    ]
+    columns = [
+        Column("q", "°"),
+        Column("held", numeric=False),
+        Column("model", numeric=False),
+        Column("found", "N"),
+        Column("closed form", "N"),
+        Column("relative difference"),
+    ]
+    return table("Critical loads against their closed forms", columns, rows) if rows else None
+
+
+def reasons(result: Json) -> list[str]:
+    """Why each model gives its critical load: every distinct explanation once, with what it explains."""
+    found: dict[tuple[str, str, str], list[float]] = {}
+    for item in result["critical"]:
+        found.setdefault((model_label(item), item["what"], item["why"]), []).append(item["q_deg"])
+    sentences = []
+    for (model, what, why), angles in found.items():
+        at = ", ".join(f"{q:g}°" for q in dict.fromkeys(angles))
+        sentences.append(f"{model}, {what} (q = {at}): {why}")
+    return sentences
+
+
+def validity(result: Json) -> Table:
+    """Load up to which LIN is good enough, one column for each deviation."""
+    items = result["validity"]
+    deviations = sorted({item["deviation"] for item in items})
+    found: dict[tuple[str, float, str], dict[float, float | None]] = {}
+    for item in items:
+        key = (model_label(item), item["q_deg"], held_label(item["held"]))
+        found.setdefault(key, {})[item["deviation"]] = item["load_N"]
+    rows = [
+        [model, fixed(q, 0), held, *(kilo(loads.get(deviation)) for deviation in deviations)]
+        for (model, q, held), loads in found.items()
+    ]
+    columns = [Column("LIN against", numeric=False), Column("q", "°"), Column("held", numeric=False)]
+    columns += [Column(f"within {100 * deviation:g} %, up to", "kN") for deviation in deviations]
+    notes = ["Compression positive."]
+    if any(item["load_N"] is None for item in items):
+        notes.append(f"{DASH}: the curve ends before it deviates so much.")
+    return table("Load up to which the linear model holds", columns, rows, *notes)
+
+
+def kilo(load: float | None) -> str:
+    """A load in kN."""
+    return number(None if load is None else load / 1e3, 4)
