@@ -88,14 +88,21 @@ class BarChoice(Part):
     section: SectionSize | None = None
     lug: LugSize | None = None
     family: Literal["i_section"] | None = None
+    lug_length_mm: Length | None = None
     meets: Literal["paper"] | None = None
 
     @model_validator(mode="after")
     def one_way(self) -> "BarChoice":
         if (self.section is None) == (self.family is None):
             raise ValueError("allowed is one of the two: section (dimensions), or family with meets")
-        if self.family is not None and (self.meets is None or self.lug is not None):
-            raise ValueError('a family needs meets = "paper" and takes no lug: it is found too')
+        if self.family is not None and (
+            self.meets is None or self.lug_length_mm is None or self.lug is not None
+        ):
+            raise ValueError(
+                'a family needs meets = "paper" and lug_length_mm, and takes no lug: its size is found'
+            )
+        if self.family is None and (self.meets is not None or self.lug_length_mm is not None):
+            raise ValueError("meets and lug_length_mm belong to a family, not to a section")
         return self
 
 

@@ -26,7 +26,7 @@ from pipeline.detail import Detail
 from pipeline.entries import ENTRIES, compared, rows
 from pipeline.geometry import bar_of, described
 from pipeline.progress import Stage
-from pipeline.reference_bar import find_bar
+from pipeline.reference_bar import Family, find_bar
 from pipeline.result import Bar as BarResult
 from pipeline.result import Convergence, Fit, SecondRoute
 from pipeline.workshop import Workshop
@@ -115,13 +115,11 @@ def search(case: Case, material: Isotropic, detail: Detail, workshop: Workshop, 
         trial = Specimen(bar, material, case.mesh.size_mm, detail, workshop)
         return bar_stiffness(trial.mesh(detail.working), length, material)
 
-    found = find_bar(
-        target,
-        length,
-        material,
-        solid,
-        lambda n, rms: stage.say(f"round {n}, {100 * rms:.2f} % root mean square"),
-    )
+    def on_round(number: int, rms: float) -> None:
+        stage.say(f"round {number}, {100 * rms:.2f} % root mean square")
+
+    assert case.bar.lug_length_mm is not None
+    found = find_bar(target, Family(length, case.bar.lug_length_mm), material, solid, on_round)
     s, lug = found.bar.section, found.bar.lug
     assert isinstance(s, ISection) and lug is not None
     fit = Fit(
