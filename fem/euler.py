@@ -75,7 +75,7 @@ def half_waves(supports: str, mode: int, softness: float = 0.0) -> float:
         middle = (mode + 1) * pi / 2
         return root(lambda u: sin(u) + softness * u * cos(u), middle - pi / 2, middle + pi / 2)
     low = mode * pi / 2
-    return root(lambda u: (1 + softness * u * u) * sin(u) - u * cos(u), low, low + pi / 2)
+    return root(lambda u: (1 + softness * u * u) * sin(u) - u * cos(u), low, low + pi)
 
 
 def root(condition: Callable[[float], float], low: float, high: float) -> float:

@@ -18,7 +18,8 @@ from meshes.solid import Floats
 
 RELATIVE_RESIDUAL = 1e-7
 ITERATIONS = 12
-SMALLEST_STEP = 1.0 / 64
+EASY = 5
+SMALLEST_STEP = 1.0 / 256
 
 
 @dataclass(frozen=True)
@@ -37,12 +38,11 @@ class State:
 
 @dataclass(frozen=True)
 class Equilibrium:
-    """A converged point: platform displacement (6,) mm and rad (rotation vector), wrench (6,) on the platform."""
+    """A stable equilibrium: platform displacement (6,) mm and rad (rotation vector), wrench (6,) on the platform."""
 
     displacement: Floats
     wrench: Floats
     iterations: int
-    negative_eigenvalues: int
 
 
 @dataclass(frozen=True)
@@ -66,8 +66,9 @@ def follow(
 ) -> Path:
     """Drive one platform coordinate through `values` (displacements from the unloaded pose, mm).
 
-    The `held` coordinates stay at zero, the others are free of load. A step that does not converge is cut in
-    halves. Raises ValueError when only some of the three rotations are held.
+    The `held` coordinates stay at zero, the others are free of load. A step that does not converge, or that lands
+    on an unstable branch, is cut in halves: bowed bars are followed onto their buckled branch, the path of perfect
+    ones ends at its bifurcation. Raises ValueError when only some of the three rotations are held.
     """
     rotations = [name for name in ("rx", "ry", "rz") if name in held]
     if len(rotations) not in (0, 3):
@@ -78,25 +79,32 @@ def follow(
     points: list[Equilibrium] = []
     here, before, last = 0.0, None, 0.0
     for target in values:
-        fraction = 1.0
+        whole = step = target - here
         while here != target:
-            goal = here + fraction * (target - here)
+            goal = target if abs(target - here) <= abs(step) * (1.0 + 1e-9) else here + step
             start = state if before is None else extrapolated(before, state, (goal - here) / (here - last))
+            finest = abs(step) / 2.0 < SMALLEST_STEP * abs(whole)
             try:
                 found, point = settle(model, held, driven, start, goal, scale)
+                if not finest and (point.iterations > EASY or turns_back(before, state, found)):
+                    # It may have ended on the mirrored branch of a bifurcation.
+                    raise SolveError("the step was too long")
             except SolveError as error:
-                fraction /= 2.0
-                if fraction < SMALLEST_STEP:
-                    return Path(
-                        tuple(points), f"no equilibrium was found past {driven} = {here:.4g} mm: {error}"
-                    )
-                before = None
+                if finest:
+                    return Path(tuple(points), f"no equilibrium past {driven} = {here:.4g} mm: {error}")
+                step /= 2.0
                 continue
             before, state, last, here = state, found, here, goal
+            step *= 2.0 if point.iterations <= EASY // 2 else 1.0
         points.append(point)
         if on_point is not None:
             on_point(point)
     return Path(tuple(points), "")
+
+
+def turns_back(before: State | None, now: State, found: State) -> bool:
+    """Whether a step leads against the one before it."""
+    return before is not None and float((found.inner - now.inner) @ (now.inner - before.inner)) < 0.0
 
 
 def extrapolated(before: State, now: State, ratio: float) -> State:
@@ -111,7 +119,9 @@ def extrapolated(before: State, now: State, ratio: float) -> State:
 def settle(
     model: LinearModel, held: Sequence[str], driven: str, start: State, value: float, scale: float
 ) -> tuple[State, Equilibrium]:
-    """Newton's method at one value of the driven coordinate; raises SolveError if it does not converge.
+    """Newton's method at one value of the driven coordinate.
+
+    Raises SolveError if it does not converge, or converges to an unstable equilibrium (by the inertia of the tangent).
 
     `scale` N/mm times the size of the driven displacement is the load that the residual is measured against.
     """
@@ -129,7 +139,11 @@ def settle(
                 (state.at.pose.position - model.linkage.point, rotation_vector(state.at.pose.orientation))
             )
             wrench = residual[r.platform(PLATFORM)]
-            return state, Equilibrium(displacement, wrench, iteration, factor.negative_eigenvalues)
+            if factor.negative_eigenvalues:
+                raise SolveError(
+                    "the equilibrium found is unstable, a stable branch leaves the path before it"
+                )
+            return state, Equilibrium(displacement, wrench, iteration)
         step = np.zeros(r.size)
         step[free] = factor(-residual[free])
         if not np.all(np.isfinite(step)) or np.abs(step).max() > 100.0:

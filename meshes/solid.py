@@ -9,6 +9,10 @@ from numpy.typing import NDArray
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 
+# Corners at the ends of each edge of a hexahedron, in the order of its mid-edge nodes.
+EDGES = np.array(
+    [[0, 1], [1, 2], [2, 3], [3, 0], [4, 5], [5, 6], [6, 7], [7, 4], [0, 4], [1, 5], [2, 6], [3, 7]]
+)
 FACET_OF = {"hexahedron20": "quad8", "hexahedron27": "quad9", "tetra10": "triangle6"}
 
 
@@ -45,5 +49,9 @@ class SolidMesh:
         return np.unique(self.faces[name])
 
     def moved(self, displacement: Floats) -> "SolidMesh":
-        """The same mesh with every node moved by `displacement`, (n, 3) mm."""
-        return SolidMesh(self.points + displacement, self.cells, self.kind, self.faces)
+        """The same mesh with its nodes moved by `displacement`, (n, 3) mm; edges of 20-node cells stay straight."""
+        points = self.points + displacement
+        if self.kind == "hexahedron20":
+            ends = self.cells[:, EDGES]
+            points[self.cells[:, 8:]] = points[ends].mean(axis=2)
+        return SolidMesh(points, self.cells, self.kind, self.faces)

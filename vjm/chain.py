@@ -1,7 +1,7 @@
 """A serial chain as data, and its pose, Jacobian and Hessian, all analytic and batched.
 
-The chain is a product of fixed transforms and one-coordinate joints, as in Eq. 1 of the paper. Frames, units
-and the rotation vector are those of `vjm.frames`.
+The chain is a product of fixed transforms and one-coordinate joints, as in Eq. 1 of the paper. Joints may be
+tied, one coordinate moving several of them. Frames, units and the rotation vector are those of `vjm.frames`.
 """
 
 from __future__ import annotations
@@ -35,28 +35,73 @@ class Fixed:
 
 @dataclass(frozen=True, eq=False)
 class Joint:
-    """One coordinate: translation along (mm) or rotation about (rad) a unit axis of its own frame."""
+    """One coordinate: translation along (mm) or rotation about (rad) a unit axis of its own frame.
+
+    tie: joints of one chain with the same tie share one coordinate in equal parts, as a rotation made half
+    before and half after something else.
+    """
 
     kind: Literal["translation", "rotation"]
     axis: tuple[float, float, float]
     role: Role
+    tie: str | None = None
 
     def __post_init__(self) -> None:
         if abs(np.linalg.norm(self.axis) - 1.0) > 1e-12:
             raise ValueError(f"a joint axis must have length 1, got {self.axis}")
 
     @cached_property
-    def generator(self) -> Array:
-        return skew(self.axis)
+    def generators(self) -> tuple[Array, Array]:
+        """S = axis x and S², of Rodrigues' formula."""
+        s = skew(self.axis)
+        return s, s @ s
 
     def turn(self, angle: Array) -> Array:
         """Rotation (..., 3, 3) by the angle (...)."""
-        s = self.generator
+        s, square = self.generators
         angle = angle[..., None, None]
-        return np.eye(3) + np.sin(angle) * s + 2.0 * np.sin(angle / 2) ** 2 * (s @ s)
+        return np.eye(3) + np.sin(angle) * s + 2.0 * np.sin(angle / 2) ** 2 * square
 
 
 Element = Fixed | Joint
+
+
+@dataclass(frozen=True, eq=False)
+class Tie:
+    """How joints follow coordinates: joint values = share x coordinate.
+
+    coordinate: (joints,) number of the coordinate that moves each joint. share: (joints,).
+    """
+
+    coordinate: np.ndarray
+    share: Array
+
+    @cached_property
+    def matrix(self) -> Array:
+        """(joints, n): joint values by the coordinates."""
+        return self.share[:, None] * (self.coordinate[:, None] == np.arange(self.size))
+
+    @property
+    def size(self) -> int:
+        """Number of coordinates n."""
+        return int(self.coordinate.max(initial=-1)) + 1
+
+    @cached_property
+    def interleaved(self) -> tuple[tuple[slice, slice], ...]:
+        """(joints, coordinates) of each run of joints within which coordinates alternate."""
+        runs, start, first = [], 0, 0
+        for end in range(1, self.coordinate.size + 1):
+            seen = int(self.coordinate[:end].max()) + 1
+            if np.any(self.coordinate[end:] < seen):
+                continue
+            if end - start > seen - first:
+                runs.append((slice(start, end), slice(first, seen)))
+            start, first = end, seen
+        return tuple(runs)
+
+    def fold(self, columns: Array) -> Array:
+        """Columns (..., joints) by joint values turned into columns (..., n) by coordinates."""
+        return columns @ self.matrix if self.interleaved else columns
 
 
 @dataclass(frozen=True, eq=False)
@@ -67,31 +112,37 @@ class Kinematics:
     jacobian: Array
     _linear: Array
     _angular: Array
+    _tie: Tie
 
     def hessian(self, multiplier: ArrayLike) -> Array:
         """Second derivative (..., n, n) of Psi = pose^T lambda at fixed lambda (..., 6).
 
         A joint nearer the base carries those after it along: d²p/dx_i dx_j = w_i x v_j and
-        dw_j/dx_i = w_i x w_j for i before j, v and w being columns of the spatial velocity Jacobian.
+        dw_j/dx_i = w_i x w_j for i before j, v and w being columns of the spatial velocity Jacobian. With
+        m = B(phi)^T mu and phi_dot = B omega this sums to w_i·z_j for i up to j,
+        z = v x f + w x m + (dm/dphi B)^T w.
         """
         multiplier = np.asarray(multiplier, dtype=float)
-        force, phi = multiplier[..., :3], self.pose[..., 3:]
-        w, v = self._angular, self._linear
-        turning = moment(phi, multiplier[..., 3:])
-        position = np.swapaxes(w, -1, -2) @ (-skew(force) @ v)
-        orientation = np.swapaxes(w, -1, -2) @ (-skew(turning) @ w)
-        ordered = np.triu(position) + np.swapaxes(np.triu(position, 1), -1, -2)
-        slope = np.swapaxes(w, -1, -2) @ moment_gradient(phi, multiplier[..., 3:]) @ self.jacobian[..., 3:, :]
-        # slope[j, i] + orientation[i, j] (i < j) is symmetric as a sum only; the upper triangle is mirrored.
-        upper = np.triu(np.swapaxes(slope, -1, -2) + np.triu(orientation, 1))
-        return ordered + upper + np.swapaxes(np.triu(upper, 1), -1, -2)
+        phi, mu = self.pose[..., 3:], multiplier[..., 3:]
+        slope = moment_gradient(phi, mu) @ inverse_rotation_jacobian(phi)
+        w = self._angular
+        z = np.swapaxes(slope, -1, -2) @ w - skew(moment(phi, mu)) @ w
+        z -= skew(multiplier[..., :3]) @ self._linear
+        tie = self._tie
+        hessian = _ordered_product(tie.fold(w), tie.fold(z))
+        for joints, coordinates in tie.interleaved:
+            matrix = tie.matrix[joints, coordinates]
+            block = _ordered_product(w[..., joints], z[..., joints])
+            hessian[..., coordinates, coordinates] = matrix.T @ block @ matrix
+        return hessian
 
 
 @dataclass(frozen=True, eq=False)
 class Chain:
     """Serial chain from the base frame to the platform point.
 
-    elements: fixed transforms and joints, base first; coordinates are numbered in the order of the joints.
+    elements: fixed transforms and joints, base first; coordinates are numbered in the order of the joints,
+    a tied one where its first joint stands.
     reference: (3, 3) orientation of the last frame from which the rotation vector of the pose is measured.
     """
 
@@ -99,13 +150,28 @@ class Chain:
     reference: Array = field(default_factory=lambda: np.eye(3))
 
     @cached_property
-    def joints(self) -> tuple[Joint, ...]:
+    def moved(self) -> tuple[Joint, ...]:
+        """All joints, base first."""
         return tuple(e for e in self.elements if isinstance(e, Joint))
+
+    @cached_property
+    def tie(self) -> Tie:
+        """Which coordinate moves which joint."""
+        numbers: dict[str | int, int] = {}
+        names = [k if joint.tie is None else joint.tie for k, joint in enumerate(self.moved)]
+        coordinate = np.array([numbers.setdefault(name, len(numbers)) for name in names], dtype=int)
+        return Tie(coordinate, 1.0 / np.bincount(coordinate)[coordinate])
+
+    @cached_property
+    def joints(self) -> tuple[Joint, ...]:
+        """The first joint of every coordinate, which stands for its kind and role."""
+        _, first = np.unique(self.tie.coordinate, return_index=True)
+        return tuple(self.moved[k] for k in first)
 
     @property
     def size(self) -> int:
         """Number of coordinates n."""
-        return len(self.joints)
+        return self.tie.size
 
     def indices(self, *roles: Role) -> np.ndarray:
         """Numbers of the coordinates that have one of the roles."""
@@ -128,21 +194,24 @@ class Chain:
         x = np.asarray(coordinates, dtype=float)
         if x.shape[-1] != self.size:
             raise ValueError(f"this chain has {self.size} coordinates, got an array of shape {x.shape}")
-        rotation, position, axes, origins = self._forward(x)
-        turns = np.array([joint.kind == "rotation" for joint in self.joints])
+        tie = self.tie
+        rotation, position, axes, origins = self._forward(x[..., tie.coordinate] * tie.share)
+        turns = np.array([joint.kind == "rotation" for joint in self.moved])
         arms = np.where(turns, position[..., None] - origins, 0.0)
         linear = np.where(turns, np.cross(axes, arms, axis=-2), axes)
         angular = np.where(turns, axes, 0.0)
         phi = log(rotation @ self.reference.T)
         jacobian = np.concatenate([linear, inverse_rotation_jacobian(phi) @ angular], axis=-2)
-        return Kinematics(np.concatenate([position, phi], axis=-1), jacobian, linear, angular)
+        return Kinematics(
+            np.concatenate([position, phi], axis=-1), tie.fold(jacobian), linear, angular, tie
+        )
 
-    def _forward(self, x: Array) -> tuple[Array, Array, Array, Array]:
-        """Last rotation (..., 3, 3) and position (..., 3); joint axes and origins (..., 3, n), base frame."""
-        batch = x.shape[:-1]
+    def _forward(self, values: Array) -> tuple[Array, Array, Array, Array]:
+        """Last rotation (..., 3, 3) and position (..., 3); joint axes and origins (..., 3, joints)."""
+        batch, count = values.shape[:-1], values.shape[-1]
         rotation = np.broadcast_to(np.eye(3), (*batch, 3, 3))
         position = np.zeros((*batch, 3))
-        axes, origins = np.empty((*batch, 3, self.size)), np.empty((*batch, 3, self.size))
+        axes, origins = np.empty((*batch, 3, count)), np.empty((*batch, 3, count))
         k = 0
         for element in self.elements:
             if isinstance(element, Fixed):
@@ -152,8 +221,14 @@ class Chain:
             axes[..., k] = rotation @ np.asarray(element.axis)
             origins[..., k] = position
             if element.kind == "rotation":
-                rotation = rotation @ element.turn(x[..., k])
+                rotation = rotation @ element.turn(values[..., k])
             else:
-                position = position + axes[..., k] * x[..., k, None]
+                position = position + axes[..., k] * values[..., k, None]
             k += 1
         return rotation, position, axes, origins
+
+
+def _ordered_product(w: Array, z: Array) -> Array:
+    """Symmetric (..., n, n) with the entries w_i·z_j, i up to j, of columns (..., 3, n)."""
+    product = np.swapaxes(w, -1, -2) @ z
+    return np.triu(product) + np.swapaxes(np.triu(product, 1), -1, -2)

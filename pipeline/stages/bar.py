@@ -24,6 +24,7 @@ from meshes.store import cached_mesh
 from pipeline.case import Case
 from pipeline.detail import Detail
 from pipeline.entries import ENTRIES, compared, rows
+from pipeline.errors import InputError
 from pipeline.geometry import bar_of, described
 from pipeline.progress import Stage
 from pipeline.reference_bar import Family, find_bar
@@ -45,8 +46,11 @@ class Specimen:
     workshop: Workshop
 
     def mesh(self, level: int) -> SolidMesh:
-        """The mesh of one level, from the cache if it is there."""
-        return cached_mesh(self.bar, Resolution(self.size, level), self.workshop.meshes)
+        """The mesh of one level, from the cache if it is there; InputError for a mesh size that cannot work."""
+        try:
+            return cached_mesh(self.bar, Resolution(self.size, level), self.workshop.meshes)
+        except ValueError as error:
+            raise InputError(f"mesh: {error}") from error
 
     @cached_property
     def space(self) -> Space:

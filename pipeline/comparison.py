@@ -1,0 +1,248 @@
+"""VJM, FEA and LIN side by side: stiffness, critical loads, curves, and how far LIN is good."""
+
+from collections.abc import Sequence
+from math import cos, radians
+
+import numpy as np
+
+from fem.euler import bending_of, critical_compression
+from meshes.solid import Floats
+from pipeline.case import Case
+from pipeline.entries import rows
+from pipeline.result import Critical, Curve, Parallelogram, Validity
+from pipeline.stages.bar import Specimen
+from pipeline.stages.linkage import SolidBuckling, SolidPath, SolidStiffness
+from pipeline.stages.springs import PLACES, SpringLinkage, linear_slope
+from vjm.stiffness import in_bar_frame, singular_values
+
+DEVIATIONS = (0.01, 0.05)
+# What bends sideways in each way of holding the platform: supports of each bar and its plane.
+SIDEWAYS = {
+    ("y", "z", "rx", "ry", "rz"): (("clamped", "xy"), ("pinned", "xz")),
+    ("z", "rx", "ry", "rz"): (("guided", "xy"),),
+    ("z",): (("free", "xy"),),
+}
+NAMED = {
+    ("clamped", "xy"): "out of plane, platform fully held",
+    ("pinned", "xz"): "in plane, between the pins",
+    ("guided", "xy"): "out of plane, platform slides along y",
+    ("free", "xy"): "out of plane, platform y and rz free",
+}
+WHY_PLACE = {
+    "tip": "compression stretches the lever of the tip spring: it stabilises the bar's angle, and tension upsets it",
+    "middle": "the rigid halves fold about the spring in mid-bar",
+    "base": "the rigid bar leans on the spring at its base hinge",
+}
+
+
+def stiffness_records(case: Case, stiffness: Floats, solids: Sequence[SolidStiffness]) -> list[Parallelogram]:
+    """K_p at every angle by closed form, VJM, solid finite elements and the paper, in the bar frame."""
+    records = []
+    for solid in solids:
+        springs = SpringLinkage(case, stiffness, solid.q_deg)
+        closed = springs.closed_form
+        fea = in_bar_frame(np.array(solid.matrix), radians(solid.q_deg))
+        filled = np.abs(closed) > 0.0
+        paper = None
+        if case.paper and case.paper.half_linkage_stiffness and case.paper.linkage_angle_deg == solid.q_deg:
+            paper = rows(2.0 * np.array(case.paper.half_linkage_stiffness))
+        records.append(
+            Parallelogram(
+                q_deg=solid.q_deg,
+                closed_form=rows(closed),
+                vjm=rows(springs.eliminated),
+                fea=rows(fea),
+                paper=paper,
+                doubled_bar=rows(2.0 * stiffness),
+                rank=int(springs.rank),
+                singular_values_fea=[float(v) for v in singular_values(fea, case.linkage.length_mm)],
+                frame="bar",
+                worst_fea_deviation=float(np.max(np.abs(fea[filled] / closed[filled] - 1.0))),
+            )
+        )
+    return records
+
+
+def critical_records(
+    case: Case, s: Specimen, stiffness: Floats, solids: Sequence[SolidBuckling]
+) -> list[Critical]:
+    """Every critical load of the linkage: solid, beam formulas, lumped springs at three places."""
+    records = []
+    for solid in solids:
+        lowest = solid.loads[0]
+        records.append(
+            Critical(
+                q_deg=solid.q_deg,
+                held=solid.held,
+                model="solid",
+                spring_at=None,
+                what=f"lowest mode, in {solid.planes[0]}",
+                load_N=lowest,
+                ratio_to_solid=1.0,
+                why="linear buckling of two solid bars with pins and a rigid platform",
+            )
+        )
+        records.extend(formula_records(s, stiffness, solid))
+        records.extend(spring_records(case, stiffness, solid))
+    return records
+
+
+def formula_records(s: Specimen, stiffness: Floats, solid: SolidBuckling) -> list[Critical]:
+    """Both bars by Euler's formulas with the EI, shear and end softness identified from K_b."""
+    body = s.segments[len(s.segments) // 2]
+    records = []
+    for supports, plane in SIDEWAYS[tuple(solid.held)]:
+        shear = body.GAy if plane == "xy" else body.GAz
+        one = critical_compression(bending_of(stiffness, s.bar.length, plane, shear), supports, 1)
+        load = 2.0 * one * cos(radians(solid.q_deg))
+        records.append(
+            Critical(
+                q_deg=solid.q_deg,
+                held=solid.held,
+                model="beam formula",
+                spring_at=None,
+                what=NAMED[supports, plane],
+                load_N=load,
+                ratio_to_solid=load / solid.loads[0],
+                why=f"two bars, {supports}, EI from K_b, times cos q",
+            )
+        )
+    return records
+
+
+def spring_records(case: Case, stiffness: Floats, solid: SolidBuckling) -> list[Critical]:
+    """The lumped springs in compression, and at the tip in tension too."""
+    records = []
+    for place in PLACES:
+        springs = SpringLinkage(case, stiffness, solid.q_deg, place)
+        for sign in (-1, 1) if place == "tip" else (-1,):
+            found = springs.critical(solid.held, sign)
+            formula = springs.formula(solid.held, sign)
+            load = -found.load if found.found else None
+            records.append(
+                Critical(
+                    q_deg=solid.q_deg,
+                    held=solid.held,
+                    model="vjm",
+                    spring_at=place,
+                    what="in compression" if sign < 0 else "in tension (spurious)",
+                    load_N=load,
+                    searched_N=None if found.found else -found.searched_load,
+                    closed_form_N=None if formula is None else -formula,
+                    ratio_to_solid=None if load is None else load / solid.loads[0],
+                    why=WHY_PLACE[place],
+                )
+            )
+    return records
+
+
+def curve_records(case: Case, stiffness: Floats, paths: Sequence[SolidPath]) -> list[Curve]:
+    """LIN, FEA and the lumped springs over the travel of each solid path."""
+    records = []
+    for path in paths:
+        x = np.array(path.x)
+        slope = linear_slope(SpringLinkage(case, stiffness, path.q_deg).closed_form, path.q_deg, path.held)
+        common = {"q_deg": path.q_deg, "held": path.held}
+        records.append(
+            Curve(
+                model="lin",
+                spring_at="tip",
+                branch="straight",
+                x_mm=[0.0, float(x[-1])],
+                fx_N=[0.0, float(slope * x[-1])],
+                critical_N=[],
+                note="Eq. 11",
+                **common,
+            )
+        )
+        note = "slightly bowed solid bars" + (f"; {path.failure}" if path.failure else "")
+        records.append(
+            Curve(
+                model="fea",
+                spring_at="distributed",
+                branch="buckled",
+                x_mm=path.x,
+                fx_N=path.fx,
+                critical_N=[-path.critical],
+                note=note,
+                **common,
+            )
+        )
+        for place in PLACES:
+            records.extend(spring_curves(SpringLinkage(case, stiffness, path.q_deg, place), path))
+    return records
+
+
+def spring_curves(springs: SpringLinkage, path: SolidPath) -> list[Curve]:
+    """The straight path of lumped springs, and the branch past their critical load where there is one."""
+    x = np.array(path.x)
+    found = springs.critical(path.held, -1)
+    within = found.found and found.displacement > x[-1]
+    straight = x[x >= found.displacement] if within else x
+    if within:
+        straight = np.append(straight, found.displacement)
+    common = {"model": "vjm", "q_deg": path.q_deg, "held": path.held, "spring_at": springs.place}
+    critical = [float(found.load)] if found.found else []
+    loads = springs.curve(path.held, straight)
+    good = np.isfinite(loads)
+    records = [
+        Curve(
+            branch="straight",
+            x_mm=[float(v) for v in straight[good]],
+            fx_N=[float(v) for v in loads[good]],
+            critical_N=critical,
+            note="lumped springs, Eq. 6"
+            if good.all()
+            else "lumped springs; ends where no equilibrium was found",
+            **common,
+        )
+    ]
+    if within:
+        past = np.linspace(found.displacement, x[-1], 12)[1:]
+        reached, force = springs.buckled(found, past)
+        records.append(
+            Curve(
+                branch="buckled",
+                x_mm=[float(found.displacement), *(float(v) for v in reached)],
+                fx_N=[float(found.load), *(float(v) for v in force)],
+                critical_N=critical,
+                note="branch past the critical load",
+                **common,
+            )
+        )
+    return records
+
+
+def validity_records(curves: Sequence[Curve], paths: Sequence[SolidPath]) -> list[Validity]:
+    """Loads at which each model has left its own initial tangent by 1 % and 5 %."""
+    records = []
+    for path in paths:
+        records.extend(departures("solid FE", path, np.array(path.x), np.array(path.fx), path.tangent))
+        for place in PLACES:
+            parts = [
+                c
+                for c in curves
+                if c.model == "vjm" and c.spring_at == place and c.q_deg == path.q_deg and c.held == path.held
+            ]
+            x = np.concatenate([c.x_mm for c in parts])
+            fx = np.concatenate([c.fx_N for c in parts])
+            records.extend(departures(f"VJM, spring at {place}", path, x, fx, fx[1] / x[1]))
+    return records
+
+
+def departures(model: str, path: SolidPath, x: Floats, fx: Floats, tangent: float) -> list[Validity]:
+    """The load at each deviation from the tangent, by interpolation between the points of the path."""
+    gone = np.abs(fx[1:] / (tangent * x[1:]) - 1.0)
+    records = []
+    for deviation in DEVIATIONS:
+        past = np.flatnonzero(gone >= deviation)
+        load = None
+        if len(past):
+            i = int(past[0])
+            before = gone[i - 1] if i else 0.0
+            share = (deviation - before) / (gone[i] - before)
+            load = float(-(fx[i] + share * (fx[i + 1] - fx[i])))
+        records.append(
+            Validity(model=model, q_deg=path.q_deg, held=path.held, deviation=deviation, load_N=load)
+        )
+    return records
