@@ -6,6 +6,7 @@ Every answer is checked against its own equations: a singular system is a `Solve
 import importlib.util
 import os
 import sys
+import weakref
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cache
@@ -110,6 +111,8 @@ class PardisoFactor:
         self.upper.sort_indices()
         self.scale = float(np.abs(self.matrix.data).max())
         self.engine = pypardiso.PyPardisoSolver(mtype=-2)
+        # MKL keeps the factor outside Python's memory.
+        weakref.finalize(self, self.engine.free_memory, everything=True)
         self.engine.set_phase(12)
         try:
             self.engine._check_A(self.upper)
@@ -126,10 +129,6 @@ class PardisoFactor:
         self.engine.set_phase(33)
         x = self.engine._call_pardiso(self.upper, np.asfortranarray(rhs, dtype=float))
         return checked(self.matrix, rhs, x, self.scale)
-
-    def __del__(self) -> None:
-        if hasattr(self, "engine"):
-            self.engine.free_memory(everything=True)
 
 
 def direct(matrix: sp.spmatrix) -> Factor:
