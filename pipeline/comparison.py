@@ -30,7 +30,7 @@ NAMED = {
 }
 WHY_PLACE = {
     "tip": "compression stretches the lever of the tip spring: it stabilises the bar's angle, and tension upsets it",
-    "middle": "the rigid halves fold about the spring in mid-bar",
+    "middle": "the rigid halves fold about the spring in mid-bar, whose translations (before the turn in Eq. 1) give",
     "base": "the rigid bar leans on the spring at its base hinge",
 }
 

@@ -33,3 +33,10 @@ def loads(library: str) -> bool:
     except OSError:
         return False
     return True
+
+
+if __name__ == "__main__":
+    try:
+        require_libraries()
+    except InputError as error:
+        raise SystemExit(f"error: {error}") from None

@@ -96,14 +96,13 @@ def critical(result: Json) -> go.Figure:
     for name in names:
         x, y, hatch, text = [], [], [], []
         for row, by_model in zip(rows, by_set.values(), strict=True):
-            for item in by_model.get(name, []):
-                if item["load_N"] is not None:
-                    x.append(abs(item["load_N"]) / 1e3)
-                    y.append(row)
-                    hatch.append("/" if item["load_N"] < 0 else "")
-                    text.append(
-                        f"{number(abs(item['load_N']) / 1e3, 4)}{' tension' if item['load_N'] < 0 else ''}"
-                    )
+            loads = [item["load_N"] for item in by_model.get(name, []) if item["load_N"] is not None]
+            # Two bars of one model in one row would be stacked: the lowest load is the critical one.
+            for load in sorted(loads, key=abs)[:1]:
+                x.append(abs(load) / 1e3)
+                y.append(row)
+                hatch.append("/" if load < 0 else "")
+                text.append(f"{number(abs(load) / 1e3, 4)}{' tension' if load < 0 else ''}")
         look = {
             "color": colour_of(name),
             "pattern": {"shape": hatch, "fillmode": "overlay", "fgcolor": "white"},

@@ -9,19 +9,29 @@ from reports.formats import DASH, entry_of, entry_unit, fixed, held_label, numbe
 from reports.load import Json
 from reports.style import model_label
 
+# Entries below this share of the diagonals they couple are rounding.
+ROUNDING = 1e-6
 MODELS = ("solid FE", "beam formula", "VJM, spring at tip", "VJM, spring at middle", "VJM, spring at base")
 
 
 def used_entries(item: Json) -> list[str]:
     """Upper-triangle entries that are not negligible in at least one of the models."""
     matrices = [item[key] for key in ("closed_form", "vjm", "fea", "doubled_bar")]
-    entries = []
-    for i in range(6):
-        for j in range(i, 6):
-            # A coupling is compared with the diagonal it couples, since its unit differs from theirs.
-            if any(abs(m[i][j]) > 1e-6 * abs(m[i][i] * m[j][j]) ** 0.5 for m in matrices):
-                entries.append(f"K{i + 1}{j + 1}")
-    return entries
+    return [
+        f"K{i + 1}{j + 1}"
+        for i in range(6)
+        for j in range(i, 6)
+        if any(abs(m[i][j]) > ROUNDING * diagonal_scale(item, i, j) for m in matrices)
+    ]
+
+
+def diagonal_scale(item: Json, i: int, j: int) -> float:
+    """Geometric mean of the two diagonal entries that entry (i, j) couples, each the largest of all models.
+
+    The unit of a coupling is between those of its diagonals, and the linkage's own diagonal has a zero.
+    """
+    matrices = [item[key] for key in ("closed_form", "doubled_bar")]
+    return float((max(m[i][i] for m in matrices) * max(m[j][j] for m in matrices)) ** 0.5)
 
 
 def stiffness(item: Json) -> Table:
@@ -39,7 +49,7 @@ def stiffness(item: Json) -> Table:
             small(fea / 2, item, entry),
             percent(fea / closed - 1.0) if closed else DASH,
             paper,
-            number(entry_of(item["doubled_bar"], entry) / 2),
+            small(entry_of(item["doubled_bar"], entry) / 2, item, entry),
         ]
         rows.append([cell for cell, keep in zip(row, kept(printed), strict=True) if keep])
     columns = [
@@ -64,8 +74,8 @@ def kept(printed: Any) -> list[bool]:
 
 def small(value: float, item: Json, entry: str) -> str:
     """A number that is rounding beside the bar's own entry is printed as 0."""
-    scale = abs(entry_of(item["doubled_bar"], entry))
-    return "0" if abs(value) < 1e-6 * scale else number(value)
+    scale = diagonal_scale(item, int(entry[1]) - 1, int(entry[2]) - 1)
+    return "0" if abs(value) < ROUNDING * scale else number(value)
 
 
 def ranks(items: Sequence[Json]) -> Table:

@@ -202,9 +202,7 @@ class Chain:
         angular = np.where(turns, axes, 0.0)
         phi = log(rotation @ self.reference.T)
         jacobian = np.concatenate([linear, inverse_rotation_jacobian(phi) @ angular], axis=-2)
-        return Kinematics(
-            np.concatenate([position, phi], axis=-1), tie.fold(jacobian), linear, angular, tie
-        )
+        return Kinematics(np.concatenate([position, phi], axis=-1), tie.fold(jacobian), linear, angular, tie)
 
     def _forward(self, values: Array) -> tuple[Array, Array, Array, Array]:
         """Last rotation (..., 3, 3) and position (..., 3); joint axes and origins (..., 3, joints)."""

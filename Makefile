@@ -1,0 +1,31 @@
+VENV := .venv
+PYTHON := $(VENV)/bin/python
+STAMP := $(VENV)/.ready
+
+.PHONY: setup run test proofs check clean
+
+setup: $(STAMP)
+
+$(STAMP): pyproject.toml constraints.txt
+	@python3 -c 'import sys; sys.exit(sys.version_info < (3, 11))' || { echo "Python 3.11 or newer is needed, found $$(python3 --version)"; exit 2; }
+	@python3 -m venv $(VENV) || { echo "python3 -m venv failed; on Debian: apt-get install -y python3-venv"; exit 2; }
+	$(PYTHON) -m pip install --quiet --constraint constraints.txt --editable ".[dev]"
+	@$(PYTHON) -m pipeline.system
+	@touch $(STAMP)
+
+run: $(STAMP)
+	$(PYTHON) -m pipeline run
+
+check: $(STAMP)
+	$(VENV)/bin/ruff check .
+	$(VENV)/bin/ruff format --check .
+	$(VENV)/bin/mypy
+
+test: check
+	$(PYTHON) -m pytest -n 2 -m "not long"
+
+proofs: $(STAMP)
+	$(PYTHON) -m pytest -n 2 -m long
+
+clean:
+	rm -rf $(VENV) .parastiff
