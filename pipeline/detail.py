@@ -6,23 +6,25 @@ from dataclasses import dataclass
 @dataclass(frozen=True)
 class Detail:
     """`working`: level of K_b and linear buckling; `study`: levels of the convergence study; `path`: of load
-    paths, sampled at `travel`."""
+    paths, sampled at `travel`, at the first
+    `path_angles` angles (None: all)."""
 
     name: str
     working: int
     study: tuple[int, ...]
     path: int
     travel: tuple[float, ...]
+    path_angles: int | None = None
 
 
 # Travel of a load path in units of that at the linear critical load: close-set where the branches part.
-FEW = (0.3, 0.6, 0.8, 0.9, 0.95, 0.98, 1.0, 1.02, 1.06, 1.15, 1.4, 2.0)
+FEW = (0.4, 0.8, 0.92, 0.97, 1.0, 1.03, 1.1, 1.4)
 SOME = (0.2, 0.4, 0.6, 0.75, 0.85, 0.91, 0.95, 0.98, 1.0, 1.02, 1.05, 1.1, 1.2, 1.4, 1.7, 2.0)
 MANY = tuple(
     sorted(
         {*SOME, 0.1, 0.3, 0.5, 0.65, 0.7, 0.8, 0.88, 0.93, 0.965, 0.99, 1.01, 1.035, 1.075, 1.15, 1.3, 1.85}
     )
 )
-COARSE = Detail("coarse", working=1, study=(1, 2, 3), path=1, travel=FEW)
+COARSE = Detail("coarse", working=1, study=(1, 2, 3), path=1, travel=FEW, path_angles=1)
 DEFAULT = Detail("default", working=2, study=(1, 2, 3, 4), path=1, travel=SOME)
 FINE = Detail("fine", working=3, study=(1, 2, 3, 4, 5), path=2, travel=MANY)

@@ -136,7 +136,8 @@ def solid_stage(job: Run, s: Specimen) -> tuple[list[SolidStiffness], list[Solid
     )
 
     def paths(stage: Stage) -> list[SolidPath]:
-        pairs = [(q, held) for q in job.case.linkage.angles_deg for held in HELD_SETS]
+        angles = job.case.linkage.angles_deg[: job.detail.path_angles]
+        pairs = [(q, held) for q in angles for held in HELD_SETS]
         return [solid_path(job.case, s, q, held, stage) for q, held in pairs]
 
     return stiffness, loads, keep("linkage load paths", inputs, list[SolidPath], paths)

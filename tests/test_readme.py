@@ -1,6 +1,5 @@
 """The README is run: its Python example, its commands, and every number of its table."""
 
-import json
 import re
 import subprocess
 import sys
