@@ -16,7 +16,8 @@ from fem.solvers import SolveError
 from fem.space import Space
 from meshes.solid import Floats
 
-RELATIVE_RESIDUAL = 1e-7
+# Near a bifurcation the tangent is almost singular: a looser limit would take the straight path for the bent one.
+RELATIVE_RESIDUAL = 1e-10
 ITERATIONS = 12
 EASY = 5
 SMALLEST_STEP = 1.0 / 256

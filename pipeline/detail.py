@@ -5,9 +5,10 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True)
 class Detail:
-    """`working`: level of K_b and linear buckling; `study`: levels of the convergence study; `path`: of load
-    paths, sampled at `travel`, at the first
-    `path_angles` angles (None: all)."""
+    """Mesh levels: `working` of K_b and linear buckling, `study` of the convergence study, `path` of load paths.
+
+    The paths are sampled at `travel`, at the first `path_angles` angles of the case (None: at all of them).
+    """
 
     name: str
     working: int

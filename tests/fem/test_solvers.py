@@ -1,0 +1,123 @@
+"""Direct solvers: agreement, singular systems, inertia; an answer that is wrong must be an error."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+import pytest
+import scipy.sparse as sp
+
+from fem.solvers import Factor, PardisoFactor, SolveError, SuperLUFactor, checked, direct, has_pardiso
+from tests.fem import bar_p
+
+needs_pardiso = pytest.mark.skipif(not has_pardiso(), reason="pypardiso is not installed on this platform")
+FACTORS = [pytest.param(PardisoFactor, marks=needs_pardiso), SuperLUFactor]
+Make = Callable[[sp.csr_matrix], Factor]
+
+
+def indefinite(seed: int, n: int = 60) -> sp.csr_matrix:
+    """Sparse symmetric with eigenvalues of both signs, away from zero."""
+    rng = np.random.default_rng(seed)
+    a = sp.random(n, n, 0.1, random_state=rng, data_rvs=rng.standard_normal)
+    return sp.csr_matrix(a + a.T + sp.diags(rng.choice([-3.0, 3.0], n)))
+
+
+@needs_pardiso
+def test_both_solve_alike() -> None:
+    """To 1e-10; a bar's matrix, of condition 1e8, to 1e-9."""
+    regular = indefinite(5, 400)
+    rhs = np.random.default_rng(0).standard_normal((400, 3))
+    one, other = (make(regular)(rhs) for make in (PardisoFactor, SuperLUFactor))
+    assert np.abs(one - other).max() < 1e-10 * np.abs(other).max()
+    model = bar_p.model(1)
+    free = model.reduction.others(bar_p.ALL_BUT_X)
+    k = model.reduced[free][:, free].tocsr()
+    rhs = np.random.default_rng(0).standard_normal((k.shape[0], 3))
+    one, other = (make(k)(rhs) for make in (PardisoFactor, SuperLUFactor))
+    assert np.abs(one - other).max() < 1e-9 * np.abs(other).max()
+
+
+@pytest.mark.parametrize("make", FACTORS)
+def test_solution_of_one_and_of_many_right_hand_sides(make: Make) -> None:
+    k = indefinite(3)
+    rhs = np.random.default_rng(1).standard_normal((k.shape[0], 4))
+    factor = make(k)
+    expected = np.linalg.solve(k.toarray(), rhs)
+    np.testing.assert_allclose(factor(rhs), expected, rtol=1e-9, atol=1e-9 * np.abs(expected).max())
+    single = factor(rhs[:, 2].copy())
+    assert single.shape == (k.shape[0],)
+    np.testing.assert_allclose(single, expected[:, 2], rtol=1e-9, atol=1e-9 * np.abs(expected).max())
+
+
+@pytest.mark.parametrize("make", FACTORS)
+@pytest.mark.parametrize("kind", ["empty row", "free body", "null space of rank one"])
+def test_singular_is_an_error(make: Make, kind: str) -> None:
+    if kind == "empty row":
+        dense = np.diag([1.0, 2.0, 0.0, 4.0])
+    elif kind == "null space of rank one":
+        dense = np.diag([2.0] * 6) - np.diag([1.0] * 5, 1) - np.diag([1.0] * 5, -1)
+        dense[0, 0] = dense[5, 5] = 1.0
+    else:
+        model = bar_p.model(1)
+        dense = model.matrices[0]
+    k = sp.csr_matrix(dense)
+    # A load that the null space feels.
+    rhs = np.random.default_rng(0).standard_normal(k.shape[0])
+    with pytest.raises(SolveError):
+        make(k)(rhs)
+
+
+@pytest.mark.parametrize("make", FACTORS)
+@pytest.mark.parametrize("seed", range(12))
+def test_inertia(make: Make, seed: int) -> None:
+    """The count of negative eigenvalues, or an honest refusal; for SuperLU only where it left the diagonal."""
+    k = indefinite(seed)
+    expected = int(np.count_nonzero(np.linalg.eigvalsh(k.toarray()) < 0.0))
+    assert 0 < expected < k.shape[0]
+    try:
+        found = make(k).negative_eigenvalues
+    except SolveError as error:
+        assert make is SuperLUFactor, "pardiso has the inertia of every regular matrix"
+        assert "left the diagonal" in str(error)
+        return
+    assert found == expected
+
+
+@pytest.mark.parametrize("make", FACTORS)
+def test_inertia_of_a_bar_past_its_critical_load(make: Make) -> None:
+    """The matrices that matter: K shifted by a multiple of its own mass-like diagonal, three modes below zero."""
+    model = bar_p.model(1)
+    free = model.reduction.others(bar_p.ALL_BUT_X)
+    k = model.reduced[free][:, free].tocsr()
+    assert make(k).negative_eigenvalues == 0
+    lowest = np.linalg.eigvalsh(k.toarray())[:6]
+    shifted = (k - (0.5 * (lowest[2] + lowest[3])) * sp.eye(k.shape[0])).tocsr()
+    assert make(shifted).negative_eigenvalues == 3
+
+
+@pytest.mark.parametrize("make", FACTORS)
+@pytest.mark.parametrize("bad", [np.nan, np.inf])
+def test_not_finite_right_hand_side(make: Make, bad: float) -> None:
+    k = sp.csr_matrix(np.diag([1.0, 2.0, 3.0]))
+    with pytest.raises(SolveError), np.errstate(invalid="ignore"):
+        make(k)(np.array([1.0, bad, 0.0]))
+
+
+def test_wrong_answer_is_an_error() -> None:
+    k = sp.csr_matrix(np.diag([1.0, 2.0]))
+    rhs = np.array([1.0, 2.0])
+    np.testing.assert_array_equal(checked(k, rhs, np.array([1.0, 1.0]), 2.0), [1.0, 1.0])
+    with pytest.raises(SolveError, match="solved only to a residual of 0.02 on a load of 2"):
+        checked(k, rhs, np.array([1.0, 1.01]), 2.0)
+    with pytest.raises(SolveError, match="singular to working precision"):
+        checked(k, rhs, np.array([1e14, 1.0]), 2.0)
+    with pytest.raises(SolveError, match="no finite solution"):
+        checked(k, rhs, np.array([np.nan, 1.0]), 2.0)
+
+
+def test_direct_takes_the_fastest_that_is_there(monkeypatch: pytest.MonkeyPatch) -> None:
+    k = sp.csc_matrix(np.diag([1.0, 2.0]))
+    assert direct(k).name == ("pardiso" if has_pardiso() else "SuperLU")
+    monkeypatch.setattr("fem.solvers.has_pardiso", lambda: False)
+    assert direct(k).name == "SuperLU"
