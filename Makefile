@@ -5,12 +5,12 @@ STAMP := $(VENV)/.ready
 .PHONY: setup run test proofs check clean
 
 setup: $(STAMP)
+	@$(PYTHON) -m pipeline.system
 
 $(STAMP): pyproject.toml constraints.txt
 	@python3 -c 'import sys; sys.exit(sys.version_info < (3, 11))' || { echo "Python 3.11 or newer is needed, found $$(python3 --version)"; exit 2; }
 	@python3 -m venv $(VENV) || { echo "python3 -m venv failed; on Debian: apt-get install -y python3-venv"; exit 2; }
 	$(PYTHON) -m pip install --quiet --constraint constraints.txt --editable ".[dev]"
-	@$(PYTHON) -m pipeline.system
 	@touch $(STAMP)
 
 run: $(STAMP)
