@@ -151,11 +151,13 @@ def curve_records(case: Case, stiffness: Floats, paths: Sequence[SolidPath]) -> 
                 x_mm=[0.0, float(x[-1])],
                 fx_N=[0.0, float(slope * x[-1])],
                 critical_N=[],
-                note="Eq. 11",
+                note="LIN: the straight line of Eq. 11",
                 **common,
             )
         )
-        note = "slightly bowed solid bars" + (f"; {path.failure}" if path.failure else "")
+        note = "FEA: solid bars with a bow of L/30000 in the shape of the lowest mode"
+        if path.failure:
+            note = f"FEA at q = {path.q_deg:g}°, {' '.join(path.held)} held: {path.failure}"
         records.append(
             Curve(
                 model="fea",
@@ -191,9 +193,9 @@ def spring_curves(springs: SpringLinkage, path: SolidPath) -> list[Curve]:
             x_mm=[float(v) for v in straight[good]],
             fx_N=[float(v) for v in loads[good]],
             critical_N=critical,
-            note="lumped springs, Eq. 6"
+            note="VJM: lumped springs on the straight path"
             if good.all()
-            else "lumped springs; ends where no equilibrium was found",
+            else "VJM: lumped springs; the line ends where no equilibrium was found",
             **common,
         )
     ]
@@ -206,7 +208,7 @@ def spring_curves(springs: SpringLinkage, path: SolidPath) -> list[Curve]:
                 x_mm=[float(found.displacement), *(float(v) for v in reached)],
                 fx_N=[float(found.load), *(float(v) for v in force)],
                 critical_N=critical,
-                note="branch past the critical load",
+                note="VJM: the branch past the critical load",
                 **common,
             )
         )

@@ -173,6 +173,7 @@ class Erratum(Record):
     printed: str
     correct: str
     evidence: str
+    numbers: dict[str, float]
 
 
 class Result(Record):

@@ -167,7 +167,8 @@ def spring_stage(
                     place=e.place,
                     printed=e.printed,
                     correct=e.correct,
-                    evidence=str(e.evidence),
+                    evidence="; ".join(f"{name}: {value:.5g}" for name, value in e.evidence.items()),
+                    numbers=dict(e.evidence),
                 )
                 for e in errata()
             ],

@@ -194,6 +194,7 @@ def result() -> dict[str, Any]:
                 "printed": "R_y(-q_i2) | moving",
                 "correct": "constant",
                 "evidence": "rank 5",
+                "numbers": {"rank": 5.0},
             }
         ],
         "story": [
