@@ -36,14 +36,14 @@ def section_constants(section: Section, nu: float, size: float | None = None) ->
     """Constants of a section for Poisson's ratio `nu`; element `size` in mm, by default a fiftieth of the section."""
     mesh = mesh_section(section, size or max(section.size) / 50)
     basis = skfem.Basis(plane_to_skfem(mesh), skfem.ElementQuad2(), intorder=6)
-    y, z = basis.global_coordinates().value
+    y, z = np.asarray(basis.global_coordinates())
     weights = basis.dx
     iy, iz = float(np.sum(z * z * weights)), float(np.sum(y * y * weights))
     omega = solve_poisson(basis, np.stack([z, -y]), np.zeros_like(y))
     value = basis.interpolate(omega)
     wy, wz = value.grad
     j = float(np.sum(((wy - z) ** 2 + (wz + y) ** 2) * weights))
-    iw = float(np.sum(value.value**2 * weights))
+    iw = float(np.sum(np.asarray(value) ** 2 * weights))
     # d makes the shear stress compatible with the anticlastic bending strains.
     d_y = 0.5 * nu * np.stack([y * y - z * z, 2 * y * z])
     d_z = 0.5 * nu * np.stack([2 * y * z, z * z - y * y])
@@ -67,7 +67,7 @@ def solve_poisson(basis: skfem.Basis, flux: Floats, source: Floats) -> Floats:
     )
     u = np.zeros(basis.N)
     u[1:] = direct(laplace[1:][:, 1:])(load[1:])
-    return u - float(np.sum(basis.interpolate(u).value * basis.dx) / np.sum(basis.dx))
+    return u - float(np.sum(np.asarray(basis.interpolate(u)) * basis.dx) / np.sum(basis.dx))
 
 
 def plane_to_skfem(mesh: PlaneMesh) -> skfem.MeshQuad2:

@@ -24,7 +24,7 @@ class Quality:
 def quality(mesh: SolidMesh, bar: Bar) -> Quality:
     """Measure a mesh of a bar; ValueError if a cell is inside out."""
     basis = discretise(mesh).basis
-    _, y, z = basis.global_coordinates().value
+    _, y, z = np.asarray(basis.global_coordinates())
     measured = (np.sum(basis.dx), np.sum(z * z * basis.dx), np.sum(y * y * basis.dx))
     errors = [float(m / exact - 1.0) for m, exact in zip(measured, bar.exact_moments(), strict=True)]
     jacobian = np.abs(basis.mapping.detDF(basis.X))
