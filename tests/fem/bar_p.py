@@ -11,6 +11,7 @@ from functools import cache
 
 import numpy as np
 
+from fem.buckling import Mode, buckling
 from fem.linear import LinearModel
 from fem.linkage import parallelogram, single_bar
 from fem.material import Isotropic
@@ -64,6 +65,13 @@ def model(level: int, pinned: bool = False) -> LinearModel:
 def linkage_model(level: int, degrees: float) -> LinearModel:
     """The parallelogram of two bars P."""
     return LinearModel(parallelogram(space(level), LENGTH, WIDTH, np.radians(degrees)), MATERIAL)
+
+
+@cache
+def modes(supports: str) -> tuple[Mode, ...]:
+    """The lowest modes at level 2: tip "free", "guided" (x, y, z free), "clamped", or both faces "pinned" about y."""
+    held = {"free": (), "guided": ("rx", "ry", "rz")}.get(supports, ALL_BUT_X)
+    return buckling(model(2, supports == "pinned"), held, 5)
 
 
 @cache

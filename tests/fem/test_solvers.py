@@ -108,7 +108,7 @@ def test_wrong_answer_is_an_error() -> None:
     k = sp.csr_matrix(np.diag([1.0, 2.0]))
     rhs = np.array([1.0, 2.0])
     np.testing.assert_array_equal(checked(k, rhs, np.array([1.0, 1.0]), 2.0), [1.0, 1.0])
-    with pytest.raises(SolveError, match="solved only to a residual of 0.02 on a load of 2"):
+    with pytest.raises(SolveError, match=r"solved only to a residual of 0\.02 on a load of 2"):
         checked(k, rhs, np.array([1.0, 1.01]), 2.0)
     with pytest.raises(SolveError, match="singular to working precision"):
         checked(k, rhs, np.array([1e14, 1.0]), 2.0)
