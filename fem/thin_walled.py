@@ -1,6 +1,7 @@
 """Section constants by hand: the thin-walled formulas of an I-section and those of a rectangle.
 
-Good to a few per cent and instantaneous, where `section_constants` is exact and takes a finite-element solution.
+A cheap model to start from: area and second moments are exact, J is good to a few per cent, the shear areas and the
+warping constant of thick flanges only to a quarter. `section_constants` is exact and takes a finite-element solution.
 Source: W. C. Young, R. G. Budynas, Roark's Formulas for Stress and Strain, 7th ed., McGraw-Hill 2002, table 10.1
 (torsion) and table 10.2 (warping); shear areas: web, and 5/6 of the flanges.
 """

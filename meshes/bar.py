@@ -91,6 +91,7 @@ def extent(patch: Patch) -> tuple[Point, Point]:
 
 
 def contains(patch: Patch, y: float, z: float) -> bool:
+    """Whether a point lies inside a rectangular patch."""
     (y0, z0), (y1, z1) = extent(patch)
     return y0 < y < y1 and z0 < z < z1
 

@@ -43,5 +43,5 @@ def mesh_section(section: Section, size: float) -> PlaneMesh:
         gmsh.model.mesh.setOrder(2)
         path = Path(folder) / "section.msh"
         gmsh.write(str(path))
-        raw = meshio.read(path, file_format="gmsh")
+        raw = meshio.gmsh.read(path)
     return PlaneMesh(np.asarray(raw.points[:, 1:], float), raw.cells_dict["quad9"].astype(np.int64))

@@ -16,7 +16,7 @@ from meshes.sweep import build_swept
 from meshes.tets import build_tetrahedra
 
 # Part of the cache key: raise it when the same input would give another mesh.
-MESHER = 1
+MESHER = 2
 FACES = ("base", "tip", "side")
 
 
@@ -56,7 +56,11 @@ def require_workable(bar: Bar, resolution: Resolution) -> None:
 
 def read_mesh(path: Path) -> SolidMesh:
     """Read a mesh with the named faces base, tip and side; ValueError if a face or the body is missing."""
-    raw = meshio.read(path, file_format="gmsh")
+    # meshio.read would end the process on a file that is no gmsh file; its reader raises.
+    try:
+        raw = meshio.gmsh.read(path)
+    except (meshio.ReadError, ValueError, IndexError, KeyError, AssertionError, EOFError) as error:
+        raise ValueError(f"{path}: not a readable gmsh mesh: {error}") from error
     kind = next((k for k in FACET_OF if k in raw.cells_dict), None)
     if kind is None:
         raise ValueError(f"{path}: no quadratic solid cells found, allowed are {', '.join(FACET_OF)}")
@@ -91,7 +95,7 @@ def cached_mesh(bar: Bar, resolution: Resolution, folder: Path, tetrahedra: bool
     if path.exists():
         try:
             return read_mesh(path)
-        except (meshio.ReadError, ValueError, KeyError):
+        except ValueError:
             path.unlink()
     mesh = mesh_bar(bar, resolution, tetrahedra)
     write_mesh(mesh, path)

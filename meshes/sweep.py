@@ -70,6 +70,7 @@ class CurveEnds:
 
 
 def measure(curve: Curve) -> CurveEnds:
+    """Ends and length of a curve of the open gmsh model."""
     _, points = gmsh.model.getAdjacencies(1, curve)
     start, end = (gmsh.model.getValue(0, point, [])[0] for point in points)
     return CurveEnds(start, end, gmsh.model.occ.getMass(1, curve))

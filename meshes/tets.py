@@ -24,5 +24,8 @@ def build_tetrahedra(bar: Bar, resolution: Resolution) -> None:
     name_faces(bar.length)
     gmsh.option.setNumber("Mesh.MeshSizeMax", resolution.size / resolution.level)
     gmsh.option.setNumber("Mesh.MeshSizeMin", resolution.size / resolution.level / 4.0)
+    # A coarse quadratic cell on a curved wall folds over: follow the curvature, then straighten what still folds.
+    gmsh.option.setNumber("Mesh.MeshSizeFromCurvature", 12)
+    gmsh.option.setNumber("Mesh.HighOrderOptimize", 1)
     gmsh.model.mesh.generate(3)
     gmsh.model.mesh.setOrder(2)

@@ -146,12 +146,9 @@ def test_a_block_lug_on_a_curved_section_is_meshed_with_tetrahedra() -> None:
         bar.zones()
 
 
-@pytest.mark.xfail(
-    raises=ValueError, strict=True, reason="curved tetrahedra turn inside out at 0.6 diameters"
-)
 def test_a_block_lug_on_a_round_is_right_side_out_on_a_coarse_mesh() -> None:
     bar = Bar(Round(10.0), 310.0, Lug(20.0, 12.0, 12.0))
-    assert quality(mesh_bar(bar, COARSE), bar).worst_cell > 0.0
+    assert quality(mesh_bar(bar, COARSE), bar).worst_cell > 0.1
 
 
 def test_exact_moments_of_a_bar_with_lugs() -> None:
