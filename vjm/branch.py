@@ -9,9 +9,10 @@ import numpy as np
 
 from vjm import lagrangian
 from vjm.critical import CriticalLoad, drive, driven
-from vjm.equilibrium import ITERATIONS, TOLERANCE, Equilibrium, controlled, held_mask, record, stack
+from vjm.equilibrium import ITERATIONS, TOLERANCE, Equilibrium, record, stack
 from vjm.frames import Array
-from vjm.newton import newton
+from vjm.newton import Step, dense, newton
+from vjm.problem import Problem, held_mask
 
 FELL_BACK = "returned to the primary path: the branch does not reach this displacement"
 JUMPED = "jumped away from the branch that was followed"
@@ -57,19 +58,19 @@ def _switch(critical: CriticalLoad, direction: Array, amplitude: float) -> Equil
     place = lagrangian.layout(mechanism)
     mask = held_mask(critical.held)
     targets = np.where(mask, driven(mechanism, critical.displacement), 0.0)[None]
-    held_system = controlled(mechanism, targets, mask)
+    problem = Problem(mechanism, targets, mask[None], critical.state.memory[None])
     row = place.platform.start
     weight = direction / place.scale**2
 
-    def system(unknowns: Array, members: np.ndarray) -> tuple[Array, Array]:
-        rows, matrix = held_system(unknowns, members)
+    def system(unknowns: Array, members: np.ndarray) -> tuple[Array, Step]:
+        rows, matrix = problem.whole(unknowns, members)
         rows[:, row] = (unknowns - critical.state.unknowns) @ weight - amplitude
         matrix[:, row] = weight
-        return rows, matrix
+        return rows, dense(rows, matrix, place.scale)
 
     first = critical.state.unknowns + amplitude * direction
     end = newton(system, first[None], place.scale, TOLERANCE, ITERATIONS)
-    return _if_near(record(mechanism, end, (1,)).member(0), first, amplitude)
+    return _if_near(record(problem, end, (1,)).member(0), first, amplitude)
 
 
 def _follow(critical: CriticalLoad, state: Equilibrium, displacement: float, halvings: int) -> Equilibrium:

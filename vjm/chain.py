@@ -14,7 +14,7 @@ from typing import Literal
 import numpy as np
 from numpy.typing import ArrayLike
 
-from vjm.frames import Array, inverse_rotation_jacobian, log, moment, moment_gradient, skew
+from vjm.frames import Array, inverse_rotation_jacobian, log, moment_gradient, skew
 
 
 class Role(Enum):
@@ -32,19 +32,25 @@ class Fixed:
     translation: Array = field(default_factory=lambda: np.zeros(3))
     rotation: Array = field(default_factory=lambda: np.eye(3))
 
+    @cached_property
+    def turns(self) -> bool:
+        """Whether it turns at all."""
+        return not np.array_equal(self.rotation, np.eye(3))
+
 
 @dataclass(frozen=True, eq=False)
 class Joint:
     """One coordinate: translation along (mm) or rotation about (rad) a unit axis of its own frame.
 
-    tie: joints of one chain with the same tie share one coordinate in equal parts, as a rotation made half
-    before and half after something else.
+    tie: joints of one chain with the same tie follow one coordinate, each moving by its share of it, as a
+    rotation made half before and half after something else.
     """
 
     kind: Literal["translation", "rotation"]
     axis: tuple[float, float, float]
     role: Role
     tie: str | None = None
+    share: float = 1.0
 
     def __post_init__(self) -> None:
         if abs(np.linalg.norm(self.axis) - 1.0) > 1e-12:
@@ -56,11 +62,10 @@ class Joint:
         s = skew(self.axis)
         return s, s @ s
 
-    def turn(self, angle: Array) -> Array:
-        """Rotation (..., 3, 3) by the angle (...)."""
-        s, square = self.generators
-        angle = angle[..., None, None]
-        return np.eye(3) + np.sin(angle) * s + 2.0 * np.sin(angle / 2) ** 2 * square
+    @cached_property
+    def along(self) -> int:
+        """Number of the frame's own axis that the joint has, -1 for any other direction."""
+        return next((i for i in range(3) if self.axis[i] == 1.0), -1)
 
 
 Element = Fixed | Joint
@@ -101,7 +106,11 @@ class Tie:
 
     def fold(self, columns: Array) -> Array:
         """Columns (..., joints) by joint values turned into columns (..., n) by coordinates."""
-        return columns @ self.matrix if self.interleaved else columns
+        return columns @ self.matrix if self._folds else columns
+
+    @cached_property
+    def _folds(self) -> bool:
+        return self.size < self.coordinate.size or bool(np.any(self.share != 1.0))
 
 
 @dataclass(frozen=True, eq=False)
@@ -112,6 +121,7 @@ class Kinematics:
     jacobian: Array
     _linear: Array
     _angular: Array
+    _rate: Array
     _tie: Tie
 
     def hessian(self, multiplier: ArrayLike) -> Array:
@@ -123,11 +133,10 @@ class Kinematics:
         z = v x f + w x m + (dm/dphi B)^T w.
         """
         multiplier = np.asarray(multiplier, dtype=float)
-        phi, mu = self.pose[..., 3:], multiplier[..., 3:]
-        slope = moment_gradient(phi, mu) @ inverse_rotation_jacobian(phi)
-        w = self._angular
-        z = np.swapaxes(slope, -1, -2) @ w - skew(moment(phi, mu)) @ w
-        z -= skew(multiplier[..., :3]) @ self._linear
+        mu, w = multiplier[..., 3:], self._angular
+        moment = np.einsum("...ji,...j->...i", self._rate, mu)
+        slope = moment_gradient(self.pose[..., 3:], mu) @ self._rate
+        z = (np.swapaxes(slope, -1, -2) - skew(moment)) @ w - skew(multiplier[..., :3]) @ self._linear
         tie = self._tie
         hessian = _ordered_product(tie.fold(w), tie.fold(z))
         for joints, coordinates in tie.interleaved:
@@ -160,7 +169,7 @@ class Chain:
         numbers: dict[str | int, int] = {}
         names = [k if joint.tie is None else joint.tie for k, joint in enumerate(self.moved)]
         coordinate = np.array([numbers.setdefault(name, len(numbers)) for name in names], dtype=int)
-        return Tie(coordinate, 1.0 / np.bincount(coordinate)[coordinate])
+        return Tie(coordinate, np.array([joint.share for joint in self.moved]))
 
     @cached_property
     def joints(self) -> tuple[Joint, ...]:
@@ -196,13 +205,18 @@ class Chain:
             raise ValueError(f"this chain has {self.size} coordinates, got an array of shape {x.shape}")
         tie = self.tie
         rotation, position, axes, origins = self._forward(x[..., tie.coordinate] * tie.share)
-        turns = np.array([joint.kind == "rotation" for joint in self.moved])
+        turns = self._turns
         arms = np.where(turns, position[..., None] - origins, 0.0)
-        linear = np.where(turns, np.cross(axes, arms, axis=-2), axes)
+        linear = np.where(turns, _cross(axes, arms), axes)
         angular = np.where(turns, axes, 0.0)
         phi = log(rotation @ self.reference.T)
-        jacobian = np.concatenate([linear, inverse_rotation_jacobian(phi) @ angular], axis=-2)
-        return Kinematics(np.concatenate([position, phi], axis=-1), tie.fold(jacobian), linear, angular, tie)
+        rate = inverse_rotation_jacobian(phi)
+        jacobian = tie.fold(np.concatenate([linear, rate @ angular], axis=-2))
+        return Kinematics(np.concatenate([position, phi], axis=-1), jacobian, linear, angular, rate, tie)
+
+    @cached_property
+    def _turns(self) -> np.ndarray:
+        return np.array([joint.kind == "rotation" for joint in self.moved], dtype=bool)
 
     def _forward(self, values: Array) -> tuple[Array, Array, Array, Array]:
         """Last rotation (..., 3, 3) and position (..., 3); joint axes and origins (..., 3, joints)."""
@@ -210,20 +224,33 @@ class Chain:
         rotation = np.broadcast_to(np.eye(3), (*batch, 3, 3))
         position = np.zeros((*batch, 3))
         axes, origins = np.empty((*batch, 3, count)), np.empty((*batch, 3, count))
+        sine, versine = np.sin(values), 2.0 * np.sin(0.5 * values) ** 2
         k = 0
         for element in self.elements:
             if isinstance(element, Fixed):
                 position = position + rotation @ element.translation
-                rotation = rotation @ element.rotation
+                if element.turns:
+                    rotation = rotation @ element.rotation
                 continue
-            axes[..., k] = rotation @ np.asarray(element.axis)
+            axis = axes[..., k] = (
+                rotation[..., element.along] if element.along >= 0 else rotation @ element.axis
+            )
             origins[..., k] = position
             if element.kind == "rotation":
-                rotation = rotation @ element.turn(values[..., k])
+                s, square = element.generators
+                turn = np.eye(3) + sine[..., k, None, None] * s + versine[..., k, None, None] * square
+                rotation = rotation @ turn
             else:
-                position = position + axes[..., k] * values[..., k, None]
+                position = position + axis * values[..., k, None]
             k += 1
         return rotation, position, axes, origins
+
+
+def _cross(a: Array, b: Array) -> Array:
+    """Cross products of the columns of (..., 3, n)."""
+    x, y, z = a[..., 0, :], a[..., 1, :], a[..., 2, :]
+    u, v, w = b[..., 0, :], b[..., 1, :], b[..., 2, :]
+    return np.stack([y * w - z * v, z * u - x * w, x * v - y * u], axis=-2)
 
 
 def _ordered_product(w: Array, z: Array) -> Array:

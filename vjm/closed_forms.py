@@ -10,8 +10,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
+from vjm.bars import STATION
 from vjm.frames import Array, move_stiffness
-from vjm.mechanisms.parallelogram import STATION, Parallelogram
+from vjm.mechanisms.parallelogram import Parallelogram
 
 
 @dataclass(frozen=True)

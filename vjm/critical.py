@@ -10,9 +10,10 @@ import numpy as np
 from scipy.optimize import brentq
 
 from vjm import lagrangian
-from vjm.equilibrium import Equilibrium, equilibrium, held_mask, unloaded
+from vjm.equilibrium import Equilibrium, equilibrium, unloaded
 from vjm.frames import Array
 from vjm.mechanism import Mechanism
+from vjm.problem import held_mask
 from vjm.stability import negative_eigenvalues, reduced_modes
 
 _SINGULAR = 1e-9

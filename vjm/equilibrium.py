@@ -7,15 +7,18 @@ the paper, holds all six. Loads are conjugate to the pose (p, rotation vector), 
 from __future__ import annotations
 
 from collections.abc import Collection
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from vjm import lagrangian
 from vjm.frames import POSE_NAMES, Array, moment
-from vjm.mechanism import Mechanism, energy
-from vjm.newton import CONVERGED, Iterate, System, newton
+from vjm.increments import solve
+from vjm.laws import Response
+from vjm.mechanism import Mechanism, initial_memory
+from vjm.newton import CONVERGED, Iterate, Step, dense, newton
+from vjm.problem import Held, Problem, held_mask
 
 TOLERANCE = 1e-12
 ITERATIONS = 50
@@ -28,7 +31,8 @@ class Equilibrium:
     unknowns: (..., N) in the order of `vjm.lagrangian`. residual: (...) largest row of Eq. 5 before the last
     step, translations over the mechanism's length, forces over its largest spring x length.
     iterations: (...). converged: (...) of bool. reason: (...) of strings. Where `converged` is False the
-    state is the last finite iterate and no equilibrium.
+    state is none of the equilibrium asked for.
+    held: (..., 6) mask of the held platform coordinates. memory: (..., M) of the laws before this step.
     """
 
     mechanism: Mechanism
@@ -37,6 +41,8 @@ class Equilibrium:
     residual: Array
     converged: np.ndarray
     reason: np.ndarray
+    held: np.ndarray
+    memory: Array
 
     @property
     def pose(self) -> Array:
@@ -82,39 +88,54 @@ class Equilibrium:
     @property
     def energy(self) -> Array:
         """Elastic energy (...), N·mm (Eq. 3)."""
-        return energy(self.mechanism, self.coordinates)
+        return np.sum([answer.energy for answer in self._responses()], axis=0)
 
-    def member(self, index: int | tuple[int, ...]) -> Equilibrium:
-        """One state of the batch."""
-        parts = (self.unknowns, self.iterations, self.residual, self.converged, self.reason)
-        return Equilibrium(self.mechanism, *(np.asarray(part[index]) for part in parts))
+    @property
+    def next_memory(self) -> Array:
+        """(..., M) what the laws remember after this step."""
+        return np.concatenate([answer.memory for answer in self._responses()], axis=-1)
+
+    def _responses(self) -> list[Response]:
+        place = lagrangian.layout(self.mechanism)
+        parts = zip(self.mechanism.chains, place.coordinates, place.memories, strict=True)
+        return [
+            chain.respond(self.unknowns[..., x] - chain.rest[chain.moving], self.memory[..., past])
+            for chain, x, past in parts
+        ]
+
+    def member(self, index: int | tuple[int, ...] | slice | np.ndarray) -> Equilibrium:
+        """One state of the batch, or several."""
+        return Equilibrium(self.mechanism, *(np.asarray(part[index]) for part in _arrays(self)))
+
+    def reshaped(self, *batch: int) -> Equilibrium:
+        """The same states with other batch axes."""
+        axes = self.converged.ndim
+        parts = (part.reshape(*batch, *part.shape[axes:]) for part in _arrays(self))
+        return Equilibrium(self.mechanism, *parts)
+
+
+def _arrays(state: Equilibrium) -> list[np.ndarray]:
+    return [getattr(state, field.name) for field in fields(state)[1:]]
 
 
 def unloaded(mechanism: Mechanism) -> Equilibrium:
     """The state of rest, as the start of a history."""
-    zero = np.array(0)
     return Equilibrium(
         mechanism,
         lagrangian.at_rest(mechanism),
-        zero,
+        np.array(0),
         np.array(0.0),
         np.array(True),
         np.array(CONVERGED, dtype=object),
+        np.ones(6, dtype=bool),
+        initial_memory(mechanism),
     )
-
-
-def held_mask(held: Collection[str]) -> np.ndarray:
-    """(6,) mask of the platform coordinates named; ValueError for a name that is none of x y z rx ry rz."""
-    unknown = sorted(set(held) - set(POSE_NAMES))
-    if unknown:
-        raise ValueError(f"held coordinates must be among {POSE_NAMES}, got {unknown}")
-    return np.array([name in held for name in POSE_NAMES])
 
 
 def equilibrium(
     mechanism: Mechanism,
     targets: ArrayLike,
-    held: Collection[str] = POSE_NAMES,
+    held: Held = POSE_NAMES,
     start: Equilibrium | None = None,
     tolerance: float = TOLERANCE,
     limit: int = ITERATIONS,
@@ -122,37 +143,15 @@ def equilibrium(
     """Newton's method on the stationarity of the Lagrange function, Hessians included.
 
     targets: (..., 6); a held coordinate's entry is its pose value (mm, rad), a free one's its load (N, N·mm),
-    conjugate to the rotation vector. The default holds all six.
-    start: state to begin from, broadcast over the batch; default the unloaded mechanism.
-    Quadratic near a solution and able to stay on an unstable branch, which Eq. 6 (`picard`) is not.
+    conjugate to the rotation vector. held: names for all load cases, or a mask (..., 6); default all six.
+    start: state to begin from, broadcast over the batch; default the unloaded mechanism. Laws with memory
+    continue from it.
+    Quadratic near a solution and able to stay on an unstable branch, which Eq. 6 (`picard`) is not; whether
+    the equilibrium is stable says `vjm.stability`. Load cases that fail at once are approached in increments.
     ValueError for targets whose last axis is not 6 or that are not finite.
     """
-    targets = _checked(targets)
-    place = lagrangian.layout(mechanism)
-    system = controlled(mechanism, targets.reshape(-1, 6), held_mask(held))
-    first = _start_unknowns(mechanism, start, targets.shape[:-1])
-    end = newton(system, first, place.scale, tolerance, limit)
-    return record(mechanism, end, targets.shape[:-1])
-
-
-def controlled(mechanism: Mechanism, targets: Array, mask: np.ndarray) -> System:
-    """Newton system of Eq. 5 with the platform rows of held coordinates replaced by t_k = target.
-
-    targets: (B, 6), mask: (6,) of the held ones. Rows are dimensionless as `Equilibrium.residual` says.
-    """
-    place = lagrangian.layout(mechanism)
-    pinned = np.arange(place.size)[place.platform][mask]
-    weight = place.scale / place.energy
-
-    def system(unknowns: Array, members: np.ndarray) -> tuple[Array, Array]:
-        value = targets[members]
-        rows, matrix = lagrangian.gradient_and_hessian(mechanism, unknowns, np.where(mask, 0.0, value))
-        rows, matrix = rows * weight, matrix * weight[:, None]
-        rows[:, pinned] = (unknowns[:, pinned] - value[:, mask]) / place.scale[pinned]
-        matrix[:, pinned] = np.eye(place.size)[pinned] / place.scale[pinned][:, None]
-        return rows, matrix
-
-    return system
+    problem, first, batch = _posed(mechanism, targets, held, start)
+    return record(problem, solve(problem, first, tolerance, limit), batch)
 
 
 def picard(
@@ -166,35 +165,40 @@ def picard(
 
     poses: (..., 6). Each step linearises t = g but drops the Hessians of g, so this is a Picard iteration: it
     converges linearly, the slower the larger the load against the springs, and may diverge near or beyond a
-    critical load. `equilibrium` is the safe choice there; both share residual and record.
+    critical load. `equilibrium` is the safe choice there; both share residual and record. Laws beside the
+    linear springs enter with their tangent.
     """
-    poses = _checked(poses)
-    place = lagrangian.layout(mechanism)
+    problem, first, batch = _posed(mechanism, poses, POSE_NAMES, start)
+    place = problem.place
     weight = place.scale / place.energy
-    system = controlled(mechanism, poses.reshape(-1, 6), held_mask(POSE_NAMES))
+    parts = list(zip(mechanism.chains, place.coordinates, place.memories, strict=True))
 
-    def without_hessians(unknowns: Array, members: np.ndarray) -> tuple[Array, Array]:
-        rows, matrix = system(unknowns, members)
-        for chain, x in zip(mechanism.chains, place.coordinates, strict=True):
-            matrix[..., x, x] = weight[x, None] * chain.full_stiffness
-        return rows, matrix
+    def without_hessians(unknowns: Array, members: np.ndarray) -> tuple[Array, Step]:
+        rows, matrix = problem.whole(unknowns, members)
+        for chain, x, past in parts:
+            strain = unknowns[..., x] - chain.rest[chain.moving]
+            matrix[..., x, x] = weight[x, None] * chain.respond(strain, problem.memory[members, past]).tangent
+        return rows, dense(rows, matrix, place.scale)
 
-    first = _start_unknowns(mechanism, start, poses.shape[:-1])
-    end = newton(without_hessians, first, place.scale, tolerance, limit)
-    return record(mechanism, end, poses.shape[:-1])
+    return record(problem, newton(without_hessians, first, place.scale, tolerance, limit), batch)
 
 
 def load_path(
     mechanism: Mechanism,
     targets: ArrayLike,
-    held: Collection[str] = POSE_NAMES,
+    held: Held = POSE_NAMES,
     start: Equilibrium | None = None,
 ) -> Equilibrium:
-    """Equilibria along a history: targets (steps, ..., 6) as in `equilibrium`, each started at the last."""
+    """Equilibria along a history: targets (steps, ..., 6) as in `equilibrium`, each started at the last.
+
+    held: names, a mask for all steps (..., 6), or one for each step (steps, ..., 6).
+    """
     targets = _checked(targets)
+    masks = held_mask(held)
+    masks = np.broadcast_to(masks, np.broadcast_shapes(masks.shape, targets.shape))
     states = []
-    for target in targets:
-        start = equilibrium(mechanism, target, held, start)
+    for target, mask in zip(targets, masks, strict=True):
+        start = equilibrium(mechanism, target, mask, start)
         states.append(start)
     return stack(states)
 
@@ -202,8 +206,22 @@ def load_path(
 def stack(states: Collection[Equilibrium]) -> Equilibrium:
     """States of one mechanism with equal batch shape, stacked along a new first axis."""
     first = next(iter(states))
-    names = ("unknowns", "iterations", "residual", "converged", "reason")
-    return Equilibrium(first.mechanism, *(np.stack([getattr(s, name) for s in states]) for name in names))
+    parts = zip(*(_arrays(state) for state in states), strict=True)
+    return Equilibrium(first.mechanism, *(np.stack(part) for part in parts))
+
+
+def record(problem: Problem, end: Iterate, batch: tuple[int, ...]) -> Equilibrium:
+    """The end of an iteration over B members as an `Equilibrium` of batch shape `batch`."""
+    return Equilibrium(
+        problem.mechanism,
+        end.unknowns.reshape(*batch, -1),
+        end.iterations.reshape(batch),
+        end.residual.reshape(batch),
+        (end.reason == CONVERGED).reshape(batch),
+        end.reason.reshape(batch),
+        problem.held.reshape(*batch, 6),
+        problem.memory.reshape(*batch, problem.memory.shape[-1]),
+    )
 
 
 def _checked(targets: ArrayLike) -> Array:
@@ -215,19 +233,16 @@ def _checked(targets: ArrayLike) -> Array:
     return targets
 
 
-def _start_unknowns(mechanism: Mechanism, start: Equilibrium | None, batch: tuple[int, ...]) -> Array:
+def _posed(
+    mechanism: Mechanism, targets: ArrayLike, held: Held, start: Equilibrium | None
+) -> tuple[Problem, Array, tuple[int, ...]]:
+    """The problem with its batch axes flattened, the unknowns to begin with, and the batch shape."""
+    targets, mask = _checked(targets), held_mask(held)
+    batch = np.broadcast_shapes(targets.shape, mask.shape)[:-1]
     unknowns = lagrangian.at_rest(mechanism) if start is None else start.unknowns
-    full = np.broadcast_to(unknowns, (*batch, unknowns.shape[-1]))
-    return full.reshape(-1, unknowns.shape[-1]).copy()
+    memory = initial_memory(mechanism) if start is None else start.next_memory
 
+    def flat(part: np.ndarray) -> np.ndarray:
+        return np.broadcast_to(part, (*batch, part.shape[-1])).reshape(int(np.prod(batch)), part.shape[-1])
 
-def record(mechanism: Mechanism, end: Iterate, batch: tuple[int, ...]) -> Equilibrium:
-    """The end of an iteration over B members as an `Equilibrium` of batch shape `batch`."""
-    return Equilibrium(
-        mechanism,
-        end.unknowns.reshape(*batch, -1),
-        end.iterations.reshape(batch),
-        end.residual.reshape(batch),
-        (end.reason == CONVERGED).reshape(batch),
-        end.reason.reshape(batch),
-    )
+    return Problem(mechanism, flat(targets), flat(mask), flat(memory)), flat(unknowns).copy(), batch

@@ -30,8 +30,8 @@ WRENCH_NAMES = ("Fx", "Fy", "Fz", "Mx", "My", "Mz")
 _SERIES_LIMIT = 1.0
 _TERMS = 12
 _A_CUBIC = np.array([(-1.0) ** k / factorial(2 * k + 3) for k in range(_TERMS)])
-_B_SQUARE = np.array([abs(bernoulli(2 * k)[-1]) / factorial(2 * k) for k in range(1, _TERMS + 1)])
-_B_SQUARE_SLOPE = _B_SQUARE[1:] * np.arange(1, _TERMS)
+_B_SQUARE: Array = np.array([abs(bernoulli(2 * k)[-1]) / factorial(2 * k) for k in range(1, _TERMS + 1)])
+_B_SQUARE_SLOPE: Array = _B_SQUARE[1:] * np.arange(1.0, _TERMS)
 
 
 def skew(v: ArrayLike) -> Array:
@@ -160,22 +160,26 @@ def _cubic(square: Array) -> Array:
     t = np.sqrt(np.maximum(square, _SERIES_LIMIT))
     return np.where(
         square < _SERIES_LIMIT,
-        np.polynomial.polynomial.polyval(np.minimum(square, _SERIES_LIMIT), _A_CUBIC),
+        _series(square, _A_CUBIC),
         (t - np.sin(t)) / t**3,
     )
 
 
+def _series(square: Array, coefficients: Array) -> Array:
+    """The power series in t², with its argument kept within its range."""
+    small = np.minimum(square, _SERIES_LIMIT)
+    return np.asarray(np.polynomial.polynomial.polyval(small, coefficients), dtype=np.float64)
+
+
 def _inverse_coefficient(square: Array) -> tuple[Array, Array]:
     """c = (1 - (t/2) cot(t/2)) / t² and dc/d(t²), as functions of t²."""
-    small = np.minimum(square, _SERIES_LIMIT)
+    series = _series(square, _B_SQUARE), _series(square, _B_SQUARE_SLOPE)
+    near = square < _SERIES_LIMIT
+    if np.all(near):
+        return series
     s = np.maximum(square, _SERIES_LIMIT)
     t = np.sqrt(s)
     cot = 1.0 / np.tan(t / 2)
     c = (1.0 - 0.5 * t * cot) / s
     h_slope = (0.5 * cot - 0.25 * t * (1.0 + cot * cot)) / (2.0 * t)
-    near = square < _SERIES_LIMIT
-    polyval = np.polynomial.polynomial.polyval
-    return (
-        np.where(near, polyval(small, _B_SQUARE), c),
-        np.where(near, polyval(small, _B_SQUARE_SLOPE), -(h_slope + c) / s),
-    )
+    return np.where(near, series[0], c), np.where(near, series[1], -(h_slope + c) / s)

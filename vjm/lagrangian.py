@@ -3,7 +3,8 @@
 Unknowns u, in this order: the moving coordinates (theta and q) of each chain, the platform pose t (6), the
 multiplier lambda_i (6) of each chain. L = sum of elastic energies + sum lambda_i^T (t - g_i) - F^T t.
 The gradient is Eq. 5 together with the platform's balance; its Hessian is symmetric, bordered by the loop
-closures t = g_i. All arrays carry leading batch axes.
+closures t = g_i. All arrays carry leading batch axes. Chains meet at the platform only, so Newton's step
+needs no larger system than that of one chain (`chain_rows`, `newton_step`).
 """
 
 from __future__ import annotations
@@ -16,13 +17,15 @@ from numpy.typing import ArrayLike
 
 from vjm.frames import Array
 from vjm.mechanism import ElasticChain, Mechanism
+from vjm.newton import solve_each
 
 
 @dataclass(frozen=True, eq=False)
 class Layout:
     """Where each unknown stands in u, and its typical size.
 
-    coordinates, multipliers: one slice per chain; platform: one slice.
+    coordinates, multipliers, memories: one slice per chain, the last of the memory of the laws; platform:
+    one slice.
     scale: (N,) size of each unknown: length for translations, 1 rad, stiffness x length for forces.
     energy: stiffness x length², N·mm, the size of L. scale_i scale_j H_ij / energy is dimensionless.
     """
@@ -30,6 +33,7 @@ class Layout:
     coordinates: tuple[slice, ...]
     platform: slice
     multipliers: tuple[slice, ...]
+    memories: tuple[slice, ...]
     scale: Array
     energy: float
 
@@ -46,8 +50,8 @@ class Layout:
 def layout(mechanism: Mechanism) -> Layout:
     """Layout of u for a mechanism; its largest translational spring gives the unit of force."""
     sizes = [chain.moving.size for chain in mechanism.chains]
-    edges = np.cumsum([0, *sizes, 6, *[6] * len(sizes)])
-    pieces = [slice(int(a), int(b)) for a, b in pairwise(edges)]
+    pieces = _slices([*sizes, 6, *[6] * len(sizes)])
+    memories = _slices([chain.initial_memory.size for chain in mechanism.chains])
     length = mechanism.length
     force = length * max(_translational_stiffness(chain) for chain in mechanism.chains)
     pose_scale = np.repeat([length, 1.0], 3)
@@ -55,7 +59,7 @@ def layout(mechanism: Mechanism) -> Layout:
     wrench_scale = force * np.repeat([1.0, length], 3)
     scale = np.concatenate([*scales, pose_scale, *[wrench_scale] * len(sizes)])
     n = len(sizes)
-    return Layout(tuple(pieces[:n]), pieces[n], tuple(pieces[n + 1 :]), scale, force * length)
+    return Layout(pieces[:n], pieces[n], pieces[n + 1 :], memories, scale, force * length)
 
 
 def at_rest(mechanism: Mechanism) -> Array:
@@ -71,32 +75,104 @@ def chain_coordinates(chain: ElasticChain, moving: Array) -> Array:
     return full
 
 
-def gradient_and_hessian(mechanism: Mechanism, unknowns: Array, wrench: ArrayLike) -> tuple[Array, Array]:
-    """Gradient (..., N) and Hessian (..., N, N) of L at unknowns (..., N).
+@dataclass(frozen=True, eq=False)
+class ChainRows:
+    """One chain's share of gradient and Hessian.
 
-    wrench: (..., 6) external load on the platform, conjugate to the pose (p, rotation vector).
+    balance: (..., m) by its coordinates. gap: (..., 6) t - g. matrix: (..., m + 6, m + 6) by its coordinates
+    and its multiplier.
     """
+
+    balance: Array
+    gap: Array
+    matrix: Array
+
+
+def chain_rows(
+    chain: ElasticChain, moving: Array, pose: Array, multiplier: Array, memory: Array
+) -> ChainRows:
+    """Rows of a chain at its moving coordinates (..., m), the platform pose t and lambda (..., 6)."""
+    kinematics = chain.chain.kinematics(chain_coordinates(chain, moving))
+    jacobian, curvature = kinematics.jacobian, kinematics.hessian(multiplier)
+    if chain.moving.size < chain.chain.size:
+        jacobian = jacobian[..., chain.moving]
+        curvature = curvature[..., chain.moving[:, None], chain.moving]
+    answer = chain.respond(moving - chain.rest[chain.moving], memory)
+    pull = np.einsum("...ji,...j->...i", jacobian, multiplier)
+    m = chain.moving.size
+    matrix = np.zeros((*moving.shape[:-1], m + 6, m + 6))
+    matrix[..., :m, :m] = answer.tangent - curvature
+    matrix[..., m:, :m] = -jacobian
+    matrix[..., :m, m:] = -np.swapaxes(jacobian, -1, -2)
+    return ChainRows(answer.force - pull, pose - kinematics.pose, matrix)
+
+
+def all_rows(mechanism: Mechanism, unknowns: Array, memory: Array) -> tuple[ChainRows, ...]:
+    """`chain_rows` of every chain at unknowns (..., N), memory (..., M)."""
     place = layout(mechanism)
-    t = unknowns[..., place.platform]
-    gradient = np.zeros_like(unknowns)
-    hessian = np.zeros((*unknowns.shape, place.size))
-    gradient[..., place.platform] = -np.asarray(wrench, dtype=float)
-    for chain, x, dual in zip(mechanism.chains, place.coordinates, place.multipliers, strict=True):
-        multiplier = unknowns[..., dual]
-        full = chain_coordinates(chain, unknowns[..., x])
-        kinematics = chain.chain.kinematics(full)
-        jacobian = kinematics.jacobian[..., chain.moving]
-        curvature = kinematics.hessian(multiplier)[..., chain.moving[:, None], chain.moving]
-        stretch = unknowns[..., x] - chain.rest[chain.moving]
-        pull = np.einsum("...ji,...j->...i", jacobian, multiplier)
-        gradient[..., x] = stretch @ chain.full_stiffness - pull
-        gradient[..., place.platform] += multiplier
-        gradient[..., dual] = t - kinematics.pose
-        hessian[..., x, x] = chain.full_stiffness - curvature
-        hessian[..., dual, x] = -jacobian
-        hessian[..., x, dual] = -np.swapaxes(jacobian, -1, -2)
-        hessian[..., dual, place.platform] = hessian[..., place.platform, dual] = np.eye(6)
-    return gradient, hessian
+    parts = zip(mechanism.chains, place.coordinates, place.multipliers, place.memories, strict=True)
+    pose = unknowns[..., place.platform]
+    return tuple(
+        chain_rows(chain, unknowns[..., x], pose, unknowns[..., dual], memory[..., past])
+        for chain, x, dual, past in parts
+    )
+
+
+def gradient(place: Layout, rows: tuple[ChainRows, ...], unknowns: Array, wrench: ArrayLike) -> Array:
+    """Gradient (..., N) of L under the external load wrench (..., 6), conjugate to (p, rotation vector)."""
+    out = np.empty_like(unknowns)
+    out[..., place.platform] = -np.asarray(wrench, dtype=float)
+    for row, x, dual in zip(rows, place.coordinates, place.multipliers, strict=True):
+        out[..., x], out[..., dual] = row.balance, row.gap
+        out[..., place.platform] += unknowns[..., dual]
+    return out
+
+
+def hessian(place: Layout, rows: tuple[ChainRows, ...]) -> Array:
+    """Hessian (..., N, N) of L."""
+    out = np.zeros((*rows[0].gap.shape[:-1], place.size, place.size))
+    for row, x, dual in zip(rows, place.coordinates, place.multipliers, strict=True):
+        m = x.stop - x.start
+        out[..., x, x] = row.matrix[..., :m, :m]
+        out[..., dual, x] = row.matrix[..., m:, :m]
+        out[..., x, dual] = row.matrix[..., :m, m:]
+        out[..., dual, place.platform] = out[..., place.platform, dual] = np.eye(6)
+    return out
+
+
+def newton_step(
+    place: Layout, rows: tuple[ChainRows, ...], right: Array, held: np.ndarray
+) -> tuple[Array, np.ndarray]:
+    """Dimensionless solutions (B, N, r) of H step = right, chain by chain, and a mask (B,) of regular members.
+
+    right: (B, N, r) dimensionless; where `held` (B, 6) is True the platform's row reads step = right instead.
+    Each chain is solved for its own right side and for six unit motions of the platform, which leaves 6x6
+    equations with the sum of the chains' stiffness (Eq. 10).
+    """
+    count = right.shape[-1]
+    step = np.empty_like(right)
+    platform = right[:, place.platform].copy()
+    stiffness = np.zeros((len(right), 6, 6))
+    regular = np.ones(len(right), dtype=bool)
+    answers = []
+    for row, x, dual in zip(rows, place.coordinates, place.multipliers, strict=True):
+        m = x.stop - x.start
+        scale = np.concatenate([place.scale[x], place.scale[dual]])
+        sides = np.zeros((len(right), m + 6, count + 6))
+        sides[:, :m, :count], sides[:, m:, :count] = right[:, x], right[:, dual]
+        sides[:, m:, count:] = -np.eye(6)
+        answer, solvable = solve_each(row.matrix * np.outer(scale, scale / place.energy), sides)
+        platform -= np.where(held[..., None], 0.0, answer[:, m:, :count])
+        stiffness += answer[:, m:, count:]
+        regular &= solvable
+        answers.append(answer)
+    motion, solvable = solve_each(np.where(held[..., None], np.eye(6), stiffness), platform)
+    step[:, place.platform] = motion
+    for answer, x, dual in zip(answers, place.coordinates, place.multipliers, strict=True):
+        m = x.stop - x.start
+        whole = answer[..., :count] + answer[..., count:] @ motion
+        step[:, x], step[:, dual] = whole[:, :m], whole[:, m:]
+    return step, regular & solvable
 
 
 def _coordinate_scale(chain: ElasticChain, length: float) -> Array:
@@ -108,3 +184,7 @@ def _translational_stiffness(chain: ElasticChain) -> float:
     joints = chain.chain.joints
     entries = zip(chain.virtual, np.diag(chain.stiffness), strict=True)
     return max((float(k) for j, k in entries if joints[j].kind == "translation"), default=1.0)
+
+
+def _slices(sizes: list[int]) -> tuple[slice, ...]:
+    return tuple(slice(int(a), int(b)) for a, b in pairwise(np.cumsum([0, *sizes])))

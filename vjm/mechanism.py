@@ -4,12 +4,14 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import pairwise
 from typing import Protocol
 
 import numpy as np
 
 from vjm.chain import Chain, Role
 from vjm.frames import Array
+from vjm.laws import Response, Spring
 
 
 @dataclass(frozen=True, eq=False)
@@ -18,11 +20,13 @@ class ElasticChain:
 
     stiffness: (v, v) of the v virtual coordinates together, N, mm, rad; may couple them.
     rest: (n,) coordinates of the unloaded chain, where the springs carry nothing.
+    springs: further laws on groups of coordinates, added to the linear part.
     """
 
     chain: Chain
     stiffness: Array
     rest: Array
+    springs: tuple[Spring, ...] = ()
 
     def __post_init__(self) -> None:
         v, n = self.virtual.size, self.chain.size
@@ -30,6 +34,9 @@ class ElasticChain:
             raise ValueError(f"{v} virtual coordinates need a {v}x{v} stiffness, got {self.stiffness.shape}")
         if self.rest.shape != (n,):
             raise ValueError(f"{n} coordinates need as many rest values, got shape {self.rest.shape}")
+        for spring in self.springs:
+            if not set(spring.coordinates) <= set(self.moving.tolist()):
+                raise ValueError(f"a spring acts on moving coordinates only, got {spring.coordinates}")
 
     @cached_property
     def virtual(self) -> np.ndarray:
@@ -48,15 +55,41 @@ class ElasticChain:
 
     @cached_property
     def full_stiffness(self) -> Array:
-        """(m, m) stiffness of the moving coordinates, zero for the passive ones."""
+        """(m, m) linear stiffness of the moving coordinates, zero for the passive ones."""
         full = np.zeros((self.chain.size, self.chain.size))
         full[np.ix_(self.virtual, self.virtual)] = self.stiffness
         return full[np.ix_(self.moving, self.moving)]
 
-    def energy(self, coordinates: Array) -> Array:
-        """Elastic energy (...), N·mm, at coordinates (..., n)."""
-        strain = (coordinates - self.rest)[..., self.virtual]
-        return 0.5 * np.einsum("...i,ij,...j->...", strain, self.stiffness, strain)
+    @cached_property
+    def initial_memory(self) -> Array:
+        """(M,) memory of all laws before any load."""
+        return np.concatenate([np.zeros(0), *[s.law.initial_memory for s in self.springs]])
+
+    def respond(self, strain: Array, memory: Array) -> Response:
+        """Linear part and laws together at the strain (..., m) of the moving coordinates."""
+        force = strain @ self.full_stiffness
+        energy = 0.5 * np.sum(strain * force, axis=-1)
+        if not self.springs:
+            return Response(energy, force, self.full_stiffness, memory)
+        tangent = np.broadcast_to(self.full_stiffness, (*strain.shape, self.moving.size)).copy()
+        remembered = []
+        for spring, numbers, part in zip(self.springs, self._groups, self._memories, strict=True):
+            answer = spring.law.respond(strain[..., numbers], memory[..., part])
+            force[..., numbers] += answer.force
+            tangent[..., numbers[:, None], numbers] += answer.tangent
+            energy = energy + answer.energy
+            remembered.append(answer.memory)
+        return Response(energy, force, tangent, np.concatenate(remembered, axis=-1))
+
+    @cached_property
+    def _groups(self) -> tuple[np.ndarray, ...]:
+        """Numbers of each spring's coordinates among the moving ones."""
+        return tuple(np.searchsorted(self.moving, spring.coordinates) for spring in self.springs)
+
+    @cached_property
+    def _memories(self) -> tuple[slice, ...]:
+        edges = np.cumsum([0, *[spring.law.initial_memory.size for spring in self.springs]])
+        return tuple(slice(int(a), int(b)) for a, b in pairwise(edges))
 
 
 class Mechanism(Protocol):
@@ -77,6 +110,6 @@ class Mechanism(Protocol):
     def length(self) -> float: ...
 
 
-def energy(mechanism: Mechanism, coordinates: tuple[Array, ...]) -> Array:
-    """Elastic energy of all chains (Eq. 3), N·mm; one array of coordinates (..., n_i) per chain."""
-    return np.sum([c.energy(x) for c, x in zip(mechanism.chains, coordinates, strict=True)], axis=0)
+def initial_memory(mechanism: Mechanism) -> Array:
+    """(M,) memory of all chains before any load, chain after chain."""
+    return np.concatenate([chain.initial_memory for chain in mechanism.chains])

@@ -10,14 +10,16 @@ space of C.
 
 from __future__ import annotations
 
-from collections.abc import Collection
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from vjm import lagrangian
-from vjm.equilibrium import Equilibrium, held_mask
+from vjm.equilibrium import Equilibrium
 from vjm.frames import Array
+from vjm.problem import Held, held_mask
+
+UNSTABLE = "unstable equilibrium past a critical load"
 
 
 @dataclass(frozen=True, eq=False)
@@ -32,19 +34,19 @@ class Modes:
     vectors: Array
 
 
-def bordered_tangent(state: Equilibrium, held: Collection[str]) -> Array:
+def bordered_tangent(state: Equilibrium, held: Held) -> Array:
     """Symmetric dimensionless Hessian (..., M, M) of the Lagrange function without the held coordinates.
 
     held: the platform coordinates that do not move, x included if it is driven. Closures stand last.
     """
     place = lagrangian.layout(state.mechanism)
-    _, hessian = lagrangian.gradient_and_hessian(state.mechanism, state.unknowns, 0.0)
+    hessian = lagrangian.hessian(place, lagrangian.all_rows(state.mechanism, state.unknowns, state.memory))
     free = _free(place, held)
     scaled = place.scale[:, None] * hessian * place.scale / place.energy
     return scaled[..., free[:, None], free]
 
 
-def negative_eigenvalues(state: Equilibrium, held: Collection[str]) -> np.ndarray:
+def negative_eigenvalues(state: Equilibrium, held: Held) -> np.ndarray:
     """Number (...) of unstable directions: negatives of the bordered tangent less those the closures bring.
 
     Each chain closes with six equations t = g_i whose gradients are independent (six springs reach every
@@ -55,7 +57,25 @@ def negative_eigenvalues(state: Equilibrium, held: Collection[str]) -> np.ndarra
     return np.sum(values < 0, axis=-1) - lagrangian.layout(state.mechanism).closures
 
 
-def reduced_modes(state: Equilibrium, held: Collection[str]) -> Modes:
+def verified(state: Equilibrium) -> Equilibrium:
+    """The state with unstable equilibria marked as failed: past a critical load they are no answer.
+
+    The coordinates held are those of the state. A marked member keeps its pose and load, for study.
+    """
+    flat = state.reshaped(state.converged.size)
+    count = np.zeros(state.converged.size, dtype=int)
+    for mask in np.unique(flat.held[flat.converged], axis=0):
+        members = np.flatnonzero(np.all(flat.held == mask, axis=1) & flat.converged)
+        count[members] = negative_eigenvalues(flat.member(members), mask)
+    reason = flat.reason.copy()
+    for k in np.flatnonzero(count):
+        reason[k] = f"{UNSTABLE}: {count[k]} negative eigenvalue(s) of the tangent"
+    return replace(flat, converged=flat.converged & (count == 0), reason=reason).reshaped(
+        *state.converged.shape
+    )
+
+
+def reduced_modes(state: Equilibrium, held: Held) -> Modes:
     """Eigenvalues and vectors of the tangent on the motions that keep all loops closed."""
     place = lagrangian.layout(state.mechanism)
     free = _free(place, held)
@@ -69,6 +89,6 @@ def reduced_modes(state: Equilibrium, held: Collection[str]) -> Modes:
     return Modes(values, full * place.scale[:, None])
 
 
-def _free(place: lagrangian.Layout, held: Collection[str]) -> np.ndarray:
+def _free(place: lagrangian.Layout, held: Held) -> np.ndarray:
     pinned = np.arange(place.size)[place.platform][held_mask(held)]
     return np.setdiff1d(np.arange(place.size), pinned)

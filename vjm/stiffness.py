@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike
 
+from vjm import lagrangian
 from vjm.equilibrium import Equilibrium, unloaded
 from vjm.frames import Array, rotate_stiffness, rotation_y
 from vjm.mechanism import ElasticChain, Mechanism
@@ -43,35 +44,47 @@ def eliminate(
 
 
 def chain_stiffness(
-    chain: ElasticChain, coordinates: ArrayLike, multiplier: ArrayLike | None = None
+    chain: ElasticChain,
+    coordinates: ArrayLike,
+    multiplier: ArrayLike | None = None,
+    memory: Array | None = None,
 ) -> Array:
     """K_c (..., 6, 6) of one chain at coordinates (..., n) under the multiplier (..., 6), base frame.
 
     Conjugate to (p, rotation vector): delta lambda = K_c delta t, symmetric under load.
-    multiplier None: unloaded.
+    multiplier None: unloaded. memory: (..., M) of its laws, default the initial one.
     """
+    coordinates = np.asarray(coordinates, dtype=float)
     kinematics = chain.chain.kinematics(coordinates)
+    strain = (coordinates - chain.rest)[..., chain.moving]
+    past = chain.initial_memory if memory is None else memory
+    past = np.broadcast_to(past, (*strain.shape[:-1], past.shape[-1]))
+    tangent = np.zeros((*strain.shape[:-1], chain.chain.size, chain.chain.size))
+    tangent[..., chain.moving[:, None], chain.moving] = chain.respond(strain, past).tangent
+    if multiplier is not None:
+        tangent -= kinematics.hessian(multiplier)
     theta, q = chain.virtual, chain.passive
-    j_theta, j_q = kinematics.jacobian[..., theta], kinematics.jacobian[..., q]
-    if multiplier is None:
-        return eliminate(j_theta, j_q, chain.stiffness)
-    h = kinematics.hessian(multiplier)
     return eliminate(
-        j_theta,
-        j_q,
-        chain.stiffness,
-        h[..., theta[:, None], theta],
-        h[..., theta[:, None], q],
-        h[..., q[:, None], q],
+        kinematics.jacobian[..., theta],
+        kinematics.jacobian[..., q],
+        tangent[..., theta[:, None], theta],
+        hessian_theta_q=-tangent[..., theta[:, None], q],
+        hessian_q=-tangent[..., q[:, None], q],
     )
 
 
 def stiffness_by_chain(state: Equilibrium) -> Array:
     """K_ci (..., chains, 6, 6) at an equilibrium, base frame, conjugate to the rotation vector."""
-    triples = zip(
-        state.mechanism.chains, state.coordinates, np.moveaxis(state.multipliers, -2, 0), strict=True
+    parts = zip(
+        state.mechanism.chains,
+        state.coordinates,
+        np.moveaxis(state.multipliers, -2, 0),
+        lagrangian.layout(state.mechanism).memories,
+        strict=True,
     )
-    return np.stack([chain_stiffness(chain, x, dual) for chain, x, dual in triples], axis=-3)
+    return np.stack(
+        [chain_stiffness(chain, x, dual, state.memory[..., past]) for chain, x, dual, past in parts], axis=-3
+    )
 
 
 def loaded_stiffness(state: Equilibrium, q: float = 0.0) -> Array:

@@ -8,10 +8,11 @@ from functools import cached_property
 import numpy as np
 
 from vjm import checks
+from vjm.bars import spring_joints
 from vjm.chain import Chain, Fixed, Joint, Role
 from vjm.frames import Array, rotation_y
 from vjm.mechanism import ElasticChain
-from vjm.mechanisms.parallelogram import Parallelogram, spring_joints
+from vjm.mechanisms.parallelogram import Parallelogram
 from vjm.stiffness import unloaded_stiffness
 
 _FREE = 2

@@ -1,0 +1,206 @@
+"""A bar refined into segments, each with frames of its own: geometric stiffness, shortening, large deflection.
+
+A segment turns half of its rotation phi at its base and half at its tip; between them, in the half-turned
+frame, it extends and shifts by s. That frame is objective and symmetric. Axially a segment is a beam column
+under the tension P,
+    s_x + theta^T G theta / 2 = P (c + theta^T G' theta / 2),   theta = (s, phi), c its axial compliance:
+G the length of a bent axis over its chord, G' what a bent bar gives by changing its shape. Both come from the
+exact stability functions of Euler's column in powers of x² = P l² / (4 EI):
+    moment of phi:  x coth x = 1 + x²/3 - x⁴/45 + ...,   so G = l/12,    G' = l³ / (360 EI),
+    force of s:     x³ / (3 (x - tanh x)) = 1 + 2 x²/5 - x⁴/525 + ...,   so G = 6/(5 l), G' = l / (350 EI).
+A shear angle leans on the section, as in Reissner's rod: with the shear number Phi (shear over bending
+compliance of the shift) G of s is (6/5 + 2 Phi) / (1 + Phi)² / l. Bending follows the
+angle s / (l + s_x) of the chord, which takes 2 c / (l c_s) from G of s, c_s being the bending compliance of s.
+Twist turns the principal axes along the segment. Kirchhoff's rod, its curvatures expanded to second order in
+rotations that are linear (phi) and parabolic (s) in arc length, adds the cubic energy
+    phi_x ((GJ - EI_y - EI_z/2) phi_y s_y + (GJ - EI_z - EI_y/2) phi_z s_z) / l²;
+half turns made axis by axis move the half-turned frame by l phi_x phi_y / 8 in y and l phi_x phi_z / 8 in z
+against that of the rotation vector, which adds 3/2 EI_z and 3/2 EI_y to the two brackets.
+
+The identified 6x6 is shared out as compliance. In each plane of bending it fixes three numbers of the
+flexibility along the bar: its amount, its centre and its spread. They are those of a uniform flexible length
+between rigid ends: as long as the bar if the spread is that of a uniform bar or more, the rest being shear;
+shorter by the factor a if it is less. Each segment takes one n-th of it. Its shift s is counted at the centre
+of its part, which lies `offset` before the middle of the segment, and its rigid ends add (1 - a) l / 4 to G of
+phi. The segments in series are the bar, to rounding.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from vjm.bars import Limb, X, Y, Z, check_station
+from vjm.chain import Element, Fixed, Joint, Role
+from vjm.frames import Array
+from vjm.laws import BeamColumn, Spring
+from vjm.mechanisms.parallelogram import Parallelogram
+
+SEGMENTS = 4
+"""Default refinement; see `Refined` for what it is good for."""
+
+_PLANES = ((1, 5, 1.0), (2, 4, -1.0))
+
+
+@dataclass(frozen=True)
+class Refined:
+    """Bar of n segments.
+
+    segments: n. polar_radius: radius of gyration of the section about the bar's axis, mm; a twist phi_x of
+    a segment lengthens its fibres by polar_radius² phi_x² / (2 l) (Wagner), 0 leaves that out.
+    ValueError for fewer than one segment.
+    """
+
+    segments: int = SEGMENTS
+    polar_radius: float = 0.0
+
+    def __post_init__(self) -> None:
+        if self.segments < 1:
+            raise ValueError(f"a bar has one segment or more, got {self.segments}")
+
+    def limb(self, length: float, stiffness: Array) -> Limb:
+        parts = share_out(length, stiffness, self.segments)
+        parts.curvature[:, 3] = self.polar_radius**2 * self.segments / length
+        elements = [e for k in range(self.segments) for e in _segment(k, parts)]
+        full = np.zeros((6 * self.segments, 6 * self.segments))
+        # Within a chain a segment's coordinates are numbered as its joints come: rotations first.
+        order = np.array([3, 4, 5, 0, 1, 2])
+        for k, matrix in enumerate(parts.stiffness):
+            full[6 * k : 6 * k + 6, 6 * k : 6 * k + 6] = matrix[order[:, None], order]
+        numbers = (6 * np.arange(self.segments)[:, None] + order).ravel()
+        law = BeamColumn(parts.stiffness, parts.curvature, parts.softening, parts.coupling)
+        return Limb(tuple(elements), full, (Spring(tuple(numbers.tolist()), law),))
+
+    def reach(self, length: float, stiffness: Array, station: float) -> tuple[Element, ...]:
+        check_station(station)
+        parts = share_out(length, stiffness, self.segments)
+        last = min(int(station * self.segments), self.segments - 1)
+        before = [e for k in range(last) for e in _segment(k, parts)]
+        return (*before, *_bent(last, parts, station * self.segments - last))
+
+
+def refined(linkage: Parallelogram, segments: int = SEGMENTS) -> Parallelogram:
+    """The parallelogram with both bars refined into segments."""
+    return replace(linkage, bar=Refined(segments))
+
+
+@dataclass(frozen=True, eq=False)
+class Shares:
+    """What each segment gets.
+
+    size: its length, mm. stiffness: (n, 6, 6) by its shift s, at the centre of its flexible part, and its
+    rotation phi, in its half-turned frame. offset: (n, 2) of that centre before its middle, mm, for bending
+    in y and in z. curvature, softening: (n, 6) diagonals of G and G', coupling: (n, 2) (`BeamColumn`). shear:
+    (2,) number Phi.
+    """
+
+    size: float
+    stiffness: Array
+    offset: Array
+    curvature: Array
+    softening: Array
+    coupling: Array
+    shear: Array
+
+
+def share_out(length: float, stiffness: Array, segments: int) -> Shares:
+    """Segments whose series is the bar: stiffness (6, 6) at the tip, symmetric positive definite, to rounding."""
+    whole = _inverse(stiffness)
+    size = length / segments
+    lever = length - (np.arange(segments) + 0.5) * size
+    parts, curvature, softening = np.zeros((segments, 6, 6)), np.zeros((segments, 6)), np.zeros((segments, 6))
+    offset, shear = np.zeros((segments, 2)), np.zeros(2)
+    parts[:, 0, 0], parts[:, 3, 3] = whole[0, 0] / segments, whole[3, 3] / segments
+    for plane, (shift, turn, sign) in enumerate(_PLANES):
+        centre = sign * whole[shift, turn] / whole[turn, turn]
+        spread = whole[shift, shift] - whole[shift, turn] ** 2 / whole[turn, turn]
+        uniform = whole[turn, turn] * length**2 / 12
+        a = np.sqrt(min(1.0, spread / uniform))
+        amount = whole[turn, turn] / segments
+        bending, slip = amount * (a * size) ** 2 / 12, (spread - a**2 * uniform) / segments
+        number = shear[plane] = slip / bending
+        offset[:, plane] = centre + a * (lever - 0.5 * length) - lever
+        parts[:, turn, turn], parts[:, shift, shift] = amount, bending + slip
+        curvature[:, turn] = size * (a / 12 + (1 - a) / 4)
+        curvature[:, shift] = (1.2 + 2 * number) / ((1 + number) ** 2 * a * size)
+        curvature[:, shift] -= 2 * whole[0, 0] / (segments * bending * (1 + number) ** 2 * size)
+        softening[:, turn] = amount * (a * size) ** 2 / 360
+        softening[:, shift] = amount / (350 * (1 + number) ** 2)
+    gj, ei_y, ei_z = (length / whole[i, i] for i in (3, 4, 5))
+    coupling = np.array([gj - ei_y + ei_z, gj - ei_z + ei_y]) / ((1 + shear) * size**2)
+    parts = _with_all_couplings(parts, whole, lever[:, None] + offset)
+    return Shares(
+        size,
+        np.stack([_inverse(part) for part in parts]),
+        offset,
+        curvature,
+        softening,
+        np.tile(coupling, (segments, 1)),
+        shear,
+    )
+
+
+def _with_all_couplings(parts: Array, whole: Array, lever: Array) -> Array:
+    """The compliances (n, 6, 6) changed by a congruence at the tip, so that their sum there is `whole`.
+
+    lever: (n, 2) distance of the centres from the tip. The sum has the couplings of two planes only;
+    whole = S sum S^T with S from the Cholesky factors.
+    """
+    move = np.broadcast_to(np.eye(6), parts.shape).copy()
+    for plane, (shift, turn, sign) in enumerate(_PLANES):
+        move[:, shift, turn] = sign * lever[:, plane]
+    total = np.sum(move @ parts @ np.swapaxes(move, -1, -2), axis=0)
+    if not np.any(whole[total == 0]):
+        return parts
+    scale = 1.0 / np.sqrt(np.diag(whole))
+    factors = [np.linalg.cholesky(scale[:, None] * m * scale) / scale[:, None] for m in (whole, total)]
+    local = np.linalg.inv(move) @ factors[0] @ np.linalg.inv(factors[1]) @ move
+    return local @ parts @ np.swapaxes(local, -1, -2)
+
+
+def _inverse(symmetric: Array) -> Array:
+    """Inverse with rows and columns of different units scaled alike."""
+    scale = 1.0 / np.sqrt(np.diag(symmetric))
+    inverse = scale[:, None] * np.linalg.inv(scale[:, None] * symmetric * scale) * scale
+    return 0.5 * (inverse + inverse.T)
+
+
+def _segment(number: int, parts: Shares) -> tuple[Element, ...]:
+    ahead = Fixed(parts.size * np.eye(3)[0])
+    first, second = parts.offset[number]
+    moves = ((X, "s0", 1.0), (Y, "s1", 1.0), (Z, "s2", 1.0), (Y, "r2", first), (Z, "r1", -second))
+    return (*_turn(number, (X, Y, Z)), ahead, *_moved(number, moves), *_turn(number, (Z, Y, X)))
+
+
+def _turn(number: int, axes: tuple[tuple[float, float, float], ...]) -> tuple[Joint, ...]:
+    """Half of the segment's rotation; in the reverse order the other half, which makes the whole symmetric."""
+    return tuple(Joint("rotation", axis, Role.VIRTUAL, f"r{axis.index(1.0)}.{number}", 0.5) for axis in axes)
+
+
+def _moved(
+    number: int, moves: tuple[tuple[tuple[float, float, float], str, float], ...]
+) -> tuple[Joint, ...]:
+    """Translations along an axis by a share of a coordinate; shares of nothing are left out."""
+    return tuple(
+        Joint("translation", axis, Role.VIRTUAL, f"{tie}.{number}", share)
+        for axis, tie, share in moves
+        if share != 0.0
+    )
+
+
+def _bent(number: int, parts: Shares, share: float) -> tuple[Element, ...]:
+    """From the segment's base to a point inside: the cubic of its bending and the straight line of its shear."""
+    cubic = 3 * share**2 - 2 * share**3
+    first, second = ((cubic + phi * share) / (1 + phi) for phi in parts.shear)
+    sag = 0.5 * parts.size * share * (1 - share)
+    offset = parts.offset[number]
+    moves = (
+        (X, "s0", share),
+        (Y, "s1", first),
+        (Z, "s2", second),
+        (Y, "r2", first * offset[0] - sag),
+        (Z, "r1", sag - second * offset[1]),
+    )
+    ahead = Fixed(share * parts.size * np.eye(3)[0])
+    return (*_turn(number, (X, Y, Z)), ahead, *_moved(number, moves))
