@@ -28,10 +28,17 @@ NAMED = {
     ("guided", "xy"): "out of plane, platform slides along y",
     ("free", "xy"): "out of plane, platform y and rz free",
 }
+NAME_OF = {
+    "tip": "spring at tip",
+    "middle": "spring at middle",
+    "base": "spring at base",
+    "distributed": "distributed",
+}
 WHY_PLACE = {
     "tip": "compression stretches the lever of the tip spring: it stabilises the bar's angle, and tension upsets it",
     "middle": "the rigid halves fold about the spring in mid-bar, whose translations (before the turn in Eq. 1) give",
     "base": "the rigid bar leans on the spring at its base hinge",
+    "distributed": "the same K_b shared out over the bar, with its geometric stiffness",
 }
 
 
@@ -111,7 +118,7 @@ def formula_records(s: Specimen, stiffness: Floats, solid: SolidBuckling) -> lis
 
 
 def spring_records(case: Case, stiffness: Floats, solid: SolidBuckling) -> list[Critical]:
-    """The lumped springs in compression, and at the tip in tension too."""
+    """The springs in compression, lumped ones at the tip in tension too."""
     records = []
     for place in PLACES:
         springs = SpringLinkage(case, stiffness, solid.q_deg, place)
@@ -228,7 +235,7 @@ def validity_records(curves: Sequence[Curve], paths: Sequence[SolidPath]) -> lis
             ]
             x = np.concatenate([c.x_mm for c in parts])
             fx = np.concatenate([c.fx_N for c in parts])
-            records.extend(departures(f"VJM, spring at {place}", path, x, fx, fx[1] / x[1]))
+            records.extend(departures(f"VJM, {NAME_OF[place]}", path, x, fx, fx[1] / x[1]))
     return records
 
 

@@ -21,7 +21,8 @@ MODEL_COLOURS: Mapping[str, str] = MappingProxyType(
         "VJM, spring at tip": "#0072B2",
         "VJM, spring at middle": "#56B4E9",
         "VJM, spring at base": "#009E73",
-        "VJM": "#CC79A7",
+        "VJM, distributed": "#CC79A7",
+        "VJM": "#7f7f7f",
     }
 )
 

@@ -11,7 +11,14 @@ from reports.style import model_label
 
 # Entries below this share of the diagonals they couple are rounding.
 ROUNDING = 1e-6
-MODELS = ("solid FE", "beam formula", "VJM, spring at tip", "VJM, spring at middle", "VJM, spring at base")
+MODELS = (
+    "solid FE",
+    "VJM, distributed",
+    "beam formula",
+    "VJM, spring at tip",
+    "VJM, spring at middle",
+    "VJM, spring at base",
+)
 
 
 def used_entries(item: Json) -> list[str]:
@@ -145,7 +152,7 @@ def critical(result: Json) -> Table:
         rows,
         "Compression positive, tension negative; both bars together, platform driven along x.",
         "Ratio: to solid FE.",
-        "VJM tip, middle, base: where the bar's lumped spring sits.",
+        "VJM tip, middle, base: where the bar's lumped spring sits; VJM distributed: with geometric stiffness.",
     )
 
 

@@ -3,7 +3,8 @@
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from math import isfinite, radians
+from math import radians
+from typing import Literal
 
 import numpy as np
 
@@ -12,25 +13,30 @@ from pipeline.case import Case
 from vjm.branch import buckled_path
 from vjm.closed_forms import in_plane_critical, out_of_plane_cantilever
 from vjm.critical import CriticalLoad, critical_load, drive
-from vjm.mechanisms.parallelogram import Parallelogram, SpringAt
+from vjm.mechanisms.parallelogram import Parallelogram
+from vjm.refined import refined
 from vjm.stiffness import closed_form, in_bar_frame, rank, unloaded_stiffness
 
-PLACES: tuple[SpringAt, ...] = ("tip", "middle", "base")
+Place = Literal["tip", "middle", "base", "distributed"]
+LUMPED: tuple[Literal["tip", "middle", "base"], ...] = ("tip", "middle", "base")
+PLACES: tuple[Place, ...] = (*LUMPED, "distributed")
 
 
 @dataclass(frozen=True)
 class SpringLinkage:
-    """The parallelogram of a case with lumped springs at one place."""
+    """The parallelogram of a case: springs of the bars lumped at one place, or distributed with geometric stiffness."""
 
     case: Case
     stiffness: Floats
     q_deg: float
-    place: SpringAt = "tip"
+    place: Place = "tip"
 
     @cached_property
     def mechanism(self) -> Parallelogram:
         size = self.case.linkage
-        return Parallelogram(size.length_mm, size.width_mm, self.stiffness, radians(self.q_deg), self.place)
+        place = "tip" if self.place == "distributed" else self.place
+        lumped = Parallelogram(size.length_mm, size.width_mm, self.stiffness, radians(self.q_deg), place)
+        return refined(lumped) if self.place == "distributed" else lumped
 
     @property
     def closed_form(self) -> Floats:
@@ -52,6 +58,8 @@ class SpringLinkage:
 
     def formula(self, held: Sequence[str], sign: int) -> float | None:
         """The closed form of that critical load where there is one; compression negative."""
+        if self.place == "distributed":
+            return None
         if sign < 0 and "y" not in held and "rz" not in held:
             return out_of_plane_cantilever(self.mechanism) if self.q_deg == 0.0 else None
         loads = in_plane_critical(self.mechanism)
@@ -83,8 +91,3 @@ def linear_slope(stiffness: Floats, q_deg: float, held: Sequence[str]) -> float:
         # The pseudo-inverse leaves out directions that take no force at all.
         relaxed -= base[0, free] @ np.linalg.pinv(base[np.ix_(free, free)], rcond=1e-9) @ base[free, 0]
     return float(relaxed)
-
-
-def finite(value: float) -> float | None:
-    """None for NaN."""
-    return value if isfinite(value) else None
