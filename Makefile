@@ -21,7 +21,7 @@ check: $(STAMP)
 	$(VENV)/bin/ruff format --check .
 	$(VENV)/bin/mypy
 
-test: check
+test: setup check
 	$(PYTHON) -m pytest -n 2 -m "not long"
 
 proofs: $(STAMP)

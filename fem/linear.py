@@ -62,6 +62,12 @@ class LinearModel:
     @cached_property
     def stiffness(self) -> Floats:
         """Cartesian stiffness at the platform point in the base frame, (6, 6), from one factorisation."""
-        motion = self.motions(PLATFORM, ())
-        k = motion.T @ (self.reduced @ motion)
+        k = self.energy_products(self.motions(PLATFORM, ()))
         return 0.5 * (k + k.T)
+
+    def energy_products(self, motion: Floats) -> Floats:
+        """Motionᵀ K motion of unknowns (size, c), (c, c); the error of the motions enters squared only."""
+        # Extended precision: entries of 1e7 N/mm cancel to a few N where a bar bends.
+        wide = motion.astype(np.longdouble)
+        product = self.reduced.astype(np.longdouble) @ wide
+        return np.asarray(wide.T @ product, dtype=float)

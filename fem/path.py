@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 import scipy.sparse as sp
@@ -69,8 +70,13 @@ def follow(
 
     The `held` coordinates stay at zero, the others are free of load. A step that does not converge, or that lands
     on an unstable branch, is cut in halves: bowed bars are followed onto their buckled branch, the path of perfect
-    ones ends at its bifurcation. Raises ValueError when only some of the three rotations are held.
+    ones ends at its bifurcation. Raises ValueError when only some of the three rotations are held,
+    `driven` is no translation, or a value equals the one before it (the first: zero).
     """
+    if driven not in ("x", "y", "z"):
+        raise ValueError(f"driven coordinate is {driven!r}, allowed are x, y, z")
+    if any(a == b for a, b in pairwise([0.0, *values])):
+        raise ValueError("two neighbouring values are equal, allowed are values that each move the platform")
     rotations = [name for name in ("rx", "ry", "rz") if name in held]
     if len(rotations) not in (0, 3):
         raise ValueError(f"held rotations are {', '.join(rotations)}, allowed are all three or none")

@@ -2,9 +2,9 @@
 
 from dataclasses import dataclass
 from itertools import pairwise
-from math import isfinite
+from math import hypot, isfinite
 
-from meshes.section import Patch, Point, Rectangle, Section, rectangle, require_positive
+from meshes.section import Patch, Point, Rectangle, Section, Tube, rectangle, require_positive
 
 
 @dataclass(frozen=True)
@@ -44,6 +44,14 @@ class Bar:
             raise ValueError(
                 f"lug length is {self.lug.length:g} mm, allowed is less than half of length = {self.length:g} mm"
             )
+
+        if self.lug is not None and isinstance(self.section, Tube):
+            reach = hypot(self.lug.width, self.lug.height)
+            if reach <= self.section.bore:
+                raise ValueError(
+                    f"lug of {self.lug.width:g} by {self.lug.height:g} mm fits into the bore, allowed is a diagonal "
+                    f"above {self.section.bore:g} mm"
+                )
 
     @property
     def sweepable(self) -> bool:

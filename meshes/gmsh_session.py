@@ -9,7 +9,10 @@ import gmsh
 @contextmanager
 def session(name: str) -> Iterator[None]:
     """Open a gmsh model that meshes the same way every time and leave nothing behind."""
-    gmsh.initialize(interruptible=False)
+    if gmsh.isInitialized():
+        raise RuntimeError("gmsh is already in use in this process, which can hold one session at a time")
+    # A user's own configuration would change the mesh behind the cache's back.
+    gmsh.initialize(readConfigFiles=False, interruptible=False)
     try:
         gmsh.option.setNumber("General.Terminal", 0)
         # meshio writes several cell types to one file only in version 2.2: one version both ways.

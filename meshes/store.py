@@ -9,6 +9,7 @@ import meshio
 import numpy as np
 
 from meshes.bar import Bar
+from meshes.files import replacing
 from meshes.gmsh_session import session
 from meshes.resolution import Resolution
 from meshes.solid import FACET_OF, SolidMesh
@@ -17,6 +18,8 @@ from meshes.tets import build_tetrahedra
 
 # Part of the cache key: raise it when the same input would give another mesh.
 MESHER = 2
+# Half a million quadratic hexahedra are six million unknowns, beyond what a direct solver takes here.
+MOST_CELLS = 5e5
 FACES = ("base", "tip", "side")
 
 
@@ -45,13 +48,20 @@ def require_workable(bar: Bar, resolution: Resolution) -> None:
         raise ValueError(
             f"mesh size is {resolution.size:g} mm, allowed is at most a quarter of the bar's length, {coarsest:g} mm"
         )
-    size = resolution.size / resolution.level
-    volume = bar.section.area * bar.length
-    if volume / size**3 > 3e6:
+    cells = estimated_cells(bar, resolution)
+    if cells > MOST_CELLS:
         raise ValueError(
-            f"mesh size {size:g} mm would take more than three million elements, "
-            f"allowed is at least {(volume / 3e6) ** (1 / 3):.3g} mm"
+            f"mesh size is {resolution.size:g} mm, at level {resolution.level} that makes about {cells:.2g} cells; "
+            f"allowed are {MOST_CELLS:g}: take a larger size"
         )
+
+
+def estimated_cells(bar: Bar, resolution: Resolution) -> float:
+    """About how many swept hexahedra a bar takes."""
+    width, height = bar.section.size
+    filled = bar.section.area / (width * height)
+    across = resolution.across(width) * resolution.across(height)
+    return max(filled * across, resolution.level**2) * 2.0 * resolution.along(bar.length / 2)[0]
 
 
 def read_mesh(path: Path) -> SolidMesh:
@@ -82,10 +92,8 @@ def write_mesh(mesh: SolidMesh, path: Path) -> None:
     tags = [np.full(len(block), i + 1) for i, (_, block) in enumerate(cells)]
     data = {"gmsh:physical": tags, "gmsh:geometrical": tags}
     out = meshio.Mesh(mesh.points, cells, cell_data=data, field_data=names)
-    path.parent.mkdir(parents=True, exist_ok=True)
-    part = path.with_suffix(".part")
-    meshio.write(part, out, file_format="gmsh22")
-    part.replace(path)
+    with replacing(path) as part:
+        meshio.write(part, out, file_format="gmsh22")
 
 
 def cached_mesh(bar: Bar, resolution: Resolution, folder: Path, tetrahedra: bool = False) -> SolidMesh:
@@ -96,7 +104,7 @@ def cached_mesh(bar: Bar, resolution: Resolution, folder: Path, tetrahedra: bool
         try:
             return read_mesh(path)
         except ValueError:
-            path.unlink()
+            path.unlink(missing_ok=True)
     mesh = mesh_bar(bar, resolution, tetrahedra)
     write_mesh(mesh, path)
     return mesh

@@ -10,8 +10,11 @@ from pydantic import BaseModel, ConfigDict, Field, ValidationError, field_valida
 from pipeline.errors import InputError
 
 SHIPPED = Path(__file__).parent / "cases"
-Matrix = tuple[tuple[float, ...], ...]
-Length = Annotated[float, Field(gt=0.0, allow_inf_nan=False)]
+Number = Annotated[float, Field(strict=True, allow_inf_nan=False)]
+Length = Annotated[Number, Field(gt=0.0)]
+Angle = Annotated[Number, Field(ge=-60.0, le=60.0)]
+Matrix = tuple[tuple[Number, ...], ...]
+TOML_NAMES: dict[type, str] = {dict: "table", list: "list", tuple: "list"}
 
 
 class Part(BaseModel):
@@ -23,8 +26,8 @@ class Part(BaseModel):
 class Material(Part):
     """Isotropic material."""
 
-    E_MPa: Annotated[float, Field(gt=0.0, allow_inf_nan=False)]
-    nu: Annotated[float, Field(gt=-1.0, lt=0.5)]
+    E_MPa: Annotated[Number, Field(gt=0.0)]
+    nu: Annotated[Number, Field(gt=-1.0, lt=0.5)]
     source: str = ""
 
 
@@ -33,9 +36,14 @@ class LinkageSize(Part):
 
     length_mm: Length
     width_mm: Length
-    angles_deg: Annotated[tuple[Annotated[float, Field(ge=-60.0, le=60.0)], ...], Field(min_length=1)] = (
-        0.0,
-    )
+    angles_deg: tuple[Angle, ...] = (0.0,)
+
+    @field_validator("angles_deg")
+    @classmethod
+    def each_once(cls, value: tuple[float, ...]) -> tuple[float, ...]:
+        if not value or len(set(value)) != len(value):
+            raise ValueError("allowed is a list of one or more angles, each once")
+        return value
 
 
 class ISectionSize(Part):
@@ -112,7 +120,7 @@ class Paper(Part):
     source: str
     bar_stiffness: Matrix
     half_linkage_stiffness: Matrix | None = None
-    linkage_angle_deg: float | None = None
+    linkage_angle_deg: Number | None = None
 
     @field_validator("bar_stiffness", "half_linkage_stiffness")
     @classmethod
@@ -137,8 +145,8 @@ class MeshSize(Part):
 class Case(Part):
     """Everything a validation run needs to know."""
 
-    schema_version: Annotated[Literal[1], Field(alias="schema")]
-    name: Annotated[str, Field(pattern=r"^[A-Za-z0-9_.-]+$")]
+    schema_version: Annotated[int, Field(alias="schema", strict=True, ge=1, le=1)]
+    name: Annotated[str, Field(pattern=r"^[A-Za-z0-9][A-Za-z0-9_-]*$")]
     title: str
     source: str = ""
     material: Material
@@ -162,11 +170,13 @@ def shipped_cases() -> list[str]:
 def load_case(name: str) -> Case:
     """The shipped case of this name, or the case in the TOML file at this path; InputError says what is wrong."""
     path = SHIPPED / f"{name}.toml" if name in shipped_cases() else Path(name)
+    if path.is_dir():
+        raise InputError(f"case {name!r} is a folder, allowed is the path of a .toml file")
     if path.suffix != ".toml" or not path.is_file():
         allowed = ", ".join(shipped_cases())
         raise InputError(f"case {name!r} is unknown, allowed are {allowed} or the path of a .toml file")
     try:
-        raw = tomllib.loads(path.read_text(encoding="utf-8"))
+        raw = tomllib.loads(path.read_text(encoding="utf-8-sig"))
     except (tomllib.TOMLDecodeError, UnicodeDecodeError, OSError) as error:
         raise InputError(f"{path}: not a readable TOML file: {error}") from error
     try:
@@ -187,7 +197,11 @@ def complaint(error: Any) -> str:
         return f"{place} is not a key of this table"
     message = error["msg"].removeprefix("Value error, ")
     found = error["input"]
-    shown = repr(found) if isinstance(found, int | float | str) else "what stands there"
+    shown = (
+        repr(found) if isinstance(found, int | float | str) else f"a {TOML_NAMES.get(type(found), 'value')}"
+    )
+    if kind == "union_tag_invalid":
+        return f"{place}.kind is {error['ctx']['tag']!r}, allowed are: {error['ctx']['expected_tags']}"
     wanted = message[0].lower() + message[1:]
     if kind == "value_error":
         return f"{place}: {wanted}" if place else wanted

@@ -1,6 +1,8 @@
-"""The command line: wiring only. Exit codes: 0 done, 2 bad input, 3 the numerics failed."""
+"""The command line: wiring only. Exit codes: 0 done, 2 bad input, 3 the numerics failed, 130 interrupted."""
 
+import shlex
 import sys
+from collections.abc import Callable
 from pathlib import Path
 from typing import Annotated, NoReturn
 
@@ -16,7 +18,10 @@ app = typer.Typer(
 )
 
 CaseName = Annotated[str, typer.Argument(metavar="CASE", help="A shipped case, or the path of a .toml file.")]
-Out = Annotated[Path | None, typer.Option(help="Folder of the result; default reports/validation.")]
+Out = Annotated[
+    Path | None,
+    typer.Option(help="Folder of the result; default reports/validation, or results/CASE-DETAIL."),
+]
 Quiet = Annotated[bool, typer.Option("--quiet", help="No progress.")]
 
 
@@ -44,7 +49,7 @@ def run(
 
     if coarse and fine:
         give_up("--coarse and --fine are both given, allowed is one of the two", 2)
-    guarded(lambda: validate(case, coarse, fine, out, quiet))
+    guarded(lambda: validate(case, coarse, fine, out, quiet, typed()))
 
 
 @app.command()
@@ -58,13 +63,23 @@ def report(
     guarded(lambda: redraw(folder, quiet))
 
 
-def guarded(work: "object") -> None:
+def typed() -> str:
+    """The command line that was given."""
+    return shlex.join(["python", "-m", "pipeline", *sys.argv[1:]])
+
+
+def guarded(work: Callable[[], None]) -> None:
     """Run, and turn what went wrong into one sentence and an exit code."""
     try:
-        work()  # type: ignore[operator]
+        work()
     except InputError as error:
         give_up(str(error), 2)
-    except (RuntimeError, ArithmeticError, OSError) as error:
-        give_up(str(error), 3)
+    except BrokenPipeError:
+        # Whoever read the output has left: not a failure of the run.
+        sys.stdout = None
+    except MemoryError:
+        give_up("the memory of this machine is not enough; allowed is a larger mesh size, or --coarse", 3)
+    except (RuntimeError, ArithmeticError, ValueError, OSError) as error:
+        give_up(f"{type(error).__name__}: {error}" if isinstance(error, ValueError) else str(error), 3)
     except KeyboardInterrupt:
         give_up("interrupted; what was finished is kept and will be reused", 130)

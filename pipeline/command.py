@@ -1,5 +1,6 @@
 """What the commands do, with their imports where they are needed: a complaint about the input comes at once."""
 
+import os
 from pathlib import Path
 
 from pipeline.case import load_case
@@ -7,12 +8,13 @@ from pipeline.errors import InputError
 from pipeline.progress import Progress
 from pipeline.system import require_libraries
 
-DEFAULT_OUT = Path("reports/validation")
+KEPT = Path("reports/validation")
+OWN = Path("results")
 WORKSHOP = Path(".parastiff")
 
 
-def validate(name: str, coarse: bool, fine: bool, out: Path | None, quiet: bool) -> None:
-    """The whole validation of a case, and its report."""
+def validate(name: str, coarse: bool, fine: bool, out: Path | None, quiet: bool, typed: str) -> None:
+    """The whole validation of a case, and its report; `typed` is the command line."""
     case = load_case(name)
     require_libraries()
     from pipeline.detail import COARSE, DEFAULT, FINE
@@ -22,17 +24,32 @@ def validate(name: str, coarse: bool, fine: bool, out: Path | None, quiet: bool)
 
     progress = Progress(quiet)
     detail = COARSE if coarse else FINE if fine else DEFAULT
-    folder = out or (DEFAULT_OUT if name == "orthoglide" else Path("reports") / case.name)
-    usable(folder)
-    result = run(case, detail, Workshop(WORKSHOP, progress), folder)
+    # Only the default look at the paper's case replaces the report that is kept with the project.
+    kept = name == "orthoglide" and detail is DEFAULT
+    folder = out or (KEPT if kept else OWN / f"{case.name}-{detail.name}")
+    usable(folder, f"--out {folder}")
+    usable(WORKSHOP, f"the folder for intermediate results, {WORKSHOP},")
+    result = run(case, detail, Workshop(WORKSHOP, progress), folder, typed)
     write_result(result, folder)
-    pages = draw(folder, progress)
-    print("\n".join(result.story))
-    print(f"report: {pages}")
+    page = draw(folder, progress)
+    print("\n".join([*result.story, f"report: {page}"]))
 
 
 def redraw(folder: Path, quiet: bool) -> None:
     """Draw a saved result again."""
+    from pydantic import ValidationError
+
+    from pipeline.result import Result
+
+    path = folder / "result.json"
+    try:
+        Result.model_validate_json(path.read_bytes())
+    except OSError as error:
+        raise InputError(f"{path} cannot be read: {error.strerror}") from error
+    except ValidationError as error:
+        first = error.errors()[0]
+        place = ".".join(map(str, first["loc"])) or "the file"
+        raise InputError(f"{path} is not a saved result: {place}: {first['msg']}") from error
     require_libraries()
     print(f"report: {draw(folder, Progress(quiet))}")
 
@@ -50,12 +67,10 @@ def draw(folder: Path, progress: Progress) -> Path:
     return folder / "index.html"
 
 
-def usable(folder: Path) -> None:
-    """Raise InputError if results cannot be written there, before any time is spent."""
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-        probe = folder / ".probe"
-        probe.touch()
-        probe.unlink()
-    except OSError as error:
-        raise InputError(f"--out {folder} cannot be written: {error.strerror}") from error
+def usable(folder: Path, named: str) -> None:
+    """Raise InputError if nothing can be written there, before any time is spent; makes nothing."""
+    here = folder
+    while not here.exists() and here != here.parent:
+        here = here.parent
+    if not here.is_dir() or not os.access(here, os.W_OK | os.X_OK):
+        raise InputError(f"{named} cannot be written, allowed is a folder in which you may make files")

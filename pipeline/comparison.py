@@ -13,13 +13,14 @@ from pipeline.result import Critical, Curve, Parallelogram, Validity
 from pipeline.stages.bar import Specimen
 from pipeline.stages.linkage import SolidBuckling, SolidPath, SolidStiffness
 from pipeline.stages.springs import PLACES, SpringLinkage, linear_slope
+from vjm.closed_forms import middle_hinge_only
 from vjm.stiffness import in_bar_frame, singular_values
 
 DEVIATIONS = (0.01, 0.05)
 # What bends sideways in each way of holding the platform: supports of each bar and its plane.
 SIDEWAYS = {
     ("y", "z", "rx", "ry", "rz"): (("clamped", "xy"), ("pinned", "xz")),
-    ("z", "rx", "ry", "rz"): (("guided", "xy"),),
+    ("z", "rx", "ry", "rz"): (("guided", "xy"), ("pinned", "xz")),
     ("z",): (("free", "xy"),),
 }
 NAMED = {
@@ -73,32 +74,47 @@ def stiffness_records(case: Case, stiffness: Floats, solids: Sequence[SolidStiff
 def critical_records(
     case: Case, s: Specimen, stiffness: Floats, solids: Sequence[SolidBuckling]
 ) -> list[Critical]:
-    """Every critical load of the linkage: solid, beam formulas, lumped springs at three places."""
+    """Every critical load of the linkage: solid, beam formulas, springs at three places and distributed."""
     records = []
     for solid in solids:
-        lowest = solid.loads[0]
-        records.append(
-            Critical(
-                q_deg=solid.q_deg,
-                held=solid.held,
-                model="solid",
-                spring_at=None,
-                what=f"lowest mode, in {solid.planes[0]}",
-                load_N=lowest,
-                ratio_to_solid=1.0,
-                why="linear buckling of two solid bars with pins and a rigid platform",
+        for plane, load in lowest_by_plane(solid).items():
+            records.append(
+                Critical(
+                    q_deg=solid.q_deg,
+                    held=solid.held,
+                    model="solid",
+                    spring_at=None,
+                    what=f"lowest mode in {plane}",
+                    load_N=load,
+                    ratio_to_solid=load / solid.loads[0],
+                    why="linear buckling of two solid bars with pins and a rigid platform",
+                )
             )
-        )
         records.extend(formula_records(s, stiffness, solid))
         records.extend(spring_records(case, stiffness, solid))
     return records
 
 
+def lowest_by_plane(solid: SolidBuckling) -> dict[str, float]:
+    """The lowest load of each plane among the modes that were computed, lowest first."""
+    found: dict[str, float] = {}
+    for plane, load in zip(solid.planes, solid.loads, strict=True):
+        found.setdefault(plane, load)
+    return found
+
+
 def formula_records(s: Specimen, stiffness: Floats, solid: SolidBuckling) -> list[Critical]:
-    """Both bars by Euler's formulas with the EI, shear and end softness identified from K_b."""
+    """Both bars by Euler's formulas with the EI, shear and end softness identified from K_b.
+
+    Off q = 0 a platform that is free to turn moves the tips of the two bars unequally out of plane: they are no
+    longer two bars with one load, and there is no such formula.
+    """
     body = s.segments[len(s.segments) // 2]
+    by_plane = lowest_by_plane(solid)
     records = []
     for supports, plane in SIDEWAYS[tuple(solid.held)]:
+        if supports == "free" and solid.q_deg != 0.0:
+            continue
         shear = body.GAy if plane == "xy" else body.GAz
         one = critical_compression(bending_of(stiffness, s.bar.length, plane, shear), supports, 1)
         load = 2.0 * one * cos(radians(solid.q_deg))
@@ -110,8 +126,8 @@ def formula_records(s: Specimen, stiffness: Floats, solid: SolidBuckling) -> lis
                 spring_at=None,
                 what=NAMED[supports, plane],
                 load_N=load,
-                ratio_to_solid=load / solid.loads[0],
-                why=f"two bars, {supports}, EI from K_b, times cos q",
+                ratio_to_solid=load / by_plane[plane] if plane in by_plane else None,
+                why=f"two bars, {supports}, EI from K_b, times cos q; ratio to the solid's load in the same plane",
             )
         )
     return records
@@ -136,11 +152,22 @@ def spring_records(case: Case, stiffness: Floats, solid: SolidBuckling) -> list[
                     load_N=load,
                     searched_N=None if found.found else -found.searched_load,
                     closed_form_N=None if formula is None else -formula,
-                    ratio_to_solid=None if load is None else load / solid.loads[0],
-                    why=WHY_PLACE[place],
+                    ratio_to_solid=None if load is None or sign > 0 else load / solid.loads[0],
+                    why=why(springs),
                 )
             )
     return records
+
+
+def why(springs: SpringLinkage) -> str:
+    """Why springs at this place buckle as they do."""
+    text = WHY_PLACE[springs.place]
+    if springs.place == "middle" and springs.q_deg == 0.0:
+        rigid = -middle_hinge_only(springs.stiffness, springs.case.linkage.length_mm)
+        text += (
+            f"; in plane they would hold 8 K55'/L = {rigid / 1000:.4g} kN if they followed half of the turn"
+        )
+    return text
 
 
 def curve_records(case: Case, stiffness: Floats, paths: Sequence[SolidPath]) -> list[Curve]:

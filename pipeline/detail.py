@@ -7,7 +7,8 @@ from dataclasses import dataclass
 class Detail:
     """Mesh levels: `working` of K_b and linear buckling, `study` of the convergence study, `path` of load paths.
 
-    The paths are sampled at `travel`, at the first `path_angles` angles of the case (None: at all of them).
+    The paths are sampled at `travel`, at the first `path_angles` angles of the case and the first `path_sets` ways of
+    holding the platform (None: all of them).
     """
 
     name: str
@@ -16,6 +17,7 @@ class Detail:
     path: int
     travel: tuple[float, ...]
     path_angles: int | None = None
+    path_sets: int | None = None
 
 
 # Travel of a load path in units of that at the linear critical load: close-set where the branches part.
@@ -26,6 +28,6 @@ MANY = tuple(
         {*SOME, 0.1, 0.3, 0.5, 0.65, 0.7, 0.8, 0.88, 0.93, 0.965, 0.99, 1.01, 1.035, 1.075, 1.15, 1.3, 1.85}
     )
 )
-COARSE = Detail("coarse", working=1, study=(1, 2, 3), path=1, travel=FEW, path_angles=1)
+COARSE = Detail("coarse", working=1, study=(1, 2, 3), path=1, travel=FEW, path_angles=1, path_sets=2)
 DEFAULT = Detail("default", working=2, study=(1, 2, 3, 4), path=1, travel=SOME)
 FINE = Detail("fine", working=3, study=(1, 2, 3, 4, 5), path=2, travel=MANY)

@@ -27,6 +27,8 @@ def versions() -> dict[str, str]:
 def commit() -> str:
     """The commit of the checkout, with "+" if files differ from it; "unknown" outside of one."""
     try:
+        if Path(git("rev-parse", "--show-toplevel")).resolve() != ROOT:
+            return "unknown"
         head = git("rev-parse", "--short=12", "HEAD")
         return head + ("+" if git("status", "--porcelain", "--", "*.py", "*.toml") else "")
     except (OSError, subprocess.CalledProcessError):

@@ -5,12 +5,12 @@ compression is negative; in `buckling` and `critical` a compression load is posi
 """
 
 import json
-import os
-import tempfile
 from pathlib import Path
 from typing import Any
 
 from pydantic import BaseModel, ConfigDict
+
+from meshes.files import replacing
 
 Matrix = list[list[float]]
 
@@ -39,6 +39,7 @@ class Convergence(Record):
     K22: list[float]
     observed_order: float
     orders: dict[str, float]
+    """0 where the values do not approach a limit from one side."""
     extrapolated: Matrix
     band: dict[str, float]
     """Relative discretisation error of the working mesh, entry by entry."""
@@ -199,6 +200,8 @@ class Result(Record):
     seconds: dict[str, float]
     versions: dict[str, str]
     commit: str
+    command: str
+    """What was typed to make it."""
     seed: int
     solver: str
     sources: list[str]
@@ -206,16 +209,8 @@ class Result(Record):
 
 def write_text(path: Path, text: str) -> None:
     """Write a file whole or not at all."""
-    path.parent.mkdir(parents=True, exist_ok=True)
-    handle, part = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}.")
-    try:
-        with os.fdopen(handle, "w", encoding="utf-8") as out:
-            out.write(text)
-        os.chmod(part, 0o644)
-        os.replace(part, path)
-    except BaseException:
-        Path(part).unlink(missing_ok=True)
-        raise
+    with replacing(path) as part:
+        part.write_text(text, encoding="utf-8")
 
 
 def write_result(result: Result, folder: Path) -> Path:

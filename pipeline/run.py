@@ -8,6 +8,7 @@ import numpy as np
 from pydantic import BaseModel
 
 from fem.solvers import has_pardiso
+from meshes.files import replacing
 from pipeline.case import Case
 from pipeline.comparison import critical_records, curve_records, stiffness_records, validity_records
 from pipeline.detail import Detail
@@ -71,8 +72,8 @@ class Run:
         return [*s.inputs, self.case.model_dump(mode="json")]
 
 
-def run(case: Case, detail: Detail, workshop: Workshop, out: Path) -> Result:
-    """Do all stages; the mode shapes are left in `out`/modes.
+def run(case: Case, detail: Detail, workshop: Workshop, out: Path, typed: str) -> Result:
+    """Do all stages; the mode shapes are left in `out`/modes at the end. `typed` is the command line.
 
     Raises InputError for dimensions that cannot be, SolveError or RuntimeError if the numerics fail.
     """
@@ -82,9 +83,13 @@ def run(case: Case, detail: Detail, workshop: Workshop, out: Path) -> Result:
         mesh = s.mesh(detail.working)
         stage.note = f"{len(mesh.cells)} {mesh.kind}, {mesh.dofs} unknowns"
     bar = identify(case, s, fit)
-    buckling = buckled_bar(job, s, out)
+    buckling, shapes = buckled_bar(job, s)
     solids = solid_stage(job, s)
     springs = spring_stage(job, s, bar, *solids)
+    for path in shapes:
+        # Late, so that an interrupted run leaves no new shapes beside an old result.
+        with replacing(out / "modes" / path.name) as part:
+            shutil.copyfile(path, part)
     return Result(
         schema_version=1,
         case=case.name,
@@ -104,25 +109,20 @@ def run(case: Case, detail: Detail, workshop: Workshop, out: Path) -> Result:
         seconds=dict(job.progress.seconds),
         versions=versions(),
         commit=commit(),
+        command=typed,
         seed=SEED,
         solver="pardiso" if has_pardiso() else "SuperLU",
         sources=list(SOURCES),
     )
 
 
-def buckled_bar(job: Run, s: Specimen, out: Path) -> list[Buckling]:
-    """Buckling of the bar; its mode shapes are copied to the result."""
+def buckled_bar(job: Run, s: Specimen) -> tuple[list[Buckling], list[Path]]:
+    """Buckling of the bar, and the files with its mode shapes."""
     folder = job.workshop.files("bar buckling", s.inputs)
     records = job.workshop.reuse(
         "bar buckling", s.inputs, list[Buckling], lambda stage: buckle_bar(s, folder, stage), mode_files()
     )
-    target = out / "modes"
-    target.mkdir(parents=True, exist_ok=True)
-    for name in mode_files():
-        part = target / f".{name}.part"
-        shutil.copyfile(folder / name, part)
-        part.replace(target / name)
-    return records
+    return records, [folder / name for name in mode_files()]
 
 
 def solid_stage(job: Run, s: Specimen) -> tuple[list[SolidStiffness], list[SolidBuckling], list[SolidPath]]:
@@ -137,7 +137,7 @@ def solid_stage(job: Run, s: Specimen) -> tuple[list[SolidStiffness], list[Solid
 
     def paths(stage: Stage) -> list[SolidPath]:
         angles = job.case.linkage.angles_deg[: job.detail.path_angles]
-        pairs = [(q, held) for q in angles for held in HELD_SETS]
+        pairs = [(q, held) for q in angles for held in HELD_SETS[: job.detail.path_sets]]
         return [solid_path(job.case, s, q, held, stage) for q, held in pairs]
 
     return stiffness, loads, keep("linkage load paths", inputs, list[SolidPath], paths)

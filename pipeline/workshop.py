@@ -55,7 +55,7 @@ class Workshop:
                     running.note = "reused"
                     return value
                 except ValidationError:
-                    path.unlink()
+                    path.unlink(missing_ok=True)
             value = compute(running)
             write_text(path, adapter.dump_json(value).decode())
             return value

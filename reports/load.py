@@ -12,7 +12,7 @@ Json = Mapping[str, Any]
 # What the report draws, path by path; "[]" after a name is a list of such objects, "?" one that may be null.
 REQUIRED = {
     "": "case title detail length_mm width_mm bar buckling parallelogram critical curves validity orthoglide "
-    "errata story seconds versions commit seed solver sources",
+    "errata story seconds versions commit command seed solver sources",
     "bar": "section length_mm lug material constants stiffness paper worst_entry_error oracle second_route "
     "fit dofs cells cell_kind quality laws convergence",
     "bar.section": "kind",

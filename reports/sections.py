@@ -160,7 +160,7 @@ READING: Sequence[str] = (
 
 def record(result: Json) -> Section:
     """How to read the report, and how to make it again."""
-    commands = "python -m pipeline run\npython -m pipeline report DIR"
+    commands = f"{result['command']}\npython -m pipeline report DIR"
     return Section(
         "reading",
         "How to read this report",

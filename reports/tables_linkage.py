@@ -89,7 +89,7 @@ def ranks(items: Sequence[Json]) -> Table:
     """Rank of K_p and the singular values of the FE matrix."""
     rows = [
         [
-            fixed(item["q_deg"], 0),
+            f"{item['q_deg']:g}",
             str(item["rank"]),
             percent(item["worst_fea_deviation"]).removeprefix("+"),
             *(number(value, 4) for value in item["singular_values_fea"]),
@@ -160,7 +160,7 @@ def closed_forms(result: Json) -> Table | None:
     """Numerical critical loads against their own closed forms."""
     rows = [
         [
-            fixed(item["q_deg"], 0),
+            f"{item['q_deg']:g}",
             held_label(item["held"]),
             model_label(item),
             number(item["load_N"]),

@@ -57,9 +57,9 @@ def driven(mechanism: Mechanism, displacement: float) -> Array:
 def drive(
     mechanism: Mechanism, displacement: float, held: Collection[str], start: Equilibrium | None = None
 ) -> Equilibrium:
-    """Equilibrium at a driven x; `held` includes x, the other coordinates are free of load."""
+    """Equilibrium at a driven x, on the branch of the start; the coordinates not `held` are free of load."""
     target = np.where(held_mask(held), driven(mechanism, displacement), 0.0)
-    return equilibrium(mechanism, target, held, start)
+    return equilibrium(mechanism, target, held, start, follow=True)
 
 
 def critical_load(

@@ -32,6 +32,8 @@ class Equilibrium:
     step, translations over the mechanism's length, forces over its largest spring x length.
     iterations: (...). converged: (...) of bool. reason: (...) of strings. Where `converged` is False the
     state is none of the equilibrium asked for.
+    unstable: (...) number of directions in which the equilibrium is unstable while the held coordinates stay:
+    0 stable, positive past a critical load, -1 not known.
     held: (..., 6) mask of the held platform coordinates. memory: (..., M) of the laws before this step.
     """
 
@@ -41,6 +43,7 @@ class Equilibrium:
     residual: Array
     converged: np.ndarray
     reason: np.ndarray
+    unstable: np.ndarray
     held: np.ndarray
     memory: Array
 
@@ -110,7 +113,7 @@ class Equilibrium:
     def reshaped(self, *batch: int) -> Equilibrium:
         """The same states with other batch axes."""
         axes = self.converged.ndim
-        parts = (part.reshape(*batch, *part.shape[axes:]) for part in _arrays(self))
+        parts = (part.reshape((*batch, *part.shape[axes:])) for part in _arrays(self))
         return Equilibrium(self.mechanism, *parts)
 
 
@@ -127,6 +130,7 @@ def unloaded(mechanism: Mechanism) -> Equilibrium:
         np.array(0.0),
         np.array(True),
         np.array(CONVERGED, dtype=object),
+        np.array(-1),
         np.ones(6, dtype=bool),
         initial_memory(mechanism),
     )
@@ -139,6 +143,7 @@ def equilibrium(
     start: Equilibrium | None = None,
     tolerance: float = TOLERANCE,
     limit: int = ITERATIONS,
+    follow: bool = False,
 ) -> Equilibrium:
     """Newton's method on the stationarity of the Lagrange function, Hessians included.
 
@@ -146,12 +151,14 @@ def equilibrium(
     conjugate to the rotation vector. held: names for all load cases, or a mask (..., 6); default all six.
     start: state to begin from, broadcast over the batch; default the unloaded mechanism. Laws with memory
     continue from it.
-    Quadratic near a solution and able to stay on an unstable branch, which Eq. 6 (`picard`) is not; whether
-    the equilibrium is stable says `vjm.stability`. Load cases that fail at once are approached in increments.
+    follow: stay on the branch of the start even where it is unstable.
+    Quadratic near a solution and able to stay on an unstable branch, which Eq. 6 (`picard`) is not. Load cases
+    that fail at once, or end unstable, are approached in increments. What is unstable all the same, past a
+    critical load, is returned as such: see `Equilibrium.unstable` and `vjm.stability.verified`.
     ValueError for targets whose last axis is not 6 or that are not finite.
     """
     problem, first, batch = _posed(mechanism, targets, held, start)
-    return record(problem, solve(problem, first, tolerance, limit), batch)
+    return record(problem, solve(problem, first, tolerance, limit, follow), batch)
 
 
 def picard(
@@ -188,6 +195,7 @@ def load_path(
     targets: ArrayLike,
     held: Held = POSE_NAMES,
     start: Equilibrium | None = None,
+    follow: bool = False,
 ) -> Equilibrium:
     """Equilibria along a history: targets (steps, ..., 6) as in `equilibrium`, each started at the last.
 
@@ -198,7 +206,7 @@ def load_path(
     masks = np.broadcast_to(masks, np.broadcast_shapes(masks.shape, targets.shape))
     states = []
     for target, mask in zip(targets, masks, strict=True):
-        start = equilibrium(mechanism, target, mask, start)
+        start = equilibrium(mechanism, target, mask, start, follow=follow)
         states.append(start)
     return stack(states)
 
@@ -219,6 +227,7 @@ def record(problem: Problem, end: Iterate, batch: tuple[int, ...]) -> Equilibriu
         end.residual.reshape(batch),
         (end.reason == CONVERGED).reshape(batch),
         end.reason.reshape(batch),
+        end.unstable.reshape(batch),
         problem.held.reshape(*batch, 6),
         problem.memory.reshape(*batch, problem.memory.shape[-1]),
     )

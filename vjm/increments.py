@@ -2,34 +2,39 @@
 
 from __future__ import annotations
 
+from dataclasses import fields
+
 import numpy as np
 
 from vjm.frames import Array
-from vjm.newton import CONVERGED, RUNNING, Iterate, newton
+from vjm.newton import CONVERGED, RUNNING, Iterate, newton, unsolved
 from vjm.problem import Problem
 
-DIVISIONS = (4, 16)
+FIRST_STEP, LEAST_STEP = 1.0 / 16.0, 1.0 / 128.0
 # Numbers of a chunk's matrices; a few MB, so that they stay in a cache and memory does not grow with the batch.
 _NUMBERS = 400_000
 _SOON = 8
+LOST_STABILITY = "no stable equilibrium further on"
 
 
-def solve(problem: Problem, start: Array, tolerance: float, limit: int) -> Iterate:
+def solve(problem: Problem, start: Array, tolerance: float, limit: int, follow: bool) -> Iterate:
     """Equilibria of all load cases, begun at `start` (B, N).
 
-    A load case that Newton's method does not reach from its start is approached in 4, then in 16 equal
-    increments of all its targets. Where that fails too, its reason says how far there was an equilibrium, and
-    its unknowns are the last one.
+    A load case that Newton's method does not reach from its start is approached in increments of all its
+    targets, halved where they fail and doubled where they do not. If that fails too, its reason says how far
+    there was an equilibrium, and its unknowns are the last one. Unless `follow` is set, an unstable
+    equilibrium is approached in increments as well, through stable ones only, and a stable one that this leads
+    to takes its place: Newton's method may jump over to a solution that no loading reaches.
     """
     end = _newton(problem, start, tolerance, limit)
-    for divisions in DIVISIONS:
-        failed = np.flatnonzero(end.reason != CONVERGED)
-        if failed.size == 0:
-            break
-        again = _in_increments(problem.take(failed), start[failed], divisions, tolerance, limit)
-        end.unknowns[failed], end.residual[failed] = again.unknowns, again.residual
-        end.iterations[failed] += again.iterations
-        end.reason[failed] = again.reason
+    failed = np.flatnonzero(end.reason != CONVERGED)
+    if failed.size:
+        end.put(failed, _in_increments(problem.take(failed), start[failed], tolerance, limit, follow))
+    unstable = np.flatnonzero(end.unstable > 0)
+    if unstable.size and not follow:
+        again = _in_increments(problem.take(unstable), start[unstable], tolerance, limit, follow)
+        better = again.unstable == 0
+        end.put(unstable[better], _members(again, better))
     return end
 
 
@@ -38,9 +43,7 @@ def _newton(problem: Problem, start: Array, tolerance: float, limit: int) -> Ite
     end = _in_chunks(problem, start, tolerance, min(limit, _SOON))
     late = np.flatnonzero(end.reason == RUNNING)
     if late.size and limit > _SOON:
-        rest = _in_chunks(problem.take(late), end.unknowns[late], tolerance, limit - _SOON)
-        end.unknowns[late], end.residual[late], end.reason[late] = rest.unknowns, rest.residual, rest.reason
-        end.iterations[late] += rest.iterations
+        end.put(late, _in_chunks(problem.take(late), end.unknowns[late], tolerance, limit - _SOON))
     return end
 
 
@@ -48,32 +51,39 @@ def _in_chunks(problem: Problem, start: Array, tolerance: float, limit: int) -> 
     place = problem.place
     motion = np.arange(place.platform.stop)
     step = max(4, _NUMBERS // (max(x.stop - x.start for x in place.coordinates) + 6) ** 2)
-    ends = []
-    for first in range(0, max(len(start), 1), step):
-        part = slice(first, first + step)
+    end = unsolved(start)
+    for first in range(0, len(start), step):
+        part = np.arange(first, min(first + step, len(start)))
         system = problem.take(part).blockwise
-        ends.append(newton(system, start[part], place.scale, tolerance, limit, motion))
-    parts = zip(*((e.unknowns, e.residual, e.iterations, e.reason) for e in ends), strict=True)
-    return Iterate(*(np.concatenate(part) for part in parts))
+        end.put(part, newton(system, start[part], place.scale, tolerance, limit, motion))
+    return end
 
 
-def _in_increments(problem: Problem, start: Array, divisions: int, tolerance: float, limit: int) -> Iterate:
+def _in_increments(problem: Problem, start: Array, tolerance: float, limit: int, follow: bool) -> Iterate:
+    """Targets approached from the pose and load at the start; a load case that fails stays where it got to."""
     place = problem.place
     load = np.sum([start[:, dual] for dual in place.multipliers], axis=0)
     origin = np.where(problem.held, start[:, place.platform], load)
-    count = len(start)
-    end = Iterate(
-        start.copy(), np.full(count, np.inf), np.zeros(count, dtype=int), np.full(count, "", dtype=object)
-    )
-    active = np.arange(count)
-    for k in range(1, divisions + 1):
-        aim = origin + (k / divisions) * (problem.targets - origin)
-        part = _newton(problem.aim(aim).take(active), end.unknowns[active], tolerance, limit)
-        found = part.reason == CONVERGED
-        end.unknowns[active[found]] = part.unknowns[found]
-        end.residual[active], end.reason[active] = part.residual, part.reason
-        end.iterations[active] += part.iterations
-        reached = f"; last equilibrium {100 * (k - 1) / divisions:.0f} % of the way from the start"
-        end.reason[active[~found]] += reached
-        active = active[found]
+    end = unsolved(start)
+    reached, step = np.zeros(len(start)), np.full(len(start), FIRST_STEP)
+    active = np.arange(len(start))
+    while active.size:
+        share = np.minimum(reached[active] + step[active], 1.0)[:, None]
+        aim = origin[active] + share * (problem.targets[active] - origin[active])
+        part = _newton(problem.take(active).aim(aim), end.unknowns[active], tolerance, limit)
+        good = (part.reason == CONVERGED) & (follow | (part.unstable <= 0))
+        part.unknowns[~good] = end.unknowns[active[~good]]
+        end.put(active, part)
+        reached[active[good]] = share[good, 0]
+        step[active] = np.where(good, np.minimum(2.0 * step[active], FIRST_STEP), 0.5 * step[active])
+        lost = active[step[active] < LEAST_STEP]
+        for k in lost:
+            why = LOST_STABILITY if end.reason[k] == CONVERGED else end.reason[k]
+            end.reason[k] = f"{why}; last equilibrium {100 * reached[k]:.3g} % of the way from the start"
+        end.unstable[lost] = -1
+        active = active[(step[active] >= LEAST_STEP) & (reached[active] < 1.0)]
     return end
+
+
+def _members(end: Iterate, mask: np.ndarray) -> Iterate:
+    return Iterate(*(getattr(end, field.name)[mask] for field in fields(end)))

@@ -17,7 +17,7 @@ from numpy.typing import ArrayLike
 
 from vjm.frames import Array
 from vjm.mechanism import ElasticChain, Mechanism
-from vjm.newton import solve_each
+from vjm.newton import negative_pivots, solve_each
 
 
 @dataclass(frozen=True, eq=False)
@@ -80,12 +80,14 @@ class ChainRows:
     """One chain's share of gradient and Hessian.
 
     balance: (..., m) by its coordinates. gap: (..., 6) t - g. matrix: (..., m + 6, m + 6) by its coordinates
-    and its multiplier.
+    and its multiplier. order: (m + 6,) virtual coordinates, multiplier, passive coordinates: eliminated in
+    this order the matrix at rest has no zero pivot.
     """
 
     balance: Array
     gap: Array
     matrix: Array
+    order: np.ndarray
 
 
 def chain_rows(
@@ -104,7 +106,7 @@ def chain_rows(
     matrix[..., :m, :m] = answer.tangent - curvature
     matrix[..., m:, :m] = -jacobian
     matrix[..., :m, m:] = -np.swapaxes(jacobian, -1, -2)
-    return ChainRows(answer.force - pull, pose - kinematics.pose, matrix)
+    return ChainRows(answer.force - pull, pose - kinematics.pose, matrix, chain.elimination_order)
 
 
 def all_rows(mechanism: Mechanism, unknowns: Array, memory: Array) -> tuple[ChainRows, ...]:
@@ -140,10 +142,17 @@ def hessian(place: Layout, rows: tuple[ChainRows, ...]) -> Array:
     return out
 
 
-def newton_step(
-    place: Layout, rows: tuple[ChainRows, ...], right: Array, held: np.ndarray
-) -> tuple[Array, np.ndarray]:
-    """Dimensionless solutions (B, N, r) of H step = right, chain by chain, and a mask (B,) of regular members.
+@dataclass(frozen=True, eq=False)
+class Solution:
+    """step: (B, N, r) dimensionless. regular: (B,). stiffness: (B, 6, 6) dimensionless, the sum of Eq. 10."""
+
+    step: Array
+    regular: np.ndarray
+    stiffness: Array
+
+
+def newton_step(place: Layout, rows: tuple[ChainRows, ...], right: Array, held: np.ndarray) -> Solution:
+    """Dimensionless solutions of H step = right, chain by chain.
 
     right: (B, N, r) dimensionless; where `held` (B, 6) is True the platform's row reads step = right instead.
     Each chain is solved for its own right side and for six unit motions of the platform, which leaves 6x6
@@ -157,11 +166,10 @@ def newton_step(
     answers = []
     for row, x, dual in zip(rows, place.coordinates, place.multipliers, strict=True):
         m = x.stop - x.start
-        scale = np.concatenate([place.scale[x], place.scale[dual]])
         sides = np.zeros((len(right), m + 6, count + 6))
         sides[:, :m, :count], sides[:, m:, :count] = right[:, x], right[:, dual]
         sides[:, m:, count:] = -np.eye(6)
-        answer, solvable = solve_each(row.matrix * np.outer(scale, scale / place.energy), sides)
+        answer, solvable = solve_each(_dimensionless(place, row, x, dual), sides)
         platform -= np.where(held[..., None], 0.0, answer[:, m:, :count])
         stiffness += answer[:, m:, count:]
         regular &= solvable
@@ -172,7 +180,33 @@ def newton_step(
         m = x.stop - x.start
         whole = answer[..., :count] + answer[..., count:] @ motion
         step[:, x], step[:, dual] = whole[:, :m], whole[:, m:]
-    return step, regular & solvable
+    return Solution(step, regular & solvable, stiffness)
+
+
+def unstable_directions(
+    place: Layout, rows: tuple[ChainRows, ...], stiffness: Array, held: np.ndarray, members: np.ndarray
+) -> np.ndarray:
+    """Number of unstable directions of these members, chain by chain.
+
+    Inertia adds up over the elimination (E. V. Haynsworth, "Determination of the inertia of a partitioned
+    Hermitian matrix", Linear Algebra and its Applications 1, 1968): what each chain's matrix has beyond the six
+    negative eigenvalues of its closure, and what is left on the free platform coordinates.
+    """
+    count = np.zeros(members.size, dtype=int)
+    if members.size == 0:
+        return count
+    for row, x, dual in zip(rows, place.coordinates, place.multipliers, strict=True):
+        part = ChainRows(row.balance, row.gap, row.matrix[members], row.order)
+        matrix = _dimensionless(place, part, x, dual)[:, row.order[:, None], row.order]
+        count += negative_pivots(matrix) - 6
+    free = ~held[members]
+    both = free[:, :, None] & free[:, None, :]
+    return count + negative_pivots(np.where(both, stiffness[members], np.eye(6)))
+
+
+def _dimensionless(place: Layout, row: ChainRows, x: slice, dual: slice) -> Array:
+    scale = np.concatenate([place.scale[x], place.scale[dual]])
+    return row.matrix * np.outer(scale, scale / place.energy)
 
 
 def _coordinate_scale(chain: ElasticChain, length: float) -> Array:

@@ -54,6 +54,14 @@ class ElasticChain:
         return self.chain.indices(Role.PASSIVE, Role.VIRTUAL)
 
     @cached_property
+    def elimination_order(self) -> np.ndarray:
+        """Numbers of virtual coordinates, multiplier and passive ones among moving coordinates and multiplier."""
+        m = self.moving.size
+        place = {int(number): k for k, number in enumerate(self.moving)}
+        virtual, passive = ([place[int(k)] for k in numbers] for numbers in (self.virtual, self.passive))
+        return np.array([*virtual, *range(m, m + 6), *passive], dtype=int)
+
+    @cached_property
     def full_stiffness(self) -> Array:
         """(m, m) linear stiffness of the moving coordinates, zero for the passive ones."""
         full = np.zeros((self.chain.size, self.chain.size))

@@ -9,10 +9,12 @@ import numpy as np
 
 from vjm.frames import Array
 
-Step = Callable[[], tuple[Array, np.ndarray]]
+Step = Callable[[np.ndarray], tuple[Array, np.ndarray, np.ndarray]]
 System = Callable[[Array, np.ndarray], tuple[Array, Step]]
 """Takes unknowns (B, N) and the numbers (B,) of their batch members; returns the dimensionless residual (B, N)
-and what gives Newton's step (B, N), in units of the scale, with a mask (B,) of the members that have one."""
+and what gives Newton's step (B, N), in units of the scale, with a mask (B,) of the members that have one. It is
+told the numbers of the members that this step finishes and counts their unstable directions, -1: not counted.
+"""
 
 CONVERGED, RUNNING = "converged", "not converged within the allowed iterations"
 DIVERGED, SINGULAR = "diverged: the residual grew beyond bounds", "stopped at a singular matrix"
@@ -22,12 +24,35 @@ LARGEST_STEP = 0.5
 
 @dataclass(frozen=True, eq=False)
 class Iterate:
-    """Where the iteration ended: unknowns (B, N), residual (B,), iterations (B,), reason (B,) of strings."""
+    """Where the iteration ended.
+
+    unknowns: (B, N). residual: (B,). iterations: (B,). reason: (B,) of strings. unstable: (B,) number of
+    unstable directions, -1 where not converged or not counted.
+    """
 
     unknowns: Array
     residual: Array
     iterations: np.ndarray
     reason: np.ndarray
+    unstable: np.ndarray
+
+    def put(self, members: np.ndarray, other: Iterate) -> None:
+        """Replace these members by those of another iteration, whose iterations are added."""
+        for name in ("unknowns", "residual", "reason", "unstable"):
+            getattr(self, name)[members] = getattr(other, name)
+        self.iterations[members] += other.iterations
+
+
+def unsolved(start: Array) -> Iterate:
+    """The state before the first iteration."""
+    count = len(start)
+    return Iterate(
+        start.copy(),
+        np.full(count, np.inf),
+        np.zeros(count, dtype=int),
+        np.full(count, RUNNING, dtype=object),
+        np.full(count, -1),
+    )
 
 
 def solve_each(matrices: Array, right: Array) -> tuple[Array, np.ndarray]:
@@ -49,9 +74,9 @@ def solve_each(matrices: Array, right: Array) -> tuple[Array, np.ndarray]:
 def dense(rows: Array, matrix: Array, scale: Array) -> Step:
     """Newton's step from the whole matrix (B, N, N), its columns by unknowns of the sizes `scale`."""
 
-    def step() -> tuple[Array, np.ndarray]:
+    def step(done: np.ndarray) -> tuple[Array, np.ndarray, np.ndarray]:
         solution, regular = solve_each(matrix * scale, -rows[..., None])
-        return solution[..., 0], regular
+        return solution[..., 0], regular, np.full(done.size, -1)
 
     return step
 
@@ -66,28 +91,40 @@ def newton(
     The step after the residual has met the tolerance is still taken: it costs one solve and brings the
     residual to rounding. Members that fail keep their last finite unknowns and a reason.
     """
-    unknowns = start.copy()
-    count = len(start)
-    residual = np.full(count, np.inf)
-    iterations = np.zeros(count, dtype=int)
-    reason = np.full(count, RUNNING, dtype=object)
-    active = np.arange(count)
+    end = unsolved(start)
+    active = np.arange(len(start))
     for _ in range(limit):
         if active.size == 0:
             break
-        rows, solve = system(unknowns[active], active)
-        residual[active] = size = np.max(np.abs(rows), axis=-1)
-        step, regular = solve()
-        reason[active[~regular]] = SINGULAR
+        rows, solve = system(end.unknowns[active], active)
+        end.residual[active] = size = np.max(np.abs(rows), axis=-1)
+        done = size < tolerance
+        step, regular, end.unstable[active[done]] = solve(np.flatnonzero(done))
+        end.reason[active[~regular]] = SINGULAR
         far = ~(size < DIVERGED_ABOVE)
-        reason[active[far]] = DIVERGED
+        end.reason[active[far]] = DIVERGED
         moving = regular & ~far
-        unknowns[active[moving]] += _shortened(step[moving], motion) * scale
-        iterations[active] += 1
-        done = moving & (size < tolerance)
-        reason[active[done]] = CONVERGED
+        end.unknowns[active[moving]] += _shortened(step[moving], motion) * scale
+        end.iterations[active] += 1
+        end.reason[active[moving & done]] = CONVERGED
         active = active[moving & ~done]
-    return Iterate(unknowns, residual, iterations, reason)
+    return end
+
+
+def negative_pivots(symmetric: Array) -> np.ndarray:
+    """Number (B,) of negative eigenvalues of (B, n, n), by the signs of the pivots of L D L^T.
+
+    Sylvester's law of inertia. There is no pivoting: rows stand in an order that makes leading blocks regular,
+    and a pivot that vanishes all the same is replaced by a tiny one, which the next one answers.
+    """
+    a = np.moveaxis(symmetric, 0, -1).copy()
+    tiny = 1e-14 * np.max(np.abs(a), axis=(0, 1))
+    count = np.zeros(len(symmetric), dtype=int)
+    for k in range(len(a)):
+        pivot = np.where(np.abs(a[k, k]) < tiny, tiny, a[k, k])
+        count += pivot < 0
+        a[k + 1 :, k + 1 :] -= a[k + 1 :, None, k] * (a[None, k, k + 1 :] / pivot)
+    return count
 
 
 def _shortened(step: Array, motion: np.ndarray | None) -> Array:

@@ -59,11 +59,11 @@ class Problem:
         chains = lagrangian.all_rows(self.mechanism, unknowns, self.memory[members])
         rows = self._residual(chains, unknowns, members)
 
-        def step() -> tuple[Array, np.ndarray]:
-            solution, regular = lagrangian.newton_step(
-                self.place, chains, -rows[..., None], self.held[members]
-            )
-            return solution[..., 0], regular
+        def step(done: np.ndarray) -> tuple[Array, np.ndarray, np.ndarray]:
+            held = self.held[members]
+            found = lagrangian.newton_step(self.place, chains, -rows[..., None], held)
+            unstable = lagrangian.unstable_directions(self.place, chains, found.stiffness, held, done)
+            return found.step[..., 0], found.regular, unstable
 
         return rows, step
 

@@ -113,8 +113,9 @@ def _solve(state: Equilibrium, right: Array) -> tuple[Array, np.ndarray]:
     flat = state.reshaped(state.converged.size)
     chains = lagrangian.all_rows(state.mechanism, flat.unknowns, flat.memory)
     sides = right.reshape(len(flat.unknowns), place.size, right.shape[-1])
-    step, regular = lagrangian.newton_step(place, chains, sides, flat.held)
-    return (step * place.scale[:, None]).reshape(right.shape), regular.reshape(state.converged.shape)
+    found = lagrangian.newton_step(place, chains, sides, flat.held)
+    unknowns = (found.step * place.scale[:, None]).reshape(right.shape)
+    return unknowns, found.regular.reshape(state.converged.shape)
 
 
 def _memory_change(

@@ -60,19 +60,12 @@ def negative_eigenvalues(state: Equilibrium, held: Held) -> np.ndarray:
 def verified(state: Equilibrium) -> Equilibrium:
     """The state with unstable equilibria marked as failed: past a critical load they are no answer.
 
-    The coordinates held are those of the state. A marked member keeps its pose and load, for study.
+    A marked member keeps its pose and load, for study.
     """
-    flat = state.reshaped(state.converged.size)
-    count = np.zeros(state.converged.size, dtype=int)
-    for mask in np.unique(flat.held[flat.converged], axis=0):
-        members = np.flatnonzero(np.all(flat.held == mask, axis=1) & flat.converged)
-        count[members] = negative_eigenvalues(flat.member(members), mask)
-    reason = flat.reason.copy()
-    for k in np.flatnonzero(count):
-        reason[k] = f"{UNSTABLE}: {count[k]} negative eigenvalue(s) of the tangent"
-    return replace(flat, converged=flat.converged & (count == 0), reason=reason).reshaped(
-        *state.converged.shape
-    )
+    reason = state.reason.copy()
+    for index in zip(*np.nonzero(state.unstable > 0), strict=True):
+        reason[index] = f"{UNSTABLE}: {state.unstable[index]} negative eigenvalue(s) of the tangent"
+    return replace(state, converged=state.converged & ~(state.unstable > 0), reason=reason)
 
 
 def reduced_modes(state: Equilibrium, held: Held) -> Modes:

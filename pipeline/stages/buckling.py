@@ -9,6 +9,7 @@ from fem.buckling import Mode, buckling
 from fem.euler import bending_of, critical_compression, torsional_load
 from fem.linear import LinearModel
 from fem.linkage import single_bar
+from meshes.files import replacing
 from meshes.solid import SolidMesh
 from pipeline.progress import Stage
 from pipeline.result import Buckling
@@ -85,13 +86,10 @@ def with_formula(record: Buckling, load: float, name: str) -> Buckling:
 
 def write_modes(mesh: SolidMesh, modes: tuple[Mode, ...], path: Path) -> None:
     """Mode shapes of one bar as point data mode_1 .. of a VTU file, largest displacement 1 mm."""
-    path.parent.mkdir(parents=True, exist_ok=True)
     fields = {
         f"mode_{n}": mode.displacements[0].reshape(-1, 3).astype(np.float32)
         for n, mode in enumerate(modes, 1)
     }
-    part = path.with_suffix(".part")
-    meshio.write(
-        part, meshio.Mesh(mesh.points, [(mesh.kind, mesh.cells)], point_data=fields), file_format="vtu"
-    )
-    part.replace(path)
+    with replacing(path) as part:
+        body = meshio.Mesh(mesh.points, [(mesh.kind, mesh.cells)], point_data=fields)
+        meshio.write(part, body, file_format="vtu")

@@ -22,7 +22,8 @@ HELD_SETS: tuple[tuple[str, ...], ...] = (
     ("z", "rx", "ry", "rz"),
     ("z",),
 )
-LOWEST = 4
+# Enough for both planes: two equal bars give every mode of a bar twice, sideways modes come first.
+LOWEST = 6
 # Bow of both bars in the shape of the lowest mode, as a share of the length: a thirty-thousandth.
 BOW = 1.0 / 30000.0
 
@@ -54,7 +55,6 @@ class SolidStiffness(BaseModel):
 
     q_deg: float
     matrix: Matrix
-    doubled_dofs: int
 
 
 def solid_linkage(case: Case, s: Specimen, space: Space, q_deg: float) -> LinearModel:
@@ -68,7 +68,7 @@ def solid_stiffness(case: Case, s: Specimen) -> list[SolidStiffness]:
     found = []
     for q in case.linkage.angles_deg:
         model = solid_linkage(case, s, s.space, q)
-        found.append(SolidStiffness(q_deg=q, matrix=rows(model.stiffness), doubled_dofs=model.linkage.dofs))
+        found.append(SolidStiffness(q_deg=q, matrix=rows(model.stiffness)))
     return found
 
 

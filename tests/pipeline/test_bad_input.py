@@ -62,7 +62,7 @@ COMMANDS = {
         "flange_thickness is 9 mm, allowed",
     ),
     "mesh too coarse": (("size_mm = 6.0", "size_mm = 100.0"), [], "mesh size is 100 mm, allowed is at most"),
-    "mesh too fine": (("size_mm = 6.0", "size_mm = 0.001"), [], "more than three million elements"),
+    "mesh too fine": (("size_mm = 6.0", "size_mm = 0.001"), [], "cells; allowed are"),
     "both levels": (None, ["orthoglide", "--coarse", "--fine"], "allowed is one of the two"),
 }
 

@@ -204,6 +204,7 @@ def result() -> dict[str, Any]:
         "seconds": {"mesh": 0.4, "stiffness": 1.3, "curves": 12.0},
         "versions": {"numpy": "2.0"},
         "commit": "0" * 40,
+        "command": "python -m pipeline run",
         "seed": 7,
         "solver": "direct",
         "sources": ["Pashkevich et al., 2010"],
