@@ -77,8 +77,8 @@ def bar_buckling_sentences(records: Sequence[Buckling]) -> list[str]:
         f"{kilo(lowest['guided'])}, clamped sideways at {kilo(lowest['clamped'])}, and in plane between the pins at "
         f"{kilo(in_plane)}.",
         f"All {len(solid)} solid bending modes lie within {100 * abs(worst.deviation or 0.0):.1f} % of Euler's "
-        f"formulas with shear and the bar's own end softness (worst: {worst.supports}, mode {worst.mode}, in {worst.plane}); "
-        f"torsion would come at {kilo(torsion)}, the highest of these modes at {kilo(highest)}.",
+        f"formulas with shear and the bar's own end softness (worst: {worst.supports}, mode {worst.mode}, in "
+        f"{worst.plane}); torsion would come at {kilo(torsion)}, the highest of these modes at {kilo(highest)}.",
     ]
 
 

@@ -1,5 +1,6 @@
 """Bad input: one sentence that names place, found and allowed; exit 2; never a traceback."""
 
+import re
 from collections.abc import Callable
 from pathlib import Path
 
@@ -10,6 +11,10 @@ from pipeline.errors import InputError
 from tests.conftest import Done
 
 PLAIN = (SHIPPED / "plain_i_bar.toml").read_text()
+TUBE_WITH_A_LOOSE_LUG = """section = { kind = "tube", outer_diameter_mm = 20.0, wall_mm = 1.0 }
+lug = { length_mm = 6.0, width_mm = 8.0, height_mm = 8.0 }
+
+"""
 EXACT = (SHIPPED / "orthoglide.toml").read_text()
 
 BAD = {
@@ -95,3 +100,48 @@ def test_unknown_command_is_refused(tmp_path: Path, pipeline_command: Callable[.
 def test_shipped_cases_load() -> None:
     assert shipped_cases() == ["orthoglide", "plain_i_bar"]
     assert [load_case(name).name for name in shipped_cases()] == shipped_cases()
+
+
+MORE = {
+    "true is no number": ("E_MPa = 70000.0", "E_MPa = true", "material.E_MPa is True"),
+    "text is no number": ("length_mm = 310.0", 'length_mm = "310"', "linkage.length_mm is '310'"),
+    "angle twice": ("[0.0, 30.0]", "[30.0, 30.0]", "each once"),
+    "name leads elsewhere": ('name = "plain_i_bar"', 'name = ".."', "name is '..'"),
+    "other schema": ("schema = 1", "schema = 2", "schema is 2"),
+}
+
+
+@pytest.mark.parametrize("name", MORE)
+def test_case_file_is_taken_at_its_word(name: str, tmp_path: Path) -> None:
+    old, new, expected = MORE[name]
+    path = tmp_path / "case.toml"
+    path.write_text(PLAIN.replace(old, new, 1))
+    with pytest.raises(InputError, match=re.escape(expected)):
+        load_case(str(path))
+
+
+@pytest.mark.parametrize(
+    ("change", "expected"),
+    [
+        (("width_mm = 80.0", "width_mm = 15.0"), "linkage.width_mm is 15, allowed is above the bars' height"),
+        (
+            (PLAIN[PLAIN.index("section = ") : PLAIN.index("[mesh]")], TUBE_WITH_A_LOOSE_LUG),
+            "lug of 8 by 8 mm fits into the bore",
+        ),
+    ],
+)
+def test_geometry_that_cannot_be_leaves_nothing_behind(
+    change: tuple[str, str], expected: str, tmp_path: Path, pipeline_command: Callable[..., Done]
+) -> None:
+    path = tmp_path / "case.toml"
+    path.write_text(PLAIN.replace(*change, 1))
+    done = pipeline_command("run", str(path), "--out", "out", cwd=tmp_path)
+    assert done.code == 2 and expected in done.err and "Traceback" not in done.err
+    assert not (tmp_path / "out").exists()
+
+
+def test_damaged_result_is_refused(tmp_path: Path, pipeline_command: Callable[..., Done]) -> None:
+    for text in ("", "[1, 2]", '{"bar": 1}', "\x00\x01"):
+        (tmp_path / "result.json").write_text(text)
+        done = pipeline_command("report", str(tmp_path), cwd=tmp_path)
+        assert done.code == 2 and "is not a saved result" in done.err and done.err.count("\n") == 1

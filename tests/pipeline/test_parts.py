@@ -1,6 +1,7 @@
 """The parts of the pipeline that can be tested without a solid: cache, files, progress, search, departures."""
 
 import io
+import multiprocessing
 import os
 from pathlib import Path
 
@@ -129,3 +130,21 @@ def test_departure_is_where_the_curve_has_left_its_tangent() -> None:
     assert one.load_N == pytest.approx(9.9, rel=1e-3) and five.load_N == pytest.approx(47.5, rel=1e-3)
     straight = departures("solid FE", path, x, 100.0 * x, 100.0)
     assert [record.load_N for record in straight] == [None, None]
+
+
+def write_many(folder: str, text: str) -> None:
+    """Write one file again and again, as a second run in the same folder would."""
+    for _ in range(300):
+        write_text(Path(folder) / "result.json", text)
+
+
+def test_two_writers_never_meet(tmp_path: Path) -> None:
+    texts = ["a" * 100_000, "b" * 100_000]
+    context = multiprocessing.get_context("spawn")
+    writers = [context.Process(target=write_many, args=(str(tmp_path), text)) for text in texts]
+    for writer in writers:
+        writer.start()
+    for writer in writers:
+        writer.join()
+    assert [writer.exitcode for writer in writers] == [0, 0]
+    assert (tmp_path / "result.json").read_text() in texts and os.listdir(tmp_path) == ["result.json"]
