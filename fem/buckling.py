@@ -11,6 +11,8 @@ from fem.linkage import PLATFORM, Linkage
 from fem.prestress import prestress
 from meshes.solid import Floats
 
+# Of the vectors, relative; the loads are then good to its square.
+VECTOR_TOLERANCE = 1e-6
 # Below this share of sideways motion of the axis, a mode is a twist of the section.
 TORSION_SHARE = 0.1
 
@@ -46,7 +48,7 @@ def buckling(model: LinearModel, held: Sequence[str], count: int = 6, driven: st
     # Pushing reverses the sign of the unit state. Shift-invert about the unloaded state: the largest 1/λ
     # belong to the lowest loads; a random start could miss a symmetric mode only with probability zero.
     start = np.random.default_rng(0).standard_normal(k.shape[0])
-    inverse_factors, vectors = eigsh(kg, count, k, which="LA", Minv=inverse, v0=start)
+    inverse_factors, vectors = eigsh(kg, count, k, which="LA", Minv=inverse, v0=start, tol=VECTOR_TOLERANCE)
     if np.any(inverse_factors <= 0.0):
         raise RuntimeError(f"fewer than {count} buckling modes were found in compression")
     unit = float(state.wrench[PLATFORM.index(driven)])

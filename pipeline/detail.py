@@ -22,10 +22,29 @@ class Detail:
 
 # Travel of a load path in units of that at the linear critical load: close-set where the branches part.
 FEW = (0.4, 0.8, 0.92, 0.97, 1.0, 1.03, 1.1, 1.4)
-SOME = (0.2, 0.4, 0.6, 0.75, 0.85, 0.91, 0.95, 0.98, 1.0, 1.02, 1.05, 1.1, 1.2, 1.4, 1.7, 2.0)
+SOME = (0.3, 0.6, 0.8, 0.9, 0.95, 0.98, 1.0, 1.02, 1.05, 1.1, 1.2, 1.4, 1.7)
 MANY = tuple(
     sorted(
-        {*SOME, 0.1, 0.3, 0.5, 0.65, 0.7, 0.8, 0.88, 0.93, 0.965, 0.99, 1.01, 1.035, 1.075, 1.15, 1.3, 1.85}
+        {
+            *SOME,
+            0.1,
+            0.3,
+            0.5,
+            0.65,
+            0.7,
+            0.8,
+            0.88,
+            0.93,
+            0.965,
+            0.99,
+            1.01,
+            1.035,
+            1.075,
+            1.15,
+            1.3,
+            1.55,
+            1.85,
+        }
     )
 )
 COARSE = Detail("coarse", working=1, study=(1, 2, 3), path=1, travel=FEW, path_angles=1, path_sets=2)

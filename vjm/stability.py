@@ -63,7 +63,7 @@ def verified(state: Equilibrium) -> Equilibrium:
     A marked member keeps its pose and load, for study.
     """
     reason = state.reason.copy()
-    for index in zip(*np.nonzero(state.unstable > 0), strict=True):
+    for index in map(tuple, np.argwhere(state.unstable > 0)):
         reason[index] = f"{UNSTABLE}: {state.unstable[index]} negative eigenvalue(s) of the tangent"
     return replace(state, converged=state.converged & ~(state.unstable > 0), reason=reason)
 

@@ -23,7 +23,7 @@ HELD_SETS: tuple[tuple[str, ...], ...] = (
     ("z",),
 )
 # Enough for both planes: two equal bars give every mode of a bar twice, sideways modes come first.
-LOWEST = 6
+LOWEST = 5
 # Bow of both bars in the shape of the lowest mode, as a share of the length: a thirty-thousandth.
 BOW = 1.0 / 30000.0
 

@@ -65,8 +65,18 @@ def random_cases(generator: np.random.Generator, count: int) -> Cases:
     cases = Cases(linkage, held[use], change[use] * share[:, None])
     # A coarse ramp may step over a critical load; a fine one to the load chosen tells.
     fine = cases.targets(np.repeat(np.linspace(0.04, 1, 25)[:, None], len(cases.held), axis=1))
-    stays = np.all(verified(load_path(linkage, fine, cases.held, follow=True)).converged, axis=0)
+    path = load_path(linkage, fine, cases.held, follow=True)
+    stays = np.all(verified(path).converged, axis=0) & continuous(path, cases.change / 25)
     return Cases(linkage, cases.held[stays], cases.change[stays])
+
+
+def continuous(path: Equilibrium, change: np.ndarray) -> np.ndarray:
+    """(B,) whether the steps of a path (S, B) follow its slopes: past a critical load they jump."""
+    slope = np.einsum("...ij,...j->...i", by_targets(path).pose, np.broadcast_to(change, path.pose.shape))
+    size = np.repeat([1.0, LENGTH], 3)
+    steps, mean = np.diff(path.pose, axis=0) * size, 0.5 * (slope[1:] + slope[:-1]) * size
+    error, total = np.abs(steps - mean).max(axis=-1), np.abs(steps).max(axis=-1) + 1e-6
+    return np.asarray(np.all(error < 0.1 * total, axis=0))
 
 
 def stiff(linkage: Parallelogram, mask: np.ndarray) -> bool:
@@ -110,7 +120,9 @@ def check_energy(cases: Cases, state: Equilibrium) -> None:
         "...ij,...j->...i", by_targets(path).pose, np.broadcast_to(cases.change, path.pose.shape)
     )
     work = 0.5 * np.einsum("s,sbi,sbi->b", weights, path.load, slope)
-    np.testing.assert_allclose(work, state.energy, rtol=1e-5)
+    # The rule's own error where a path bends sharply; on smooth ones it is below 1e-9.
+    np.testing.assert_allclose(work, state.energy, rtol=1e-3)
+    assert np.quantile(np.abs(work / state.energy - 1), 0.75) < 1e-6
 
 
 def run(linkages: int, count: int) -> int:
