@@ -23,18 +23,20 @@ def solve(problem: Problem, start: Array, tolerance: float, limit: int, follow: 
     A load case that Newton's method does not reach from its start is approached in increments of all its
     targets, halved where they fail and doubled where they do not. If that fails too, its reason says how far
     there was an equilibrium, and its unknowns are the last one. Unless `follow` is set, an unstable
-    equilibrium is approached in increments as well, through stable ones only, and a stable one that this leads
-    to takes its place: Newton's method may jump over to a solution that no loading reaches.
+    equilibrium, or one found after wandering, is approached in increments as well, through stable ones only,
+    and a stable one that this leads to takes its place: Newton's method may jump over to a solution that no
+    loading reaches.
     """
     end = _newton(problem, start, tolerance, limit)
+    direct = np.where(end.reason == CONVERGED, end.iterations, 0)
     failed = np.flatnonzero(end.reason != CONVERGED)
     if failed.size:
         end.put(failed, _in_increments(problem.take(failed), start[failed], tolerance, limit, follow))
-    unstable = np.flatnonzero(end.unstable > 0)
-    if unstable.size and not follow:
-        again = _in_increments(problem.take(unstable), start[unstable], tolerance, limit, follow)
+    doubtful = np.flatnonzero((end.unstable > 0) | ((end.unstable == 0) & (direct > _SOON)))
+    if doubtful.size and not follow:
+        again = _in_increments(problem.take(doubtful), start[doubtful], tolerance, limit, follow)
         better = again.unstable == 0
-        end.put(unstable[better], _members(again, better))
+        end.put(doubtful[better], _members(again, better))
     return end
 
 

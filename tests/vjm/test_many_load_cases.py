@@ -144,4 +144,4 @@ def test_random_load_cases() -> None:
 
 @pytest.mark.long
 def test_ten_thousand_random_load_cases() -> None:
-    assert run(230, 50) >= 10_000
+    assert run(250, 50) >= 10_000
