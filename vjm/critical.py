@@ -17,8 +17,9 @@ from vjm.problem import held_mask
 from vjm.stability import negative_eigenvalues, reduced_modes
 
 _SINGULAR = 1e-9
-# Looser: at the root, rounding leaves 1e-4 of the buckling direction in the state, 1e-8 in the eigenvalues.
-_TOGETHER = 1e-6
+# Of the lowest eigenvalue at rest. Equal bars agree to 1e-9 of it; another plane that buckles one per cent later
+# still keeps a few per cent.
+_TOGETHER = 1e-3
 
 
 @dataclass(frozen=True, eq=False)
@@ -91,12 +92,16 @@ def critical_load(
         if not following.converged:
             return _none(state, held, f"no equilibrium found beyond x displacement {before:.6g} mm")
         if negative_eigenvalues(following, held) > 0:
-            return _refine(state, before, float(after), held)
+            return _refine(state, before, float(after), held, _TOGETHER * float(values[0]))
         state, before = following, float(after)
     return _none(state, held, f"none found up to load {state.load[0]:.6g} N")
 
 
-def _refine(start: Equilibrium, before: float, after: float, held: tuple[str, ...]) -> CriticalLoad:
+def _refine(
+    start: Equilibrium, before: float, after: float, held: tuple[str, ...], together: float
+) -> CriticalLoad:
+    """The root between two displacements; eigenvalues below `together` vanish with it."""
+
     mechanism = start.mechanism
 
     def lowest(displacement: float) -> float:
@@ -105,7 +110,7 @@ def _refine(start: Equilibrium, before: float, after: float, held: tuple[str, ..
     root = float(brentq(lowest, before, after, xtol=1e-12 * abs(after), rtol=1e-14))
     state = drive(mechanism, root, held, start)
     modes = reduced_modes(state, held)
-    unstable = max(1, int(np.sum(modes.values < _TOGETHER * modes.values[-1])))
+    unstable = max(1, int(np.sum(modes.values < together)))
     direction = _in_phase(modes.vectors[:, :unstable], lagrangian.layout(mechanism))
     load = float(state.load[0])
     reason = f"{unstable} direction(s) turn unstable at load {load:.6g} N"

@@ -35,12 +35,8 @@ PROGRAMS = [
 
 
 def linkage(degrees: float) -> Parallelogram:
-    """Eight segments at q = 0, twelve at 30 degrees.
-
-    In the first row of each the modes of two planes lie close together; where a refinement makes them meet to
-    1e-6, the branch that is switched to is a mixture and ends.
-    """
-    segments = 8 if degrees == 0 else 12
+    """Eight segments a bar; in the first row of each angle the modes of two planes lie within one per cent."""
+    segments = 8
     plain = Parallelogram(LENGTH, WIDTH, BAR_P.stiffness(LENGTH), np.radians(degrees))
     return refined(plain, segments)
 
