@@ -74,7 +74,8 @@ def text(drawn: tuple[Path, list[Path]]) -> str:
 
 
 def test_the_example_is_a_valid_result() -> None:
-    Result.model_validate(example.result())
+    made = example.result()
+    assert Result.model_validate(made).case == made["case"]
 
 
 def test_all_files_are_drawn(drawn: tuple[Path, list[Path]]) -> None:
