@@ -1,33 +1,36 @@
-"""Models of one elastic bar as part of a chain, and the lumped one of Eq. 1."""
+"""What a model of one elastic bar gives to a chain."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from typing import Literal, Protocol
+from typing import Protocol
 
 import numpy as np
 
-from vjm.chain import Element, Fixed, Joint, Role
-from vjm.frames import Array, move_stiffness
+from vjm.chain import Chain, Element, Joint, Role
+from vjm.frames import Array
 from vjm.laws import Spring
-
-SpringAt = Literal["tip", "middle", "base"]
-STATION: dict[SpringAt, float] = {"base": 0.0, "middle": 0.5, "tip": 1.0}
+from vjm.link import Link
 
 X, Y, Z = (1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)
 
 
 @dataclass(frozen=True, eq=False)
 class Limb:
-    """A bar along x from its base to its tip.
+    """A bar along x from its base to its tip, with v virtual coordinates.
 
     elements: the chain's part. stiffness: (v, v) of its virtual coordinates. springs: further laws, their
-    coordinates counted from the bar's first one.
+    coordinates counted from the bar's first one. rest: (v,) coordinates of the unloaded bar. stretch: (v,)
+    change of them with a stress-free lengthening by 1 mm. stations: points that share out a line load, each
+    elements from the base to it and its share of the length; statically they replace it between the nodes.
     """
 
     elements: tuple[Element, ...]
     stiffness: Array
+    rest: Array
+    stretch: Array
     springs: tuple[Spring, ...] = ()
+    stations: tuple[tuple[tuple[Element, ...], float], ...] = ()
 
     def numbered_from(self, first: int) -> tuple[Spring, ...]:
         """The further laws for a chain whose coordinate number `first` is the bar's first one."""
@@ -35,15 +38,16 @@ class Limb:
 
 
 class BarModel(Protocol):
-    """How a bar of given length, mm, and stiffness (6, 6) at its tip, base clamped, becomes part of a chain.
+    """How a `Link` becomes part of a chain.
 
-    limb: the bar from base to tip. reach: elements from its base to the point of its axis at `station`
-    (0 base, 1 tip); ValueError for a station outside. Unloaded, every model has the stiffness given.
+    limb: the bar from base to tip, without its slides. reach: elements from its base to the point of its axis
+    at `station` (0 base, 1 tip); ValueError for a station outside. Unloaded, every model has the stiffness of
+    the link.
     """
 
-    def limb(self, length: float, stiffness: Array) -> Limb: ...
+    def limb(self, link: Link) -> Limb: ...
 
-    def reach(self, length: float, stiffness: Array, station: float) -> tuple[Element, ...]: ...
+    def reach(self, link: Link, station: float) -> tuple[Element, ...]: ...
 
 
 def spring_joints() -> tuple[Joint, ...]:
@@ -52,25 +56,18 @@ def spring_joints() -> tuple[Joint, ...]:
     return shifts + tuple(Joint("rotation", axis, Role.VIRTUAL) for axis in (X, Y, Z))
 
 
-@dataclass(frozen=True)
-class Lumped:
-    """All six springs at one place of an otherwise rigid bar (Eq. 1: at the tip)."""
-
-    spring_at: SpringAt = "tip"
-
-    def limb(self, length: float, stiffness: Array) -> Limb:
-        before = STATION[self.spring_at] * length
-        elements: tuple[Element, ...]
-        elements = (Fixed(before * np.eye(3)[0]), *spring_joints(), Fixed((length - before) * np.eye(3)[0]))
-        return Limb(elements, move_stiffness(stiffness, [before - length, 0.0, 0.0]))
-
-    def reach(self, length: float, stiffness: Array, station: float) -> tuple[Element, ...]:
-        check_station(station)
-        place = STATION[self.spring_at]
-        if station < place:
-            return (Fixed(station * length * np.eye(3)[0]),)
-        *front, _ = self.limb(length, stiffness).elements
-        return (*front, Fixed((station - place) * length * np.eye(3)[0]))
+def compliance_at_tip(limb: Limb) -> Array:
+    """(6, 6) of the unloaded limb, base clamped: J K^-1 J^T with J by twists at its tip."""
+    jacobian = Chain(limb.elements).jacobian(limb.rest)
+    tangent = limb.stiffness.copy()
+    for spring in limb.springs:
+        numbers = np.array(spring.coordinates)
+        strain = np.zeros(numbers.size)
+        tangent[numbers[:, None], numbers] += spring.law.respond(strain, spring.law.initial_memory).tangent
+    scale = 1.0 / np.sqrt(np.diag(tangent))
+    inner = np.linalg.inv(scale[:, None] * tangent * scale)
+    scaled = jacobian * scale
+    return np.asarray(scaled @ inner @ scaled.T)
 
 
 def check_station(station: float) -> None:

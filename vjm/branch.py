@@ -12,7 +12,7 @@ from vjm.critical import CriticalLoad, drive, driven
 from vjm.equilibrium import ITERATIONS, TOLERANCE, Equilibrium, record, stack
 from vjm.frames import Array
 from vjm.newton import Step, dense, newton
-from vjm.problem import Problem, held_mask
+from vjm.problem import Problem, channel_numbers, held_mask
 
 FELL_BACK = "returned to the primary path: the branch does not reach this displacement"
 JUMPED = "jumped away from the branch that was followed"
@@ -58,7 +58,9 @@ def _switch(critical: CriticalLoad, direction: Array, amplitude: float) -> Equil
     place = lagrangian.layout(mechanism)
     mask = held_mask(critical.held)
     targets = np.where(mask, driven(mechanism, critical.displacement), 0.0)[None]
-    problem = Problem(mechanism, targets, mask[None], critical.state.memory[None])
+    numbers = channel_numbers(critical.held)[None]
+    state = critical.state
+    problem = Problem(mechanism, targets, numbers, state.memory[None], state.drives[None])
     row = place.platform.start
     weight = direction / place.scale**2
 

@@ -10,8 +10,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from vjm.bars import STATION
 from vjm.frames import Array, move_stiffness
+from vjm.lumped import STATION
 from vjm.mechanisms.parallelogram import Parallelogram
 
 

@@ -6,7 +6,7 @@ the paper, holds all six. Loads are conjugate to the pose (p, rotation vector), 
 
 from __future__ import annotations
 
-from collections.abc import Collection
+from collections.abc import Collection, Mapping
 from dataclasses import dataclass, fields
 
 import numpy as np
@@ -18,7 +18,11 @@ from vjm.increments import solve
 from vjm.laws import Response
 from vjm.mechanism import Mechanism, initial_memory
 from vjm.newton import CONVERGED, Iterate, Step, dense, newton
-from vjm.problem import Held, Problem, held_mask
+from vjm.problem import Held, Problem, channel_numbers
+from vjm.readings import read
+
+Drives = Mapping[str, ArrayLike]
+"""Inputs of a mechanism by name, each broadcast over the batch; see `vjm.mechanism.Drive`."""
 
 TOLERANCE = 1e-12
 ITERATIONS = 50
@@ -34,7 +38,8 @@ class Equilibrium:
     state is none of the equilibrium asked for.
     unstable: (...) number of directions in which the equilibrium is unstable while the held coordinates stay:
     0 stable, positive past a critical load, -1 not known.
-    held: (..., 6) mask of the held platform coordinates. memory: (..., M) of the laws before this step.
+    channels: (..., 6) reading that each platform coordinate's control prescribed (`vjm.sensors`).
+    memory: (..., M) of the laws before this step. drives: (..., D) departures of the inputs from their defaults.
     """
 
     mechanism: Mechanism
@@ -44,8 +49,19 @@ class Equilibrium:
     converged: np.ndarray
     reason: np.ndarray
     unstable: np.ndarray
-    held: np.ndarray
+    channels: np.ndarray
     memory: Array
+    drives: Array
+
+    @property
+    def held(self) -> np.ndarray:
+        """(..., 6) mask of the platform coordinates that were held, by their own reading or by a gauge."""
+        return (self.channels < 6) | (self.channels >= 12)
+
+    @property
+    def readings(self) -> Array:
+        """(..., 12 + G) pose, load and gauges as the mechanism's sensors read them."""
+        return read(self.mechanism, self.unknowns, self.drives)
 
     @property
     def pose(self) -> Array:
@@ -56,8 +72,14 @@ class Equilibrium:
     def coordinates(self) -> tuple[Array, ...]:
         """All coordinates (..., n_i) of each chain."""
         place = lagrangian.layout(self.mechanism)
-        pairs = zip(self.mechanism.chains, place.coordinates, strict=True)
-        return tuple(lagrangian.chain_coordinates(chain, self.unknowns[..., x]) for chain, x in pairs)
+        rest = lagrangian.rest(self.mechanism, self.drives)
+        parts = zip(self.mechanism.chains, place.coordinates, rest, strict=True)
+        return tuple(lagrangian.chain_coordinates(chain, self.unknowns[..., x], r) for chain, x, r in parts)
+
+    @property
+    def unloaded_coordinates(self) -> tuple[Array, ...]:
+        """All coordinates (..., n_i) of each chain when sensors were zeroed."""
+        return lagrangian.rest(self.mechanism, self.drives, unloaded=True)
 
     @property
     def q(self) -> tuple[Array, ...]:
@@ -100,10 +122,11 @@ class Equilibrium:
 
     def _responses(self) -> list[Response]:
         place = lagrangian.layout(self.mechanism)
-        parts = zip(self.mechanism.chains, place.coordinates, place.memories, strict=True)
+        rest = lagrangian.rest(self.mechanism, self.drives)
+        parts = zip(self.mechanism.chains, rest, place.coordinates, place.memories, strict=True)
         return [
-            chain.respond(self.unknowns[..., x] - chain.rest[chain.moving], self.memory[..., past])
-            for chain, x, past in parts
+            chain.respond(self.unknowns[..., x] - r[..., chain.moving], self.memory[..., past])
+            for chain, r, x, past in parts
         ]
 
     def member(self, index: int | tuple[int, ...] | slice | np.ndarray) -> Equilibrium:
@@ -121,19 +144,40 @@ def _arrays(state: Equilibrium) -> list[np.ndarray]:
     return [getattr(state, field.name) for field in fields(state)[1:]]
 
 
-def unloaded(mechanism: Mechanism) -> Equilibrium:
-    """The state of rest, as the start of a history."""
+def unloaded(mechanism: Mechanism, drives: Drives | None = None) -> Equilibrium:
+    """The state of rest, as the start of a history, at inputs broadcast to one batch."""
+    inputs = drive_values(mechanism, drives)
+    batch = inputs.shape[:-1]
+    memory = initial_memory(mechanism)
     return Equilibrium(
         mechanism,
-        lagrangian.at_rest(mechanism),
-        np.array(0),
-        np.array(0.0),
-        np.array(True),
-        np.array(CONVERGED, dtype=object),
-        np.array(-1),
-        np.ones(6, dtype=bool),
-        initial_memory(mechanism),
+        lagrangian.at_rest(mechanism, inputs),
+        np.zeros(batch, dtype=int),
+        np.zeros(batch),
+        np.ones(batch, dtype=bool),
+        np.full(batch, CONVERGED, dtype=object),
+        np.full(batch, -1),
+        np.broadcast_to(np.arange(6), (*batch, 6)),
+        np.broadcast_to(memory, (*batch, memory.size)),
+        inputs,
     )
+
+
+def drive_values(mechanism: Mechanism, drives: Drives | None) -> Array:
+    """Departures (..., D) of the inputs from their defaults, in the order of the layout.
+
+    ValueError for the name of an input that the mechanism does not have.
+    """
+    place = lagrangian.layout(mechanism)
+    given = {name: np.asarray(value, dtype=float) for name, value in (drives or {}).items()}
+    if unknown := sorted(set(given) - set(place.drives)):
+        raise ValueError(f"inputs of this mechanism are {place.drives}, got {unknown}")
+    batch = np.broadcast_shapes(*(value.shape for value in given.values()))
+    out = np.zeros((*batch, len(place.drives)))
+    for k, name in enumerate(place.drives):
+        if name in given:
+            out[..., k] = given[name] - place.defaults[k]
+    return out
 
 
 def equilibrium(
@@ -144,11 +188,14 @@ def equilibrium(
     tolerance: float = TOLERANCE,
     limit: int = ITERATIONS,
     follow: bool = False,
+    drives: Drives | None = None,
 ) -> Equilibrium:
     """Newton's method on the stationarity of the Lagrange function, Hessians included.
 
     targets: (..., 6); a held coordinate's entry is its pose value (mm, rad), a free one's its load (N, N·mm),
-    conjugate to the rotation vector. held: names for all load cases, or a mask (..., 6); default all six.
+    conjugate to the rotation vector unless the mechanism's sensors read otherwise, a gauge's its reading.
+    held: names for all load cases, a mask (..., 6), or channel numbers (..., 6); default all six names.
+    drives: inputs by name, (...) each, default as built.
     start: state to begin from, broadcast over the batch; default the unloaded mechanism. Laws with memory
     continue from it.
     follow: stay on the branch of the start even where it is unstable.
@@ -157,8 +204,8 @@ def equilibrium(
     critical load, is returned as such: see `Equilibrium.unstable` and `vjm.stability.verified`.
     ValueError for targets whose last axis is not 6 or that are not finite.
     """
-    problem, first, batch = _posed(mechanism, targets, held, start)
-    return record(problem, solve(problem, first, tolerance, limit, follow), batch)
+    problem, first, before, batch = _posed(mechanism, targets, held, start, drives)
+    return record(problem, solve(problem, first, before, tolerance, limit, follow), batch)
 
 
 def picard(
@@ -175,7 +222,7 @@ def picard(
     critical load. `equilibrium` is the safe choice there; both share residual and record. Laws beside the
     linear springs enter with their tangent.
     """
-    problem, first, batch = _posed(mechanism, poses, POSE_NAMES, start)
+    problem, first, _, batch = _posed(mechanism, poses, POSE_NAMES, start, None)
     place = problem.place
     weight = place.scale / place.energy
     parts = list(zip(mechanism.chains, place.coordinates, place.memories, strict=True))
@@ -196,17 +243,21 @@ def load_path(
     held: Held = POSE_NAMES,
     start: Equilibrium | None = None,
     follow: bool = False,
+    drives: Drives | None = None,
 ) -> Equilibrium:
     """Equilibria along a history: targets (steps, ..., 6) as in `equilibrium`, each started at the last.
 
-    held: names, a mask for all steps (..., 6), or one for each step (steps, ..., 6).
+    held: names, or a control for all steps (..., 6), or one for each step (steps, ..., 6). drives: (steps, ...).
     """
     targets = _checked(targets)
-    masks = held_mask(held)
-    masks = np.broadcast_to(masks, np.broadcast_shapes(masks.shape, targets.shape))
+    numbers = channel_numbers(held, len(mechanism.gauges))
+    numbers = np.broadcast_to(numbers, np.broadcast_shapes(numbers.shape, targets.shape))
+    inputs = {name: np.asarray(value, dtype=float) for name, value in (drives or {}).items()}
+    inputs = {name: np.broadcast_to(value, targets.shape[:-1]) for name, value in inputs.items()}
     states = []
-    for target, mask in zip(targets, masks, strict=True):
-        start = equilibrium(mechanism, target, mask, start, follow=follow)
+    for k, (target, control) in enumerate(zip(targets, numbers, strict=True)):
+        now = {name: value[k] for name, value in inputs.items()}
+        start = equilibrium(mechanism, target, control, start, follow=follow, drives=now)
         states.append(start)
     return stack(states)
 
@@ -228,8 +279,9 @@ def record(problem: Problem, end: Iterate, batch: tuple[int, ...]) -> Equilibriu
         (end.reason == CONVERGED).reshape(batch),
         end.reason.reshape(batch),
         end.unstable.reshape(batch),
-        problem.held.reshape(*batch, 6),
+        problem.channels.reshape(*batch, 6),
         problem.memory.reshape(*batch, problem.memory.shape[-1]),
+        problem.drives.reshape(*batch, problem.drives.shape[-1]),
     )
 
 
@@ -243,15 +295,21 @@ def _checked(targets: ArrayLike) -> Array:
 
 
 def _posed(
-    mechanism: Mechanism, targets: ArrayLike, held: Held, start: Equilibrium | None
-) -> tuple[Problem, Array, tuple[int, ...]]:
-    """The problem with its batch axes flattened, the unknowns to begin with, and the batch shape."""
-    targets, mask = _checked(targets), held_mask(held)
-    batch = np.broadcast_shapes(targets.shape, mask.shape)[:-1]
-    unknowns = lagrangian.at_rest(mechanism) if start is None else start.unknowns
-    memory = initial_memory(mechanism) if start is None else start.next_memory
+    mechanism: Mechanism, targets: ArrayLike, held: Held, start: Equilibrium | None, drives: Drives | None
+) -> tuple[Problem, Array, Array, tuple[int, ...]]:
+    """The problem with flat batch axes, unknowns and inputs to begin with, and the batch shape."""
+    targets, numbers = _checked(targets), channel_numbers(held, len(mechanism.gauges))
+    inputs = drive_values(mechanism, drives)
+    shapes = [targets.shape[:-1], numbers.shape[:-1], inputs.shape[:-1]]
+    batch = np.broadcast_shapes(*shapes)
+    if start is None:
+        unknowns, memory = lagrangian.at_rest(mechanism, inputs), initial_memory(mechanism)
+        before = inputs
+    else:
+        unknowns, memory, before = start.unknowns, start.next_memory, start.drives
 
     def flat(part: np.ndarray) -> np.ndarray:
         return np.broadcast_to(part, (*batch, part.shape[-1])).reshape(int(np.prod(batch)), part.shape[-1])
 
-    return Problem(mechanism, flat(targets), flat(mask), flat(memory)), flat(unknowns).copy(), batch
+    problem = Problem(mechanism, *(flat(part) for part in (targets, numbers, memory, inputs)))
+    return problem, flat(unknowns).copy(), flat(before), batch

@@ -1,16 +1,24 @@
-"""Gauges: the displacement of a point of a bar along a direction, as an output of an equilibrium."""
+"""Gauges: the displacement of a point of a chain along a direction."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Protocol
 
 import numpy as np
 
-from vjm import lagrangian
 from vjm.chain import Chain, Element
-from vjm.equilibrium import Equilibrium
 from vjm.frames import Array
-from vjm.mechanism import ElasticChain
+
+
+class Posed(Protocol):
+    """Anything that knows the coordinates (..., n) of each chain, there and unloaded, such as an equilibrium."""
+
+    @property
+    def coordinates(self) -> tuple[Array, ...]: ...
+
+    @property
+    def unloaded_coordinates(self) -> tuple[Array, ...]: ...
 
 
 @dataclass(frozen=True, eq=False)
@@ -18,47 +26,47 @@ class Gauge:
     """A displacement gauge; reads zero in the unloaded state.
 
     chain: number of the chain it sits on. path: from the base to its point. coordinates: numbers of the
-    path's coordinates in that chain. direction: (3,) base frame. zero: its place along that direction at rest.
+    path's coordinates in that chain. direction: (3,) base frame.
     """
 
     chain: int
     path: Chain
     coordinates: np.ndarray
     direction: Array
-    zero: float
 
-    def reading(self, state: Equilibrium) -> Array:
-        """Displacement (...), mm."""
-        position = self.path.pose(self._local(state))[..., :3]
-        return np.asarray(position @ self.direction - self.zero)
+    def at(self, coordinates: Array, unloaded: Array) -> Array:
+        """Displacement (...), mm, at all coordinates (..., n) of its chain from the unloaded ones."""
+        there, before = (self.path.pose(x[..., self.coordinates])[..., :3] for x in (coordinates, unloaded))
+        return np.asarray((there - before) @ self.direction)
 
-    def gradient(self, state: Equilibrium) -> Array:
-        """Derivative (..., N) of the reading by the unknowns of the state."""
-        place = lagrangian.layout(state.mechanism).coordinates[self.chain]
-        moving = state.mechanism.chains[self.chain].moving
-        jacobian = self.path.jacobian(self._local(state))[..., :3, :]
-        by_coordinate = np.zeros((*jacobian.shape[:-2], state.mechanism.chains[self.chain].chain.size))
-        by_coordinate[..., self.coordinates] = np.einsum("k,...kn->...n", self.direction, jacobian)
-        gradient = np.zeros_like(state.unknowns)
-        gradient[..., place] = by_coordinate[..., moving]
-        return gradient
+    def slope(self, coordinates: Array) -> Array:
+        """Derivative (..., n) of the reading by the coordinates (..., n) of its chain."""
+        jacobian = self.path.jacobian(coordinates[..., self.coordinates])[..., :3, :]
+        slope = np.zeros(coordinates.shape)
+        slope[..., self.coordinates] = np.einsum("k,...kn->...n", self.direction, jacobian)
+        return slope
 
-    def _local(self, state: Equilibrium) -> Array:
-        return state.coordinates[self.chain][..., self.coordinates]
+    def reading(self, state: Posed) -> Array:
+        """Displacement (...), mm, at a state."""
+        return self.at(state.coordinates[self.chain], state.unloaded_coordinates[self.chain])
+
+
+def path_numbers(elements: tuple[Element, ...], chain: Chain) -> tuple[Chain, np.ndarray]:
+    """A path whose joints are the first ones of a chain, or tied to its, with the numbers of its coordinates."""
+    path = Chain(elements)
+    ties = {joint.tie: k for k, joint in enumerate(chain.joints) if joint.tie is not None}
+    numbers = [k if joint.tie is None else ties[joint.tie] for k, joint in enumerate(path.joints)]
+    return path, np.array(numbers, dtype=int)
 
 
 def gauge(
-    number: int, elements: tuple[Element, ...], chain: ElasticChain, direction: tuple[float, float, float]
+    number: int, elements: tuple[Element, ...], chain: Chain, direction: tuple[float, float, float]
 ) -> Gauge:
     """Gauge at the end of `elements`, whose joints up to the station are those of chain `number`.
 
-    ValueError for a direction that is not of length 1.
+    ValueError for a direction not of length 1.
     """
     if abs(np.linalg.norm(direction) - 1.0) > 1e-12:
         raise ValueError(f"a gauge's direction must have length 1, got {direction}")
-    path = Chain(elements)
-    ties = {joint.tie: k for k, joint in enumerate(chain.chain.joints) if joint.tie is not None}
-    numbers = [k if joint.tie is None else ties[joint.tie] for k, joint in enumerate(path.joints)]
-    coordinates = np.array(numbers, dtype=int)
-    zero = path.pose(chain.rest[coordinates])[:3] @ np.asarray(direction)
-    return Gauge(number, path, coordinates, np.asarray(direction, dtype=float), float(zero))
+    path, numbers = path_numbers(elements, chain)
+    return Gauge(number, path, numbers, np.asarray(direction, dtype=float))

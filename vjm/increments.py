@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import fields
+from dataclasses import fields, replace
 
 import numpy as np
 
@@ -17,8 +17,10 @@ _SOON = 8
 LOST_STABILITY = "no stable equilibrium further on"
 
 
-def solve(problem: Problem, start: Array, tolerance: float, limit: int, follow: bool) -> Iterate:
-    """Equilibria of all load cases, begun at `start` (B, N).
+def solve(
+    problem: Problem, start: Array, before: Array, tolerance: float, limit: int, follow: bool
+) -> Iterate:
+    """Equilibria of all load cases, begun at `start` (B, N), an equilibrium at the inputs `before` (B, D).
 
     A load case that Newton's method does not reach from its start is approached in increments of all its
     targets, halved where they fail and doubled where they do not. If that fails too, its reason says how far
@@ -31,10 +33,15 @@ def solve(problem: Problem, start: Array, tolerance: float, limit: int, follow: 
     direct = np.where(end.reason == CONVERGED, end.iterations, 0)
     failed = np.flatnonzero(end.reason != CONVERGED)
     if failed.size:
-        end.put(failed, _in_increments(problem.take(failed), start[failed], tolerance, limit, follow))
+        end.put(
+            failed,
+            _in_increments(problem.take(failed), start[failed], before[failed], tolerance, limit, follow),
+        )
     doubtful = np.flatnonzero((end.unstable > 0) | ((end.unstable == 0) & (direct > _SOON)))
     if doubtful.size and not follow:
-        again = _in_increments(problem.take(doubtful), start[doubtful], tolerance, limit, follow)
+        again = _in_increments(
+            problem.take(doubtful), start[doubtful], before[doubtful], tolerance, limit, follow
+        )
         better = again.unstable == 0
         end.put(doubtful[better], _members(again, better))
     return end
@@ -61,18 +68,22 @@ def _in_chunks(problem: Problem, start: Array, tolerance: float, limit: int) -> 
     return end
 
 
-def _in_increments(problem: Problem, start: Array, tolerance: float, limit: int, follow: bool) -> Iterate:
-    """Targets approached from the pose and load at the start; a load case that fails stays where it got to."""
-    place = problem.place
-    load = np.sum([start[:, dual] for dual in place.multipliers], axis=0)
-    origin = np.where(problem.held, start[:, place.platform], load)
+def _in_increments(
+    problem: Problem, start: Array, before: Array, tolerance: float, limit: int, follow: bool
+) -> Iterate:
+    """Targets and inputs approached from those at the start; a load case that fails stays where it got to.
+
+    before: (B, D) inputs at the start.
+    """
+    origin = replace(problem, drives=before).readings(start)
     end = unsolved(start)
     reached, step = np.zeros(len(start)), np.full(len(start), FIRST_STEP)
     active = np.arange(len(start))
     while active.size:
         share = np.minimum(reached[active] + step[active], 1.0)[:, None]
         aim = origin[active] + share * (problem.targets[active] - origin[active])
-        part = _newton(problem.take(active).aim(aim), end.unknowns[active], tolerance, limit)
+        drives = before[active] + share * (problem.drives[active] - before[active])
+        part = _newton(problem.take(active).aim(aim, drives), end.unknowns[active], tolerance, limit)
         good = (part.reason == CONVERGED) & (follow | (part.unstable <= 0))
         part.unknowns[~good] = end.unknowns[active[~good]]
         end.put(active, part)

@@ -93,12 +93,15 @@ class BeamColumn:
     the extension theta_1 + h, which the yielding g relieves. It has no part below the third order, so K is
     what a small load sees. G' = 0 is the bar of T. von Kármán, "Festigkeitsprobleme im Maschinenbau", 1910.
     coupling: (n, 2) b of the energy phi_x (b_y phi_y s_y + b_z phi_z s_z), twist against bending.
+    shape: (n, 6) coordinates of the unloaded bar where it is not straight: h and g are those of shape + theta,
+    h less what it is unloaded.
     """
 
     stiffness: Array
     curvature: Array
     softening: Array
     coupling: Array
+    shape: Array
 
     @property
     def initial_memory(self) -> Array:
@@ -107,17 +110,19 @@ class BeamColumn:
     def respond(self, strain: Array, memory: Array) -> Response:
         theta = strain.reshape(*strain.shape[:-1], -1, 6)
         k, axial = self.stiffness[:, :, 0], self.stiffness[:, 0, 0]
-        bow, give = self.curvature * theta, self.softening * theta
-        h, g = 0.5 * np.sum(theta * bow, axis=-1), 0.5 * np.sum(theta * give, axis=-1)
+        whole = theta + self.shape
+        bow, give = self.curvature * whole, self.softening * whole
+        h = 0.5 * np.sum(theta * (bow + self.curvature * self.shape), axis=-1)
+        g = 0.5 * np.sum(whole * give, axis=-1)
         linear = np.sum(k * theta, axis=-1)
-        whole = 1.0 + axial * g
-        tension = (linear + axial * h) / whole
+        ease = 1.0 + axial * g
+        tension = (linear + axial * h) / ease
         relief = tension * g
         slope = k + axial[:, None] * bow
-        force = h[..., None] * k + (tension * whole)[..., None] * bow
+        force = h[..., None] * k + (tension * ease)[..., None] * bow
         force -= relief[..., None] * slope + 0.5 * (tension**2)[..., None] * give
-        energy = h * linear + 0.5 * axial * h * h - 0.5 * whole * g * tension**2
-        block = self._tangent(bow, give, slope, whole, tension, g)
+        energy = h * linear + 0.5 * axial * h * h - 0.5 * ease * g * tension**2
+        block = self._tangent(bow, give, slope, ease, tension, g)
         for b, triple in zip(self.coupling.T, _TWISTED, strict=True):
             for turn in range(3):
                 i, j, k = np.roll(triple, turn)
@@ -127,17 +132,15 @@ class BeamColumn:
             energy += b * np.prod(theta[..., triple], axis=-1)
         return Response(np.sum(energy, axis=-1), force.reshape(strain.shape), _block_diagonal(block), memory)
 
-    def _tangent(
-        self, bow: Array, give: Array, slope: Array, whole: Array, tension: Array, g: Array
-    ) -> Array:
+    def _tangent(self, bow: Array, give: Array, slope: Array, ease: Array, tension: Array, g: Array) -> Array:
         """Second derivative of the energy, (..., n, 6, 6)."""
         k, axial = self.stiffness[:, :, 0], self.stiffness[:, 0, 0]
         # k b^T + b k^T + K11 b b^T is the difference of two squares, slope slope^T - k k^T over K11.
-        change = give * (tension / whole)[..., None]
-        block = _square(slope, (1.0 / axial - g / whole)) - _square(k, 1.0 / axial)
+        change = give * (tension / ease)[..., None]
+        block = _square(slope, (1.0 / axial - g / ease)) - _square(k, 1.0 / axial)
         mixed = slope[..., :, None] * change[..., None, :]
         block -= mixed + np.swapaxes(mixed, -1, -2)
-        block += _square(change, axial * whole)
+        block += _square(change, axial * ease)
         diagonal = np.arange(6)
         block[..., diagonal, diagonal] += tension[..., None] * self.curvature
         block[..., diagonal, diagonal] -= 0.5 * (tension**2)[..., None] * self.softening

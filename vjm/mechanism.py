@@ -1,4 +1,4 @@
-"""What the solvers need to know of a mechanism: elastic chains that meet at one platform."""
+"""What the solvers need to know of a mechanism: elastic chains that meet at one platform, and its sensors."""
 
 from __future__ import annotations
 
@@ -11,7 +11,25 @@ import numpy as np
 
 from vjm.chain import Chain, Role
 from vjm.frames import Array
+from vjm.gauges import Gauge
 from vjm.laws import Response, Spring
+from vjm.loads import DeadLoad
+from vjm.sensors import Sensor
+
+
+@dataclass(frozen=True, eq=False)
+class Drive:
+    """An input that sets rest values: rest + slope x (value - default).
+
+    A nominal angle, an actuator's position (actuated coordinates stand at their rest values), a temperature.
+    name: the same in all chains that follow it. slope: (n,) rest values per unit of the input.
+    posture: whether gauges and sensors are zeroed with it in place, as with a nominal angle.
+    """
+
+    name: str
+    default: float
+    slope: Array
+    posture: bool = False
 
 
 @dataclass(frozen=True, eq=False)
@@ -21,12 +39,15 @@ class ElasticChain:
     stiffness: (v, v) of the v virtual coordinates together, N, mm, rad; may couple them.
     rest: (n,) coordinates of the unloaded chain, where the springs carry nothing.
     springs: further laws on groups of coordinates, added to the linear part.
+    loads: dead loads along the chain. drives: inputs that move the rest values.
     """
 
     chain: Chain
     stiffness: Array
     rest: Array
     springs: tuple[Spring, ...] = ()
+    loads: tuple[DeadLoad, ...] = ()
+    drives: tuple[Drive, ...] = ()
 
     def __post_init__(self) -> None:
         v, n = self.virtual.size, self.chain.size
@@ -104,9 +125,13 @@ class Mechanism(Protocol):
     """Elastic chains in parallel from the base to one platform.
 
     chains: each ends at the platform point.
-    unloaded_pose: (6,) pose of the platform with all chains at rest, base frame.
+    unloaded_pose: (6,) nominal pose of the unloaded platform, base frame.
     length: a characteristic length, mm; makes residuals and eigenvalues dimensionless.
+    sensors: from the true pose and load to what is read, in the order they apply; none: read as they are.
+    gauges: further readings along the chains.
     """
+
+    def __hash__(self) -> int: ...
 
     @property
     def chains(self) -> tuple[ElasticChain, ...]: ...
@@ -116,6 +141,12 @@ class Mechanism(Protocol):
 
     @property
     def length(self) -> float: ...
+
+    @property
+    def sensors(self) -> tuple[Sensor, ...]: ...
+
+    @property
+    def gauges(self) -> tuple[Gauge, ...]: ...
 
 
 def initial_memory(mechanism: Mechanism) -> Array:

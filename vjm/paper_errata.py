@@ -10,11 +10,11 @@ from types import MappingProxyType
 import numpy as np
 
 from vjm import paper
-from vjm.bars import STATION, SpringAt
 from vjm.chain import Chain, Joint, Role
 from vjm.closed_forms import euler_loads, in_plane_critical, middle_hinge_only
 from vjm.equilibrium import equilibrium
 from vjm.frames import Array
+from vjm.lumped import STATION, SpringAt
 from vjm.mechanism import ElasticChain
 from vjm.mechanisms.parallelogram import Parallelogram
 from vjm.stiffness import closed_form, eliminate, in_bar_frame, loaded_stiffness, rank, unloaded_stiffness

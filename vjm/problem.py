@@ -1,20 +1,24 @@
-"""Eq. 5 of a batch of load cases, each platform coordinate held or loaded, as a system for Newton's method."""
+"""Eq. 5 of a batch of load cases, each platform coordinate under its own control, as a system for Newton's method."""
 
 from __future__ import annotations
 
 from collections.abc import Collection
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
 
 from vjm import lagrangian
 from vjm.frames import POSE_NAMES, Array
+from vjm.lagrangian import ChainRows
 from vjm.mechanism import Mechanism
 from vjm.newton import Step
+from vjm.readings import control_of, read
 
 Held = Collection[str] | np.ndarray
-"""The held platform coordinates: names among x y z rx ry rz, or a mask (..., 6), one for each load case."""
+"""The control of the platform coordinates: names of the held ones among x y z rx ry rz, a mask (..., 6) of
+them, or channel numbers (..., 6) of integers (`vjm.sensors`: pose 0 to 5, load 6 to 11, gauges from 12).
+"""
 
 
 def held_mask(held: Held) -> np.ndarray:
@@ -29,60 +33,97 @@ def held_mask(held: Held) -> np.ndarray:
     return np.array([name in held for name in POSE_NAMES])
 
 
+def channel_numbers(held: Held, gauges: int = 0) -> np.ndarray:
+    """Channel (6,) or (..., 6) that each coordinate's control prescribes.
+
+    ValueError for a pose or load channel of another coordinate, or a gauge beyond the number of them.
+    """
+    if not (isinstance(held, np.ndarray) and np.issubdtype(held.dtype, np.integer)):
+        return np.arange(6) + np.where(held_mask(held), 0, 6)
+    own = (held % 6 == np.arange(6)) & (held >= 0) & (held < 12)
+    if held.ndim == 0 or held.shape[-1] != 6 or not np.all(own | ((held >= 12) & (held < 12 + gauges))):
+        raise ValueError(f"coordinate i is controlled by channel i, i + 6 or a gauge of {gauges}, got {held}")
+    return held
+
+
 @dataclass(frozen=True, eq=False)
 class Problem:
     """Load cases of one mechanism.
 
-    targets: (B, 6) pose values where held, loads elsewhere. held: (B, 6). memory: (B, M) of the laws.
+    targets: (B, 6) readings of the channels (B, 6). memory: (B, M) of the laws. drives: (B, D) inputs, as departures.
     Residual rows are dimensionless: translations over the length, forces over the largest spring x length.
     """
 
     mechanism: Mechanism
     targets: Array
-    held: np.ndarray
+    channels: np.ndarray
     memory: Array
+    drives: Array
 
     @cached_property
     def place(self) -> lagrangian.Layout:
         return lagrangian.layout(self.mechanism)
 
+    @property
+    def held(self) -> np.ndarray:
+        """(B, 6) coordinates that are held, by their own reading or by a gauge."""
+        return (self.channels < 6) | (self.channels >= 12)
+
     def take(self, members: np.ndarray | slice) -> Problem:
         """The load cases with these numbers."""
-        return Problem(self.mechanism, self.targets[members], self.held[members], self.memory[members])
+        parts = (self.targets, self.channels, self.memory, self.drives)
+        return Problem(self.mechanism, *(part[members] for part in parts))
 
-    def aim(self, targets: Array) -> Problem:
-        """The same control with other targets."""
-        return Problem(self.mechanism, targets, self.held, self.memory)
+    def aim(self, targets: Array, drives: Array) -> Problem:
+        """The same control with other targets and inputs."""
+        return replace(self, targets=targets, drives=drives)
+
+    def readings(self, unknowns: Array) -> Array:
+        """(B, 6) of the controlled channels at unknowns (B, N)."""
+        values = read(self.mechanism, unknowns, self.drives)
+        return np.asarray(np.take_along_axis(values, self.channels, axis=-1))
 
     def blockwise(self, unknowns: Array, members: np.ndarray) -> tuple[Array, Step]:
         """`System` that solves chain by chain."""
-        chains = lagrangian.all_rows(self.mechanism, unknowns, self.memory[members])
-        rows = self._residual(chains, unknowns, members)
+        part = self.take(members)
+        chains = lagrangian.all_rows(self.mechanism, unknowns, part.memory, part.drives)
+        control = control_of(self.mechanism, unknowns, part.drives, part.channels)
+        rows = part.residual(chains, unknowns)
 
         def step(done: np.ndarray) -> tuple[Array, np.ndarray, np.ndarray]:
-            held = self.held[members]
-            found = lagrangian.newton_step(self.place, chains, -rows[..., None], held)
-            unstable = lagrangian.unstable_directions(self.place, chains, found.stiffness, held, done)
+            found = lagrangian.newton_step(self.place, chains, -rows[..., None], control)
+            unstable = lagrangian.unstable_directions(self.place, chains, found, control, done)
             return found.step[..., 0], found.regular, unstable
 
         return rows, step
 
     def whole(self, unknowns: Array, members: np.ndarray) -> tuple[Array, Array]:
         """Residual (B, N) and its whole matrix (B, N, N), columns by unknowns in their units."""
-        chains = lagrangian.all_rows(self.mechanism, unknowns, self.memory[members])
-        rows = self._residual(chains, unknowns, members)
-        place, held = self.place, self.held[members]
+        part, place = self.take(members), self.place
+        chains = lagrangian.all_rows(self.mechanism, unknowns, part.memory, part.drives)
+        control = control_of(self.mechanism, unknowns, part.drives, part.channels)
         matrix = lagrangian.hessian(place, chains) * (place.scale / place.energy)[:, None]
-        pinned = np.diag(1.0 / place.scale)[place.platform]
-        matrix[:, place.platform] = np.where(held[..., None], pinned, matrix[:, place.platform])
-        return rows, matrix
+        matrix[:, place.platform] = 0.0
+        matrix[:, place.platform, place.platform] = control.by_pose / place.pose_scale
+        for x, dual, by in zip(place.coordinates, place.multipliers, control.by_coordinates, strict=True):
+            matrix[:, place.platform, dual] = control.by_load / place.load_scale
+            if by is not None:
+                matrix[:, place.platform, x] = by / place.scale[x]
+        return part.residual(chains, unknowns), matrix
 
-    def _residual(
-        self, chains: tuple[lagrangian.ChainRows, ...], unknowns: Array, members: np.ndarray
-    ) -> Array:
-        place, held, value = self.place, self.held[members], self.targets[members]
-        rows = lagrangian.gradient(place, chains, unknowns, np.where(held, 0.0, value))
+    def residual(self, chains: tuple[ChainRows, ...], unknowns: Array) -> Array:
+        """Dimensionless residual (B, N) from the chains' rows at unknowns (B, N)."""
+        place = self.place
+        rows = lagrangian.gradient(place, chains, unknowns)
         rows *= place.scale / place.energy
-        offset = (unknowns[:, place.platform] - value) / place.scale[place.platform]
-        rows[:, place.platform] = np.where(held, offset, rows[:, place.platform])
+        rows[:, place.platform] = (self.readings(unknowns) - self.targets) / channel_scale(
+            place, self.channels
+        )
         return rows
+
+
+def channel_scale(place: lagrangian.Layout, channels: np.ndarray) -> Array:
+    """Size of the readings of the channels (..., 6)."""
+    longest = max(12, int(np.max(channels, initial=0)) + 1) - 12
+    length = place.pose_scale[0]
+    return np.concatenate([place.pose_scale, place.load_scale, np.full(longest, length)])[channels]

@@ -27,20 +27,22 @@ phi. The segments in series are the bar, to rounding.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
 from vjm.bars import Limb, X, Y, Z, check_station
 from vjm.chain import Element, Fixed, Joint, Role
-from vjm.frames import Array
+from vjm.frames import Array, exp
 from vjm.laws import BeamColumn, Spring
-from vjm.mechanisms.parallelogram import Parallelogram
+from vjm.link import Link
 
-SEGMENTS = 4
+SEGMENTS = 6
 """Default refinement; see `Refined` for what it is good for."""
 
 _PLANES = ((1, 5, 1.0), (2, 4, -1.0))
+# Within a chain a segment's coordinates are numbered as its joints come: rotations first.
+_ORDER = np.array([3, 4, 5, 0, 1, 2])
 
 
 @dataclass(frozen=True)
@@ -59,30 +61,41 @@ class Refined:
         if self.segments < 1:
             raise ValueError(f"a bar has one segment or more, got {self.segments}")
 
-    def limb(self, length: float, stiffness: Array) -> Limb:
-        parts = share_out(length, stiffness, self.segments)
-        parts.curvature[:, 3] = self.polar_radius**2 * self.segments / length
-        elements = [e for k in range(self.segments) for e in _segment(k, parts)]
-        full = np.zeros((6 * self.segments, 6 * self.segments))
-        # Within a chain a segment's coordinates are numbered as its joints come: rotations first.
-        order = np.array([3, 4, 5, 0, 1, 2])
+    def limb(self, link: Link) -> Limb:
+        n, parts = self.segments, self._parts(link)
+        start, end = _bowed_ends(link)
+        pieces = [_segment(k, parts) for k in range(n)]
+        elements = [*start, *(e for piece in pieces for e in piece), *end]
+        full = np.zeros((6 * n, 6 * n))
         for k, matrix in enumerate(parts.stiffness):
-            full[6 * k : 6 * k + 6, 6 * k : 6 * k + 6] = matrix[order[:, None], order]
-        numbers = (6 * np.arange(self.segments)[:, None] + order).ravel()
-        law = BeamColumn(parts.stiffness, parts.curvature, parts.softening, parts.coupling)
-        return Limb(tuple(elements), full, (Spring(tuple(numbers.tolist()), law),))
+            full[6 * k : 6 * k + 6, 6 * k : 6 * k + 6] = matrix[_ORDER[:, None], _ORDER]
+        numbers = (6 * np.arange(n)[:, None] + _ORDER).ravel()
+        shape = bowed_shape(link, parts)
+        law = BeamColumn(parts.stiffness, parts.curvature, parts.softening, parts.coupling, shape)
+        stretch = np.zeros((n, 6))
+        stretch[:, 0] = 1.0 / n
+        return Limb(
+            tuple(elements),
+            full,
+            shape[:, _ORDER].ravel(),
+            stretch[:, _ORDER].ravel(),
+            (Spring(tuple(numbers.tolist()), law),),
+            _stations(start, pieces, parts.size),
+        )
 
-    def reach(self, length: float, stiffness: Array, station: float) -> tuple[Element, ...]:
+    def reach(self, link: Link, station: float) -> tuple[Element, ...]:
         check_station(station)
-        parts = share_out(length, stiffness, self.segments)
+        parts = self._parts(link)
         last = min(int(station * self.segments), self.segments - 1)
         before = [e for k in range(last) for e in _segment(k, parts)]
-        return (*before, *_bent(last, parts, station * self.segments - last))
+        bent = _bent(last, parts, station * self.segments - last)
+        return (*_bowed_ends(link)[0], *before, *bent)
 
-
-def refined(linkage: Parallelogram, segments: int = SEGMENTS) -> Parallelogram:
-    """The parallelogram with both bars refined into segments."""
-    return replace(linkage, bar=Refined(segments))
+    def _parts(self, link: Link) -> Shares:
+        parts = share_out(link.length, link.stiffness, self.segments)
+        parts.curvature[:, 3] = self.polar_radius**2 * self.segments / link.length
+        _give_way(parts, link)
+        return parts
 
 
 @dataclass(frozen=True, eq=False)
@@ -139,6 +152,64 @@ def share_out(length: float, stiffness: Array, segments: int) -> Shares:
         np.tile(coupling, (segments, 1)),
         shear,
     )
+
+
+def _give_way(parts: Shares, link: Link) -> None:
+    """Adds what stands between bar and hinges to the compliance of the first and the last segment."""
+    for number, give, side in ((0, link.base_give, 1.0), (-1, link.tip_give, -1.0)):
+        if not np.any(give):
+            continue
+        whole = _inverse(parts.stiffness[number])
+        first, second = 0.5 * parts.size - side * parts.offset[number]
+        # Shifts along y and along z are counted at different centres.
+        lever = np.eye(6)
+        lever[1, 5], lever[2, 4] = side * first, -side * second
+        parts.stiffness[number] = _inverse(whole + lever @ give @ lever.T)
+
+
+def bowed_shape(link: Link, parts: Shares) -> Array:
+    """(n, 6) of each segment in the unloaded bar, zero in a straight one.
+
+    Its ends lie on the two half sines with frames along their tangents, so it is an arc of its own turn.
+    """
+    n = len(parts.stiffness)
+    shape = np.zeros((n, 6))
+    station = np.arange(n + 1) / n
+    for amplitude, (shift, turn, sign), offset in zip(link.bow, _PLANES, parts.offset.T, strict=True):
+        if amplitude == 0.0:
+            continue
+        height = amplitude * np.sin(np.pi * station)
+        angle = np.arctan(amplitude * np.pi / link.length * np.cos(np.pi * station))
+        middle = 0.5 * (angle[1:] + angle[:-1])
+        along, up = np.full(n, parts.size), np.diff(height)
+        shape[:, turn] = sign * np.diff(angle)
+        shape[:, 0] += np.cos(middle) * along + np.sin(middle) * up - parts.size
+        shape[:, shift] = np.cos(middle) * up - np.sin(middle) * along - offset * np.diff(angle)
+    return shape
+
+
+def _bowed_ends(link: Link) -> tuple[tuple[Element, ...], tuple[Element, ...]]:
+    """From the frame of the base hinge to the bowed bar's tangent there, and back at the tip."""
+    if not np.any(link.bow):
+        return (), ()
+    y, z = np.arctan(np.pi / link.length * np.array(link.bow))
+    base, tip = exp(np.array([0.0, -z, y])), exp(np.array([0.0, -z, y]))
+    return (Fixed(rotation=base),), (Fixed(rotation=tip),)
+
+
+def _stations(
+    start: tuple[Element, ...], pieces: list[tuple[Element, ...]], size: float
+) -> tuple[tuple[tuple[Element, ...], float], ...]:
+    """Nodes with the consistent share of a uniform load; its end moments by a shift of a sixth of a segment."""
+    share = 1.0 / len(pieces)
+    sixth = Fixed(size / 6 * np.eye(3)[0])
+    back = Fixed(-size / 6 * np.eye(3)[0])
+    path = list(start)
+    out = [((*path, sixth), 0.5 * share)]
+    for piece in pieces[:-1]:
+        path.extend(piece)
+        out.append((tuple(path), share))
+    return (*out, ((*path, *pieces[-1], back), 0.5 * share))
 
 
 def _with_all_couplings(parts: Array, whole: Array, lever: Array) -> Array:

@@ -40,7 +40,9 @@ def bordered_tangent(state: Equilibrium, held: Held) -> Array:
     held: the platform coordinates that do not move, x included if it is driven. Closures stand last.
     """
     place = lagrangian.layout(state.mechanism)
-    hessian = lagrangian.hessian(place, lagrangian.all_rows(state.mechanism, state.unknowns, state.memory))
+    hessian = lagrangian.hessian(
+        place, lagrangian.all_rows(state.mechanism, state.unknowns, state.memory, state.drives)
+    )
     free = _free(place, held)
     scaled = place.scale[:, None] * hessian * place.scale / place.energy
     return scaled[..., free[:, None], free]

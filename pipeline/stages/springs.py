@@ -14,7 +14,6 @@ from vjm.branch import buckled_path
 from vjm.closed_forms import in_plane_critical, out_of_plane_cantilever
 from vjm.critical import CriticalLoad, critical_load, drive
 from vjm.mechanisms.parallelogram import Parallelogram
-from vjm.refined import refined
 from vjm.stiffness import closed_form, in_bar_frame, rank, unloaded_stiffness
 
 Place = Literal["tip", "middle", "base", "distributed"]
@@ -36,7 +35,7 @@ class SpringLinkage:
         size = self.case.linkage
         place = "tip" if self.place == "distributed" else self.place
         lumped = Parallelogram(size.length_mm, size.width_mm, self.stiffness, radians(self.q_deg), place)
-        return refined(lumped) if self.place == "distributed" else lumped
+        return lumped.refined() if self.place == "distributed" else lumped
 
     @property
     def closed_form(self) -> Floats:

@@ -17,7 +17,6 @@ from vjm import lagrangian, paper
 from vjm.equilibrium import equilibrium
 from vjm.mechanism import initial_memory
 from vjm.mechanisms.parallelogram import Parallelogram
-from vjm.refined import refined
 
 pytestmark = pytest.mark.long
 
@@ -48,12 +47,13 @@ def best(call: Callable[[], object]) -> float:
 def single(targets: np.ndarray, held: np.ndarray) -> np.ndarray:
     """One load case by scipy on the residual of Eq. 5, with its matrix, from the unloaded state."""
     place = lagrangian.layout(LINKAGE)
-    memory = initial_memory(LINKAGE)
+    memory, drives = initial_memory(LINKAGE), np.zeros(len(place.drives))
 
     def residual(scaled: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         unknowns = scaled * place.scale
-        chains = lagrangian.all_rows(LINKAGE, unknowns, memory)
-        rows = lagrangian.gradient(place, chains, unknowns, np.where(held, 0.0, targets))
+        chains = lagrangian.all_rows(LINKAGE, unknowns, memory, drives)
+        rows = lagrangian.gradient(place, chains, unknowns)
+        rows[place.platform] -= np.where(held, 0.0, targets)
         matrix = lagrangian.hessian(place, chains)
         rows, matrix = rows * place.scale / place.energy, place.scale[:, None] * matrix * place.scale
         matrix /= place.energy
@@ -62,7 +62,7 @@ def single(targets: np.ndarray, held: np.ndarray) -> np.ndarray:
         matrix[pinned] = np.eye(place.size)[pinned]
         return rows, matrix
 
-    found = root(residual, lagrangian.at_rest(LINKAGE) / place.scale, jac=True, tol=1e-12)
+    found = root(residual, lagrangian.at_rest(LINKAGE, drives) / place.scale, jac=True, tol=1e-12)
     return np.asarray(found.x * place.scale)[place.platform]
 
 
@@ -82,9 +82,9 @@ def test_plain_parallelograms() -> None:
 
 def test_refined_parallelograms_at_bench_accuracy() -> None:
     targets, held = bench_cases(2_000)
-    linkage = refined(LINKAGE)
+    linkage = LINKAGE.refined()
     state = equilibrium(linkage, targets, held)
-    fine = equilibrium(refined(LINKAGE, 12), targets[:100], held[:100])
+    fine = equilibrium(LINKAGE.refined(12), targets[:100], held[:100])
     assert np.all(state.converged)
     moved = np.abs(state.pose[:100] - fine.pose)
     assert moved[:, :3].max() < 1e-3 and moved[:, 3:].max() < 20e-6

@@ -20,7 +20,6 @@ from vjm.branch import buckled_path
 from vjm.critical import critical_load
 from vjm.equilibrium import equilibrium
 from vjm.mechanisms.parallelogram import Parallelogram
-from vjm.refined import refined
 
 LENGTH, WIDTH = 310.0, 80.0
 GUIDED = ("z", "rx", "ry", "rz")
@@ -38,7 +37,7 @@ def linkage(degrees: float) -> Parallelogram:
     """Eight segments a bar; in the first row of each angle the modes of two planes lie within one per cent."""
     segments = 8
     plain = Parallelogram(LENGTH, WIDTH, BAR_P.stiffness(LENGTH), np.radians(degrees))
-    return refined(plain, segments)
+    return plain.refined(segments)
 
 
 @pytest.mark.parametrize(("degrees", "held", "load", "slope"), PROGRAMS)

@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 
 from vjm import closed_forms, paper, stiffness
-from vjm.bars import STATION
+from vjm.lumped import STATION
 from vjm.critical import critical_load
 from vjm.equilibrium import equilibrium
 from vjm.paper_errata import eq_6_step, errata, example, moving_last_factor

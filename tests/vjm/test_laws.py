@@ -13,11 +13,12 @@ from vjm import paper, stiffness
 from vjm.equilibrium import equilibrium, load_path
 from vjm.friction import Jenkins
 from vjm.laws import Law, Linear, Polynomial, Spring
+from vjm.link import Link
 from vjm.mechanism import ElasticChain
 from vjm.mechanisms.parallelogram import Parallelogram
 from vjm.refined import Refined
 
-LIMB = Refined(3).limb(LENGTH, paper.BAR_STIFFNESS)
+LIMB = Refined(3).limb(Link(LENGTH, paper.BAR_STIFFNESS))
 STIFFNESS = np.array([[3.0, 1.0], [1.0, 2.0]])
 LAWS: list[tuple[Law, int, float]] = [
     (LIMB.springs[0].law, 18, 0.1),

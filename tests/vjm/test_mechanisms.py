@@ -18,7 +18,7 @@ from vjm.mechanism import ElasticChain
 from vjm.mechanisms.bar import Bar
 from vjm.mechanisms.parallelogram import Parallelogram
 from vjm.mechanisms.pseudo_rigid import pseudo_rigid_bar
-from vjm.refined import Refined, refined
+from vjm.refined import Refined
 from vjm.stability import UNSTABLE, negative_eigenvalues, verified
 from vjm.stiffness import unloaded_stiffness
 
@@ -107,7 +107,7 @@ HELD = ("y", "z", "rx", "ry", "rz")
 
 
 def test_past_a_critical_load_the_record_says_so() -> None:
-    linkage = refined(Parallelogram(LENGTH, WIDTH, K))
+    linkage = Parallelogram(LENGTH, WIDTH, K).refined()
     load = np.array([0.0, 0, 0, 0, 0, 0])
     load[0] = 1.2 * critical_load(linkage, HELD).load
     target = np.where([name in HELD for name in ("x", *HELD)], linkage.unloaded_pose, load)
@@ -135,7 +135,7 @@ def test_impossible_demands_fail_with_a_reason(demand: list[float]) -> None:
 
 def test_the_count_of_the_solver_is_that_of_the_eigenvalues() -> None:
     generator = np.random.default_rng(5)
-    linkage = refined(Parallelogram(LENGTH, WIDTH, K, 0.3), 2)
+    linkage = Parallelogram(LENGTH, WIDTH, K, 0.3).refined(2)
     held = generator.random((60, 6)) < 0.5
     held[:, 2] = True
     held[:, 0] = False
@@ -149,7 +149,7 @@ def test_the_count_of_the_solver_is_that_of_the_eigenvalues() -> None:
 
 
 def test_a_refined_linkage_buckles_in_compression_and_not_in_tension() -> None:
-    linkage = refined(Parallelogram(LENGTH, WIDTH, K))
+    linkage = Parallelogram(LENGTH, WIDTH, K).refined()
     critical = critical_load(linkage, ("z", "rx", "ry", "rz"), -1)
     branch = buckled_path(critical, [1.005 * critical.displacement, 1.02 * critical.displacement])
     assert np.all(branch.converged) and np.all(branch.unstable == 0)

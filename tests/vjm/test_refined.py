@@ -14,7 +14,7 @@ from vjm.critical import critical_load
 from vjm.equilibrium import equilibrium
 from vjm.mechanisms.bar import Bar
 from vjm.mechanisms.parallelogram import Parallelogram
-from vjm.refined import SEGMENTS, Refined, refined, share_out
+from vjm.refined import SEGMENTS, Refined, share_out
 
 GUIDED = ("z", "rx", "ry", "rz")
 CLAMPED = ("y", *GUIDED)
@@ -42,7 +42,7 @@ def stepped_bar(lug: float = 15.0, stiffer: float = 4.0) -> np.ndarray:
 @given(bar_stiffness(), angles, st.integers(1, 12))
 def test_unloaded_stiffness_is_the_identified_one(k: np.ndarray, q: float, segments: int) -> None:
     assert entrywise(stiffness.unloaded_stiffness(Bar(LENGTH, k, bar=Refined(segments))), k) < 1e-9
-    linkage = refined(Parallelogram(LENGTH, WIDTH, k, q), segments)
+    linkage = Parallelogram(LENGTH, WIDTH, k, q).refined(segments)
     expected, found = stiffness.closed_form(k, WIDTH, q), stiffness.unloaded_stiffness(linkage, q)
     assert stiffness.rank(found, LENGTH) == 5
     np.testing.assert_allclose(found, expected, atol=1e-9 * np.max(np.abs(expected)))
@@ -93,7 +93,7 @@ def test_critical_loads_are_euler_loads(segments: int, limit: float) -> None:
         (CLAMPED, in_plane(SLENDER), euler.in_plane),
     ]
     for held, section, load in cases:
-        linkage = refined(Parallelogram(LENGTH, WIDTH, section.stiffness(LENGTH)), segments)
+        linkage = Parallelogram(LENGTH, WIDTH, section.stiffness(LENGTH)).refined(segments)
         # The bars are not axially rigid: what is left at full refinement is P/EA.
         assert critical_load(linkage, held).load == pytest.approx(load, rel=limit)
 
@@ -105,7 +105,7 @@ def test_equation_12_buckles_as_a_flexible_length_between_rigid_ends() -> None:
     flexible = np.sqrt(12 * spread / compliance[5, 5])
     assert flexible == pytest.approx(304.0, abs=0.05)
     expected = -2 * np.pi**2 / (flexible * compliance[5, 5])
-    found = critical_load(refined(Parallelogram(LENGTH, WIDTH, paper.BAR_STIFFNESS)), GUIDED).load
+    found = critical_load(Parallelogram(LENGTH, WIDTH, paper.BAR_STIFFNESS).refined(), GUIDED).load
     assert found == pytest.approx(expected, rel=2e-3)
     # The formula of a uniform bar with EI_z of K22 lies 2 % above it.
     uniform = closed_forms.euler_loads(SLENDER.ei_y, SLENDER.ei_z, LENGTH).guided
@@ -115,7 +115,7 @@ def test_equation_12_buckles_as_a_flexible_length_between_rigid_ends() -> None:
 def test_shear_lowers_the_critical_load_as_haringx_says() -> None:
     """J. A. Haringx, Philips Research Reports 3 (1948): P = (sqrt(1 + 4 P_E / GA) - 1) GA / 2."""
     soft = Section(1e9, 1e8, 2e8, 4.5e7, 2e5, 2e5)
-    found = -critical_load(refined(Parallelogram(LENGTH, WIDTH, soft.stiffness(LENGTH)), 16), GUIDED).load
+    found = -critical_load(Parallelogram(LENGTH, WIDTH, soft.stiffness(LENGTH)).refined(16), GUIDED).load
     euler = np.pi**2 * soft.ei_z / LENGTH**2
     expected = 0.5 * soft.ga_y * (np.sqrt(1 + 4 * euler / soft.ga_y) - 1)
     assert found / 2 == pytest.approx(expected, rel=1e-3)
@@ -182,8 +182,8 @@ def test_default_refinement_is_converged_at_bench_size(k: np.ndarray, degrees: i
     free = ~(held[:, 1] | held[:, 5])
     load[free, 0] = np.abs(load[free, 0])
     targets = np.where(held, linkage.unloaded_pose + motion, load)
-    fine = equilibrium(refined(linkage, 16), targets, held)
-    coarse = equilibrium(refined(linkage), targets, held)
+    fine = equilibrium(linkage.refined(16), targets, held)
+    coarse = equilibrium(linkage.refined(), targets, held)
     # A bar's slope reaches 1.5 y / L besides the platform's own rotation.
     slope = np.maximum(np.max(np.abs(fine.pose[:, 3:]), axis=1), 1.5 * np.abs(fine.pose[:, 1]) / LENGTH)
     usable = fine.converged & (slope < 0.06)

@@ -2,18 +2,23 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Literal, get_args
 
 import numpy as np
 
 from vjm import checks
-from vjm.bars import BarModel, Lumped, SpringAt
-from vjm.chain import Chain, Element, Joint, Role
+from vjm.bars import BarModel
 from vjm.frames import Array
-from vjm.gauges import Gauge, gauge
+from vjm.gauges import Gauge
+from vjm.laws import Law
+from vjm.link import Link
+from vjm.lumped import Lumped, SpringAt
 from vjm.mechanism import ElasticChain
+from vjm.mechanisms.assembly import Alteration, Assembly, GaugeAt, as_built, mounted
+from vjm.refined import SEGMENTS, Refined
+from vjm.sensors import Sensor
 
 Base = Literal["clamped", "pinned"]
 Tip = Literal["free", "pinned", "guided"]
@@ -24,8 +29,6 @@ HELD: dict[Tip, tuple[str, ...]] = {
 }
 """Platform coordinates that each kind of tip holds."""
 
-_HINGE = Joint("rotation", (0.0, 1.0, 0.0), Role.PASSIVE)
-
 
 @dataclass(frozen=True, eq=False)
 class Bar:
@@ -35,6 +38,7 @@ class Bar:
     tip: "free" carries nothing; "guided" shifts but does not turn; "pinned" has a hinge about y to a block,
     the platform, that slides along x only. `held` names the coordinates that this holds.
     bar: another model of the bar than the 6x6 lumped at `spring_at`, such as `vjm.refined.Refined`.
+    hinges, alterations, mount, line_load, sensors, gauge_at: as in `vjm.mechanisms.parallelogram`.
     ValueError for a length that is not positive, a stiffness that is not symmetric positive definite or a
     support that is none of those named.
     """
@@ -45,6 +49,12 @@ class Bar:
     spring_at: SpringAt = "tip"
     tip: Tip = "free"
     bar: BarModel | None = None
+    hinges: tuple[Law, ...] = ()
+    alterations: tuple[Alteration, ...] = ()
+    mount: Array = field(default_factory=lambda: np.zeros(3))
+    line_load: Array = field(default_factory=lambda: np.zeros(3))
+    sensors: tuple[Sensor, ...] = ()
+    gauge_at: tuple[GaugeAt, ...] = ()
 
     def __post_init__(self) -> None:
         checks.positive("length", self.length)
@@ -57,17 +67,18 @@ class Bar:
         )
 
     @cached_property
+    def links(self) -> tuple[Link, ...]:
+        """The bar as built."""
+        return as_built(Link(self.length, self.bar_stiffness), 1, self.alterations)
+
+    @cached_property
     def chains(self) -> tuple[ElasticChain, ...]:
         """One chain: the bar between the hinges it has."""
-        limb = self._model.limb(self.length, self.bar_stiffness)
-        tip = (_HINGE,) if self.tip == "pinned" else ()
-        chain = Chain((*self._start, *limb.elements, *tip))
-        springs = limb.numbered_from(len(self._start))
-        return (ElasticChain(chain, limb.stiffness, np.zeros(chain.size), springs),)
+        return (self._assembly.chain(),)
 
     @property
     def unloaded_pose(self) -> Array:
-        """(6,) base frame."""
+        """(6,) nominal, base frame."""
         return np.array([self.length, 0.0, 0.0, 0.0, 0.0, 0.0])
 
     @property
@@ -75,15 +86,31 @@ class Bar:
         """Platform coordinates that the tip's support holds at their unloaded values."""
         return HELD[self.tip]
 
+    @cached_property
+    def gauges(self) -> tuple[Gauge, ...]:
+        """Those of `gauge_at`."""
+        return tuple(self._assembly.gauge(0, self.chains[0], place) for place in self.gauge_at)
+
     def gauge(self, station: float, direction: tuple[float, float, float]) -> Gauge:
         """Displacement of the bar's axis at `station` (0 base, 1 tip) along a base-frame direction."""
-        reach = self._model.reach(self.length, self.bar_stiffness, station)
-        return gauge(0, (*self._start, *reach), self.chains[0], direction)
+        return self._assembly.gauge(0, self.chains[0], GaugeAt(1, station, direction))
 
-    @property
-    def _model(self) -> BarModel:
-        return Lumped(self.spring_at) if self.bar is None else self.bar
+    def altered(self, *alterations: Alteration) -> Bar:
+        """The mechanism with further alterations of its bar."""
+        return replace(self, alterations=(*self.alterations, *alterations))
 
-    @property
-    def _start(self) -> tuple[Element, ...]:
-        return (_HINGE,) if self.base == "pinned" else ()
+    def refined(self, segments: int = SEGMENTS) -> Bar:
+        """The mechanism with its bar refined into segments."""
+        return replace(self, bar=Refined(segments))
+
+    @cached_property
+    def _assembly(self) -> Assembly:
+        model = Lumped(self.spring_at) if self.bar is None else self.bar
+        return Assembly(
+            self.links[0],
+            model,
+            start=mounted(self.mount),
+            hinged=(self.base == "pinned", self.tip == "pinned"),
+            hinges=self.hinges,
+            line_load=self.line_load,
+        )

@@ -6,21 +6,24 @@ manipulators", New Trends in Mechanism Science (EUCOMES 2010), Springer.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import get_args
 
 import numpy as np
 
 from vjm import checks
-from vjm.bars import BarModel, Lumped, SpringAt
-from vjm.chain import Chain, Element, Fixed, Joint, Role
-from vjm.frames import Array, rotation_y
-from vjm.gauges import Gauge, gauge
-from vjm.laws import Law, Spring
+from vjm.bars import BarModel
+from vjm.chain import Fixed
+from vjm.frames import Array
+from vjm.gauges import Gauge
+from vjm.laws import Law
+from vjm.link import Link
+from vjm.lumped import Lumped, SpringAt
 from vjm.mechanism import ElasticChain
-
-_HINGE = Joint("rotation", (0.0, 1.0, 0.0), Role.PASSIVE)
+from vjm.mechanisms.assembly import Alteration, Assembly, GaugeAt, as_built, mounted
+from vjm.refined import SEGMENTS, Refined
+from vjm.sensors import Sensor
 
 
 @dataclass(frozen=True, eq=False)
@@ -28,13 +31,16 @@ class Parallelogram:
     """Parallelogram linkage at nominal bar angle q; the platform point lies midway between the outer hinges.
 
     length, width: L and d, mm. bar_stiffness: K_b (6, 6) of one bar at its tip, base clamped, bar frame.
-    q: nominal rotation R_y of the bars, rad; the unloaded platform is at (L cos q, 0, -L sin q).
+    q: nominal rotation R_y of the bars, rad; the unloaded platform is at (L cos q, 0, -L sin q). It is the
+    default of the input "q". Eq. 1 ends with the constant rotation R_y(q); the rotation vector counts from
+    there, so both are left out here. (Printed as R_y(-q_i2), it would let the platform slip: rank 4.)
     spring_at: where along the bar K_b is lumped. Eq. 1 says the tip. The unloaded stiffness does not depend
     on it, the critical loads do (`vjm.closed_forms`).
     bar: another model of the bars than K_b lumped at that place, such as `vjm.refined.Refined`.
-    hinges: laws of the rotation of each of the four hinges from its nominal angle; none in a perfect hinge.
-    The last factor of Eq. 1 is the constant rotation R_y(q); printed as R_y(-q_i2), it would let the platform
-    slip past the hinges (rank 4).
+    hinges: laws of the turn of each of the four hinges from its nominal angle; none in a perfect hinge.
+    alterations: what the bars are instead of what is drawn, applied in turn. wider: mm added to both widths.
+    mount: (3,) rotation vector, rad, of the whole linkage against the base frame. line_load: (3,) N/mm along
+    the bars, base frame. sensors, gauge_at: what is read (`vjm.sensors`, `vjm.gauges`).
     ValueError for lengths that are not positive, |q| of 90 degrees or more, a K_b that is not
     symmetric positive definite.
     """
@@ -46,6 +52,12 @@ class Parallelogram:
     spring_at: SpringAt = "tip"
     bar: BarModel | None = None
     hinges: tuple[Law, ...] = ()
+    alterations: tuple[Alteration, ...] = ()
+    wider: float = 0.0
+    mount: Array = field(default_factory=lambda: np.zeros(3))
+    line_load: Array = field(default_factory=lambda: np.zeros(3))
+    sensors: tuple[Sensor, ...] = ()
+    gauge_at: tuple[GaugeAt, ...] = ()
 
     def __post_init__(self) -> None:
         checks.positive("length", self.length)
@@ -54,46 +66,61 @@ class Parallelogram:
             raise ValueError(f"q must lie between -pi/2 and pi/2 rad, got {self.q}")
         if self.spring_at not in get_args(SpringAt):
             raise ValueError(f"spring_at must be one of {get_args(SpringAt)}, got {self.spring_at!r}")
+        if wrong := [place.bar for place in self.gauge_at if place.bar not in (1, 2)]:
+            raise ValueError(f"bar must be 1 or 2, got {wrong[0]}")
         object.__setattr__(
             self, "bar_stiffness", checks.stiffness_matrix("bar_stiffness", self.bar_stiffness)
         )
 
     @cached_property
+    def links(self) -> tuple[Link, ...]:
+        """Bar 1 and bar 2 as built."""
+        return as_built(Link(self.length, self.bar_stiffness), 2, self.alterations)
+
+    @cached_property
     def chains(self) -> tuple[ElasticChain, ...]:
         """Chain 1 starts at z = -d/2, chain 2 at +d/2; coordinates q_i1, theta_i1..6, q_i2."""
-        limb = self._model.limb(self.length, self.bar_stiffness)
-        nominal = rotation_y(self.q)
-        chains = []
-        for offset in self._offsets:
-            end = Fixed(np.array([0.0, 0.0, -offset]), nominal)
-            chain = Chain((*self._start(offset), *limb.elements, _HINGE, end), nominal)
-            rest = np.zeros(chain.size)
-            rest[0], rest[-1] = self.q, -self.q
-            hinges = tuple(Spring((k,), law) for law in self.hinges for k in (0, chain.size - 1))
-            chains.append(ElasticChain(chain, limb.stiffness, rest, limb.numbered_from(1) + hinges))
-        return tuple(chains)
+        return tuple(assembly.chain() for assembly in self._assemblies)
 
     @property
     def unloaded_pose(self) -> Array:
-        """(6,) base frame."""
+        """(6,) nominal, base frame."""
         return np.array([self.length * np.cos(self.q), 0.0, -self.length * np.sin(self.q), 0.0, 0.0, 0.0])
+
+    @cached_property
+    def gauges(self) -> tuple[Gauge, ...]:
+        """Those of `gauge_at`."""
+        return tuple(self._gauge(place) for place in self.gauge_at)
 
     def gauge(self, bar: int, station: float, direction: tuple[float, float, float]) -> Gauge:
         """Displacement of the axis of bar 1 or 2 at `station` (0 base, 1 tip) along a base-frame direction."""
-        if bar not in (1, 2):
-            raise ValueError(f"bar must be 1 or 2, got {bar}")
-        reach = self._model.reach(self.length, self.bar_stiffness, station)
-        elements = (*self._start(self._offsets[bar - 1]), *reach)
-        return gauge(bar - 1, elements, self.chains[bar - 1], direction)
+        place = GaugeAt(bar, station, direction)
+        return replace(self, gauge_at=(place,))._gauge(place)
 
-    @property
-    def _model(self) -> BarModel:
-        return Lumped(self.spring_at) if self.bar is None else self.bar
+    def altered(self, *alterations: Alteration) -> Parallelogram:
+        """The linkage with further alterations of its bars."""
+        return replace(self, alterations=(*self.alterations, *alterations))
 
-    @property
-    def _offsets(self) -> tuple[float, float]:
-        return -0.5 * self.width, 0.5 * self.width
+    def refined(self, segments: int = SEGMENTS) -> Parallelogram:
+        """The linkage with both bars refined into segments."""
+        return replace(self, bar=Refined(segments))
 
-    @staticmethod
-    def _start(offset: float) -> tuple[Element, ...]:
-        return Fixed(np.array([0.0, 0.0, offset])), _HINGE
+    def _gauge(self, place: GaugeAt) -> Gauge:
+        return self._assemblies[place.bar - 1].gauge(place.bar - 1, self.chains[place.bar - 1], place)
+
+    @cached_property
+    def _assemblies(self) -> tuple[Assembly, ...]:
+        model = Lumped(self.spring_at) if self.bar is None else self.bar
+        half = 0.5 * (self.width + self.wider)
+        return tuple(
+            Assembly(
+                link,
+                model,
+                start=(*mounted(self.mount), Fixed(np.array([0.0, 0.0, offset]))),
+                end=(Fixed(np.array([0.0, 0.0, -offset])),),
+                angle=self.q,
+                hinges=self.hinges,
+                line_load=self.line_load,
+            )
+            for link, offset in zip(self.links, (-half, half), strict=True)
+        )

@@ -11,8 +11,10 @@ from vjm import checks
 from vjm.bars import spring_joints
 from vjm.chain import Chain, Fixed, Joint, Role
 from vjm.frames import Array, rotation_y
+from vjm.gauges import Gauge
 from vjm.mechanism import ElasticChain
 from vjm.mechanisms.parallelogram import Parallelogram
+from vjm.sensors import Sensor
 from vjm.stiffness import unloaded_stiffness
 
 _FREE = 2
@@ -30,6 +32,8 @@ class PseudoRigidBar:
     length: float
     springs: Array
     q: float = 0.0
+    sensors: tuple[Sensor, ...] = ()
+    gauges: tuple[Gauge, ...] = ()
 
     def __post_init__(self) -> None:
         checks.positive("length", self.length)

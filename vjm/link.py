@@ -1,0 +1,54 @@
+"""One bar between its two hinge axes, as drawn or as built, whatever model is made of it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+
+from vjm.frames import Array
+from vjm.laws import Law
+
+
+def _rigid() -> Array:
+    return np.zeros((6, 6))
+
+
+@dataclass(frozen=True, eq=False)
+class Link:
+    """A bar along x from the axis of its base hinge to that of its tip hinge.
+
+    length: mm. stiffness: (6, 6) at the tip, base clamped, of the bar alone and straight.
+    base_give, tip_give: (6, 6) compliance between a hinge axis and the bar's end there, bar frame.
+    bow: amplitudes, mm, of the half sines along y and z of the bar frame that the unloaded bar has; the frames
+    of its hinges stay where they are without.
+    slides: laws in series of a displacement along the bar at its base hinge.
+    elongation: stress-free lengthening per unit of an input, mm, by the name of the input.
+    """
+
+    length: float
+    stiffness: Array
+    base_give: Array = field(default_factory=_rigid)
+    tip_give: Array = field(default_factory=_rigid)
+    bow: tuple[float, float] = (0.0, 0.0)
+    slides: tuple[Law, ...] = ()
+    elongation: tuple[tuple[str, float], ...] = ()
+
+    def lengthened(self, change: float) -> Link:
+        """The bar with `change`, mm, added to its length at the same section: a uniform bar's 6x6 follows it."""
+        length = self.length + change
+        ratio = self.length / length
+        powers = np.sqrt(ratio ** np.array([1.0, 3.0, 3.0, 1.0, 1.0, 1.0]))
+        stiffness = powers[:, None] * self.stiffness * powers
+        return replace(self, length=length, stiffness=stiffness)
+
+    def stiffened(self, scale: float) -> Link:
+        """The bar with its stiffness scaled."""
+        return replace(self, stiffness=scale * self.stiffness)
+
+    @property
+    def give(self) -> Array:
+        """(6, 6) compliance at the tip of what stands between bar and hinges."""
+        lever = np.eye(6)
+        lever[1, 5], lever[2, 4] = self.length, -self.length
+        return lever @ self.base_give @ lever.T + self.tip_give
