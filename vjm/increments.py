@@ -14,6 +14,8 @@ FIRST_STEP, LEAST_STEP = 1.0 / 16.0, 1.0 / 128.0
 # Numbers of a chunk's matrices; a few MB, so that they stay in a cache and memory does not grow with the batch.
 _NUMBERS = 400_000
 _SOON = 8
+# Beyond half of the first step the loading is far from linear, and there may be other solutions as near.
+_FAR = 0.5
 LOST_STABILITY = "no stable equilibrium further on"
 
 
@@ -37,7 +39,8 @@ def solve(
             failed,
             _in_increments(problem.take(failed), start[failed], before[failed], tolerance, limit, follow),
         )
-    doubtful = np.flatnonzero((end.unstable > 0) | ((end.unstable == 0) & (direct > _SOON)))
+    wandered = (direct > _SOON) | (end.strayed > _FAR)
+    doubtful = np.flatnonzero((end.unstable > 0) | ((end.unstable == 0) & (direct > 0) & wandered))
     if doubtful.size and not follow:
         again = _in_increments(
             problem.take(doubtful), start[doubtful], before[doubtful], tolerance, limit, follow

@@ -27,7 +27,8 @@ class Iterate:
     """Where the iteration ended.
 
     unknowns: (B, N). residual: (B,). iterations: (B,). reason: (B,) of strings. unstable: (B,) number of
-    unstable directions, -1 where not converged or not counted.
+    unstable directions, -1 where not converged or not counted. strayed: (B,) how far it moved after its first
+    step, relative to that step.
     """
 
     unknowns: Array
@@ -35,10 +36,11 @@ class Iterate:
     iterations: np.ndarray
     reason: np.ndarray
     unstable: np.ndarray
+    strayed: Array
 
     def put(self, members: np.ndarray, other: Iterate) -> None:
         """Replace these members by those of another iteration, whose iterations are added."""
-        for name in ("unknowns", "residual", "reason", "unstable"):
+        for name in ("unknowns", "residual", "reason", "unstable", "strayed"):
             getattr(self, name)[members] = getattr(other, name)
         self.iterations[members] += other.iterations
 
@@ -52,6 +54,7 @@ def unsolved(start: Array) -> Iterate:
         np.zeros(count, dtype=int),
         np.full(count, RUNNING, dtype=object),
         np.full(count, -1),
+        np.zeros(count),
     )
 
 
@@ -91,7 +94,7 @@ def newton(
     The step after the residual has met the tolerance is still taken: it costs one solve and brings the
     residual to rounding. Members that fail keep their last finite unknowns and a reason.
     """
-    end = unsolved(start)
+    end, first = unsolved(start), None
     active = np.arange(len(start))
     for _ in range(limit):
         if active.size == 0:
@@ -108,6 +111,14 @@ def newton(
         end.iterations[active] += 1
         end.reason[active[moving & done]] = CONVERGED
         active = active[moving & ~done]
+        first = end.unknowns.copy() if first is None else first
+    if first is not None:
+        part = slice(None) if motion is None else motion
+        ways = [
+            np.max(np.abs((b - a) / scale)[:, part], axis=-1)
+            for a, b in ((start, first), (first, end.unknowns))
+        ]
+        end.strayed[:] = ways[1] / np.maximum(ways[0], np.finfo(float).tiny)
     return end
 
 

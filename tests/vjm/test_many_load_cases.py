@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import get_args
 
 import numpy as np
 import pytest
@@ -10,6 +11,7 @@ import pytest
 from tests.vjm.strategies import LENGTH, WIDTH
 from vjm import paper
 from vjm.equilibrium import Equilibrium, equilibrium, load_path, unloaded
+from vjm.lumped import SpringAt
 from vjm.mechanisms.parallelogram import Parallelogram
 from vjm.refined import Refined
 from vjm.sensitivity import by_targets
@@ -22,13 +24,18 @@ FACTORS = np.geomspace(0.02, 4.0, 24)
 
 
 def random_linkage(generator: np.random.Generator) -> Parallelogram:
-    """K_b within a factor 3 of Eq. 12, couplings of either sign, q within 60 degrees, a third refined."""
+    """K_b within a factor 3 of Eq. 12, couplings of either sign, q within 60 degrees, a third refined.
+
+    The others have their springs at the tip, in the middle or at the base.
+    """
     scale = 3.0 ** generator.uniform(-1, 1, 6)
     k = np.diag(scale * np.diag(paper.BAR_STIFFNESS))
     for i, j in ((1, 5), (2, 4)):
         k[i, j] = k[j, i] = generator.uniform(-0.9, 0.9) * np.sqrt(k[i, i] * k[j, j])
-    bar = Refined(2) if generator.random() < 1 / 3 else None
-    return Parallelogram(LENGTH, WIDTH, k, generator.uniform(-np.pi / 3, np.pi / 3), bar=bar)
+    bar = Refined(int(generator.integers(1, 5))) if generator.random() < 1 / 3 else None
+    place = generator.choice(get_args(SpringAt))
+    q = generator.uniform(-np.pi / 3, np.pi / 3)
+    return Parallelogram(LENGTH, WIDTH, k, q, spring_at=place, bar=bar)
 
 
 @dataclass(frozen=True)
@@ -63,8 +70,8 @@ def random_cases(generator: np.random.Generator, count: int) -> Cases:
     use = steps > 0
     share = (0.8 * last * generator.uniform(0.3, 1.0, last.size))[use]
     cases = Cases(linkage, held[use], change[use] * share[:, None])
-    # A coarse ramp may step over a critical load; a fine one to the load chosen tells.
-    fine = cases.targets(np.repeat(np.linspace(0.04, 1, 25)[:, None], len(cases.held), axis=1))
+    # A coarse ramp may step over a critical load; a fine one from rest to the load chosen tells.
+    fine = cases.targets(np.repeat(np.linspace(0, 1, 26)[:, None], len(cases.held), axis=1))
     path = load_path(linkage, fine, cases.held, follow=True)
     stays = np.all(verified(path).converged, axis=0) & continuous(path, cases.change / 25)
     return Cases(linkage, cases.held[stays], cases.change[stays])

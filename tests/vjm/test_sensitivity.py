@@ -15,8 +15,8 @@ from vjm.equilibrium import Equilibrium, equilibrium, load_path
 from vjm.friction import Jenkins
 from vjm.laws import Polynomial
 from vjm.mechanism import Mechanism
-from vjm.mechanisms.bar import Bar
 from vjm.mechanisms.assembly import GaugeAt
+from vjm.mechanisms.bar import Bar
 from vjm.mechanisms.parallelogram import Parallelogram
 from vjm.refined import Refined
 from vjm.sensitivity import by_parameter, by_targets
