@@ -7,7 +7,7 @@ smooth in the data of a mechanism; its error, about the fourth power of the rela
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -60,8 +60,67 @@ def by_targets(state: Equilibrium) -> Sensitivity:
     unknowns, regular = _solve(state, right)
     memory = np.zeros((*state.memory.shape, 6))
     if state.memory.shape[-1]:
-        memory = _memory_change(state, lambda _: state, 0.0, unknowns, memory, np.ones(6))
+        memory = _memory_change(state, [None] * 6, unknowns, memory)
     return Sensitivity(state, unknowns, memory, _readings(state, unknowns), regular)
+
+
+@dataclass(frozen=True, eq=False)
+class Direction:
+    """One parameter p of the mechanism: `build(value)` is the mechanism of the state.
+
+    size: typical size of p; differences reach 2e-3 of it to either side.
+    """
+
+    build: Callable[[float], Mechanism]
+    value: float
+    size: float
+
+    def moved(self, state: Equilibrium, change: float) -> Equilibrium:
+        """The unknowns of the state in what a change of p makes of the mechanism."""
+        return replace(state, mechanism=self.build(self.value + change))
+
+
+@dataclass(frozen=True, eq=False)
+class DriveDirection:
+    """One input of the mechanism by name."""
+
+    name: str
+    size: float
+
+    def moved(self, state: Equilibrium, change: float) -> Equilibrium:
+        """The unknowns of the state at a changed input."""
+        drives = state.drives.copy()
+        drives[..., lagrangian.layout(state.mechanism).drives.index(self.name)] += change
+        return replace(state, drives=drives)
+
+
+def by_parameters(
+    state: Equilibrium,
+    directions: Sequence[Direction | DriveDirection],
+    target_slope: ArrayLike = 0.0,
+    memory_slope: ArrayLike = 0.0,
+) -> Sensitivity:
+    """By k parameters or inputs at once.
+
+    target_slope: (..., 6, k) derivative of the targets, where they change with them. memory_slope: (..., M, k)
+    derivative of the memory at the start of the step, `Sensitivity.memory` of the step before.
+    """
+    place, count = lagrangian.layout(state.mechanism), len(directions)
+    batch = state.converged.shape
+    memory = np.broadcast_to(np.asarray(memory_slope, dtype=float), (*state.memory.shape, count))
+    target = np.broadcast_to(np.asarray(target_slope, dtype=float), (*batch, 6, count))
+    slope = np.zeros((*state.unknowns.shape, count))
+    own = np.zeros((*state.readings.shape, count))
+    for k, direction in enumerate(directions):
+        for offset, weight in zip(_OFFSETS, _WEIGHTS / (_STEP * direction.size), strict=True):
+            step = _STEP * direction.size * offset
+            moved = direction.moved(state, step)
+            slope[..., k] += weight * _residual(moved, state.memory + step * memory[..., k], place)
+            own[..., k] += weight * moved.readings
+    slope[..., place.platform, :] -= target / channel_scale(place, state.channels)[..., None]
+    unknowns, regular = _solve(state, -slope)
+    change = _memory_change(state, directions, unknowns, memory)
+    return Sensitivity(state, unknowns, change, own + _readings(state, unknowns), regular)
 
 
 def by_parameter(
@@ -72,54 +131,9 @@ def by_parameter(
     target_slope: ArrayLike = 0.0,
     memory_slope: ArrayLike = 0.0,
 ) -> Sensitivity:
-    """By one parameter p of the mechanism, `build(value)` being the mechanism of the state.
-
-    size: typical size of p; differences reach 2e-3 of it to either side. target_slope: (..., 6) derivative of
-    the targets, where they change with p. memory_slope: (..., M) derivative of the memory at the start of the
-    step, `Sensitivity.memory` of the step before.
-    """
-    return _by_change(
-        state, lambda p: replace(state, mechanism=build(p)), value, size, target_slope, memory_slope
-    )
-
-
-def by_drive(
-    state: Equilibrium, name: str, size: float, target_slope: ArrayLike = 0.0, memory_slope: ArrayLike = 0.0
-) -> Sensitivity:
-    """By one input of the mechanism; see `by_parameter`."""
-    number = lagrangian.layout(state.mechanism).drives.index(name)
-
-    def moved(change: float) -> Equilibrium:
-        drives = state.drives.copy()
-        drives[..., number] += change
-        return replace(state, drives=drives)
-
-    return _by_change(state, moved, 0.0, size, target_slope, memory_slope)
-
-
-def _by_change(
-    state: Equilibrium,
-    vary: Callable[[float], Equilibrium],
-    value: float,
-    size: float,
-    target_slope: ArrayLike,
-    memory_slope: ArrayLike,
-) -> Sensitivity:
-    """By p, `vary(p)` being the same unknowns in what p changes."""
-    place = lagrangian.layout(state.mechanism)
-    memory = np.broadcast_to(np.asarray(memory_slope, dtype=float), state.memory.shape)
-    slope, own = np.zeros_like(state.unknowns), np.zeros(state.readings.shape)
-    for offset, weight in zip(_OFFSETS, _WEIGHTS, strict=True):
-        step = _STEP * size * offset
-        moved = vary(value + step)
-        slope += weight / (_STEP * size) * _residual(moved, state.memory + step * memory, place)
-        own += weight / (_STEP * size) * moved.readings
-    target = np.broadcast_to(np.asarray(target_slope, dtype=float), state.channels.shape)
-    slope[..., place.platform] -= target / channel_scale(place, state.channels)
-    unknowns, regular = _solve(state, -slope[..., None])
-    change = _memory_change(state, vary, value, unknowns, memory[..., None], np.array([size]))
-    readings = own[..., None] + _readings(state, unknowns)
-    return Sensitivity(state, unknowns, change, readings, regular)
+    """By one parameter, see `Direction`; target_slope (..., 6), memory_slope (..., M)."""
+    slopes = (np.asarray(slope, dtype=float)[..., None] for slope in (target_slope, memory_slope))
+    return by_parameters(state, [Direction(build, value, size)], *slopes)
 
 
 def _residual(state: Equilibrium, memory: Array, place: lagrangian.Layout) -> Array:
@@ -149,23 +163,25 @@ def _solve(state: Equilibrium, right: Array) -> tuple[Array, np.ndarray]:
 
 def _memory_change(
     state: Equilibrium,
-    vary: Callable[[float], Equilibrium],
-    value: float,
+    directions: Sequence[Direction | DriveDirection | None],
     unknowns: Array,
     memory: Array,
-    sizes: Array,
 ) -> Array:
-    """Derivative (..., M, k) of the memory after the step along the changes of unknowns and memory."""
+    """Derivative (..., M, k) of the memory after the step along the changes of unknowns and memory.
+
+    None among the directions: nothing but those changes, differences over a unit of the input.
+    """
     out = np.zeros(memory.shape)
     if not memory.shape[-2]:
         return out
-    for k, size in enumerate(sizes):
-        for offset, weight in zip(_OFFSETS, _WEIGHTS, strict=True):
+    for k, direction in enumerate(directions):
+        size = 1.0 if direction is None else direction.size
+        for offset, weight in zip(_OFFSETS, _WEIGHTS / (_STEP * size), strict=True):
             step = _STEP * size * offset
             moved = replace(
-                vary(value + step),
+                state if direction is None else direction.moved(state, step),
                 unknowns=state.unknowns + step * unknowns[..., k],
                 memory=state.memory + step * memory[..., k],
             )
-            out[..., k] += weight / (_STEP * size) * moved.next_memory
+            out[..., k] += weight * moved.next_memory
     return out

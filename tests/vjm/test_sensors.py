@@ -13,7 +13,7 @@ from vjm.equilibrium import equilibrium, load_path
 from vjm.frames import adjoint, exp, log
 from vjm.mechanisms.assembly import GaugeAt
 from vjm.mechanisms.parallelogram import Parallelogram
-from vjm.sensitivity import by_drive, by_targets
+from vjm.sensitivity import DriveDirection, by_parameters, by_targets
 from vjm.sensors import BaseSpring, CellOffset, CellTurn, DeadWeight, Sensor, TrueMoment, through
 from vjm.stiffness import unloaded_stiffness
 
@@ -149,9 +149,8 @@ def test_derivative_by_an_input() -> None:
     held = ("x", "y", "z")
     targets = linkage.unloaded_pose * [1, 1, 1, 0, 0, 0] + [-0.02, 0.3, 0.1, 20.0, 100.0, 30.0]
     rise = np.array([0.0, 4.0])
-    found = by_drive(
-        equilibrium(linkage, targets, held, drives={"temperature_rise": rise}), "temperature_rise", 1.0
-    )
+    state = equilibrium(linkage, targets, held, drives={"temperature_rise": rise})
+    found = by_parameters(state, [DriveDirection("temperature_rise", 1.0)])
     plus, minus = (
         equilibrium(linkage, targets, held, drives={"temperature_rise": rise + s}).readings
         for s in (0.1, -0.1)

@@ -40,7 +40,8 @@ class Parallelogram:
     hinges: laws of the turn of each of the four hinges from its nominal angle; none in a perfect hinge.
     alterations: what the bars are instead of what is drawn, applied in turn. wider: mm added to both widths.
     mount: (3,) rotation vector, rad, of the whole linkage against the base frame. line_load: (3,) N/mm along
-    the bars, base frame. sensors, gauge_at: what is read (`vjm.sensors`, `vjm.gauges`).
+    the bars, base frame. gravity: (3,) unit vector of weights given without a direction. sensors, gauge_at:
+    what is read (`vjm.sensors`, `vjm.gauges`).
     ValueError for lengths that are not positive, |q| of 90 degrees or more, a K_b that is not
     symmetric positive definite.
     """
@@ -56,6 +57,7 @@ class Parallelogram:
     wider: float = 0.0
     mount: Array = field(default_factory=lambda: np.zeros(3))
     line_load: Array = field(default_factory=lambda: np.zeros(3))
+    gravity: Array = field(default_factory=lambda: np.array([0.0, 0.0, -1.0]))
     sensors: tuple[Sensor, ...] = ()
     gauge_at: tuple[GaugeAt, ...] = ()
 

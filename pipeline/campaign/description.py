@@ -1,0 +1,186 @@
+"""campaign.toml: text in; rig, noise, gauges and the head of each test out."""
+
+import tomllib
+from typing import Any, TypeVar, get_args
+
+from pydantic import BaseModel, TypeAdapter, ValidationError
+
+from pipeline.campaign.complaints import Complaints, shown
+from pipeline.campaign.control import controls
+from pipeline.campaign.head import Description, Head
+from pipeline.campaign.model import Gauge, Rig
+from pipeline.campaign.names import (
+    DISPLACEMENT,
+    FORCE,
+    KEYS,
+    SUPPORT,
+    gauge_column,
+    known_columns,
+    wrong_column,
+)
+from pipeline.campaign.tables import GaugeTable, RigTable, Sigma, TestTable, Top, sentences
+from pipeline.campaign.toml_lines import TomlLines
+from vjm.mechanisms.bar import Tip
+
+Raw = dict[str, Any]
+Model = TypeVar("Model", bound=BaseModel)
+Path = tuple[str | int, ...]
+
+
+def describe(text: str, complaints: Complaints) -> Description:
+    """The description in a TOML text; BadCampaign with every complaint about it."""
+    reader = _Reader(text, complaints)
+    top = reader.top()
+    rig = reader.rig(top.rig)
+    gauges = reader.gauges(top.gauges, rig)
+    noise = reader.noise(top.noise)
+    heads = reader.heads(top.tests, top.rig, rig)
+    complaints.check()
+    if rig is None:
+        raise AssertionError("a rig that cannot be used has raised a complaint")
+    return Description(top.name, rig, noise, gauges, heads)
+
+
+class _Reader:
+    """Checks one section after the other, so that a mistake in one hides none in another."""
+
+    def __init__(self, text: str, complaints: Complaints) -> None:
+        self.complaints = complaints
+        self.lines = TomlLines(text.replace("\r\n", "\n"))
+        try:
+            self.raw: Raw = tomllib.loads(text)
+        except (ValueError, RecursionError) as error:
+            said = str(error) or "too deeply nested"
+            complaints.add("", f"is no TOML: {said}")
+            complaints.check()
+        self.gauge_names: list[str] = []
+
+    def top(self) -> Top:
+        version = self.raw.get("schema", 1)
+        if type(version) is int and version != 1:
+            self._say(("schema",), f"is {shown(version)}, allowed is 1")
+            self.complaints.check()
+        top = self._checked(Top, self.raw, (), "")
+        if top is None:
+            self.complaints.check()
+            raise AssertionError("a table that cannot be used has raised a complaint")
+        return top
+
+    def rig(self, raw: Raw) -> Rig | None:
+        table = self._checked(RigTable, raw, ("rig",), "rig")
+        return None if table is None else table.rig()
+
+    def gauges(self, raw: list[Raw], rig: Rig | None) -> tuple[Gauge, ...]:
+        gauges: list[Gauge] = []
+        # A gauge that is refused for another reason still has its name and its column.
+        self.gauge_names = list(dict.fromkeys(str(g["name"]) for g in raw if isinstance(g.get("name"), str)))
+        for k, entry in enumerate(raw):
+            name = entry.get("name")
+            place = f"gauge {shown(name)}" if isinstance(name, str) else f"gauges.{k}"
+            table = self._checked(GaugeTable, entry, ("gauges", k), place)
+            if table is None:
+                continue
+            if table.name in (gauge.name for gauge in gauges):
+                self._say(("gauges", k, "name"), "is there twice, allowed is each name once", place)
+            elif gauge_column(table.name) in known_columns(()) or table.name in (
+                DISPLACEMENT,
+                FORCE,
+                SUPPORT,
+            ):
+                self._say(("gauges", k, "name"), "is taken, allowed is a name of its own", place)
+            elif rig is not None and rig.kind == "bar" and table.bar != 1:
+                self._say(("gauges", k, "bar"), f"bar is {table.bar}, a rig of one bar allows 1", place)
+            else:
+                gauges.append(Gauge(table.name, table.station, table.direction, table.bar))
+        return tuple(gauges)
+
+    def noise(self, raw: Raw) -> dict[str, float]:
+        known = known_columns(self.gauge_names)
+        adapter: TypeAdapter[float] = TypeAdapter(Sigma)
+        noise = {}
+        for column, value in raw.items():
+            path = ("noise", column)
+            if column not in known or column in KEYS:
+                self._say(path, wrong_column(column, known), f"noise.{shown(column)[1:-1]}")
+                continue
+            try:
+                noise[column] = adapter.validate_python(value)
+            except ValidationError as error:
+                for _, said in sentences(error, Top):
+                    self._say(path, said, f"noise.{column}")
+        return noise
+
+    def heads(self, raw: list[Raw], base: Raw, rig: Rig | None) -> tuple[Head, ...]:
+        heads: list[Head] = []
+        seen: set[str] = set()
+        for k, entry in enumerate(raw):
+            name = entry.get("id")
+            place = f"test {shown(name)}" if isinstance(name, str) else f"tests.{k}"
+            if isinstance(name, str) and name in seen:
+                self._say(("tests", k, "id"), "is there twice, allowed is each id once", place)
+            seen.add(str(name))
+            table = self._checked(TestTable, entry, ("tests", k), place)
+            if table is None:
+                continue
+            own = _stand_in(base) if rig is None else self._own_rig(table, base, rig, ("tests", k), place)
+            if own is not None:
+                heads.append(self._head(table, own, ("tests", k), place))
+        if all(entry.get("role") == "holdout" for entry in raw):
+            self._say(("tests", 0), 'no test has role = "fit", allowed are one or more', "tests")
+        return tuple(heads)
+
+    def _head(self, table: TestTable, rig: Rig, path: Path, place: str) -> Head:
+        if rig.kind == "parallelogram" and table.q_deg is None:
+            self._say(path, "q_deg is missing, a parallelogram needs it", place)
+        if rig.kind == "bar" and table.q_deg:
+            said = f"q_deg is {shown(table.q_deg)}, a bar lies along x and allows 0"
+            self._say((*path, "q_deg"), said, place)
+        held, mistakes = controls(table.control, rig, self.gauge_names)
+        for said in mistakes:
+            self._say((*path, "control"), said, f"{place}, control")
+        line = self.lines.of(*path)
+        return Head(table.id, table.q_deg or 0.0, table.role, held, table.zero, rig, line)
+
+    def _own_rig(self, table: TestTable, base: Raw, rig: Rig, path: Path, place: str) -> Rig | None:
+        """The rig of the campaign with the values of this test."""
+        own = table.rig
+        if not own:
+            return rig
+        where, place = (*path, "rig"), f"{place}, rig"
+        if own.get("kind", rig.kind) != rig.kind:
+            self._say(where, f"kind is {shown(own['kind'])}, a test keeps that of the campaign", place)
+            return None
+        raw = dict(base)
+        if "bar" in own or "bar_stiffness" in own:
+            raw.pop("bar", None)
+            raw.pop("bar_stiffness", None)
+        raw |= own
+        stretched = own.get("length_mm", rig.length) != rig.length
+        if stretched and "bar_stiffness" in raw and "bar_stiffness" not in own:
+            said = "length_mm is overridden, allowed only where the bar is given by bar: a 6x6 has its length"
+            self._say(where, said, place)
+            return None
+        merged = self._checked(RigTable, raw, where, place)
+        return None if merged is None else merged.rig()
+
+    def _checked(self, model: type[Model], raw: Raw, path: Path, place: str) -> Model | None:
+        try:
+            return model.model_validate(raw)
+        except ValidationError as error:
+            for loc, said in sentences(error, model):
+                key = ".".join(shown(step)[1:-1] if isinstance(step, str) else str(step) for step in loc)
+                dot = "." if place == "rig" or place.startswith(("gauges.", "tests.")) else ", "
+                self._say((*path, *loc), said, dot.join(filter(None, [place, key])))
+        return None
+
+    def _say(self, path: Path, said: str, place: str | None = None) -> None:
+        where = ".".join(map(str, path)) if place is None else place
+        self.complaints.add(where, said, self.lines.of(*path))
+
+
+def _stand_in(raw: Raw) -> Rig:
+    """A rig to judge the control of a test by, where that of the campaign has mistakes of its own."""
+    if raw.get("kind") != "bar":
+        return Rig("parallelogram", 1.0)
+    tips: dict[str, Tip] = {tip: tip for tip in get_args(Tip)}
+    return Rig("bar", 1.0, tip=tips.get(str(raw.get("tip")), "free"))

@@ -1,0 +1,29 @@
+"""What campaign.toml says, before the measurements are there."""
+
+from dataclasses import dataclass
+
+from pipeline.campaign.model import Gauge, Rig, Role, Zero
+
+
+@dataclass(frozen=True)
+class Head:
+    """What campaign.toml says of one test; as in `Test`, and the line where it says so."""
+
+    id: str
+    q_deg: float
+    role: Role
+    control: tuple[str, ...]
+    zero: Zero
+    rig: Rig
+    line: int | None
+
+
+@dataclass(frozen=True)
+class Description:
+    """What campaign.toml says; `noise` is one sigma a column."""
+
+    name: str
+    rig: Rig
+    noise: dict[str, float]
+    gauges: tuple[Gauge, ...]
+    heads: tuple[Head, ...]

@@ -1,0 +1,61 @@
+"""Names of coordinates and columns, and the right spelling of one that is nearly right."""
+
+import re
+from collections.abc import Iterable
+from difflib import get_close_matches
+
+COORDINATES = ("x", "y", "z", "rx", "ry", "rz")
+"""Platform coordinates in the order of a pose."""
+DISPLACEMENTS = ("x_mm", "y_mm", "z_mm", "rx_rad", "ry_rad", "rz_rad")
+WRENCHES = ("fx_N", "fy_N", "fz_N", "mx_Nmm", "my_Nmm", "mz_Nmm")
+TEMPERATURE = "temperature_C"
+KEYS = ("test", "step")
+UNITS = {
+    "mm": "millimetres",
+    "rad": "radians",
+    "N": "newtons",
+    "Nmm": "newton millimetres",
+    "C": "degrees Celsius",
+}
+DISPLACEMENT, FORCE, SUPPORT = "displacement", "force", "support"
+"""What may control a coordinate, beside a gauge's name; `SUPPORT` is never written, a bar's tip implies it."""
+
+
+def gauge_column(name: str) -> str:
+    """Column of a gauge."""
+    return f"{name}_mm"
+
+
+def known_columns(gauges: Iterable[str]) -> tuple[str, ...]:
+    """Every column that a campaign with these gauges may have, in the order in which they are written."""
+    return (*KEYS, *DISPLACEMENTS, *WRENCHES, *map(gauge_column, gauges), TEMPERATURE)
+
+
+def unknown_name(found: str, allowed: Iterable[str]) -> str:
+    """What to say of a name that is not allowed: a near one if there is one, else all of them."""
+    names = list(allowed)
+    folded = {name.casefold(): name for name in reversed(names)}
+    near = get_close_matches(found.casefold(), list(folded), n=1, cutoff=0.7 if len(found) > 3 else 0.5)
+    if near:
+        return f"did you mean {folded[near[0]]!r}?"
+    return f"allowed: {', '.join(names)}" if names else "none is allowed here"
+
+
+def wrong_column(found: str, known: Iterable[str]) -> str:
+    """What to say of a column name that is not known; another unit is refused, never converted."""
+    names = [name for name in known if name not in KEYS]
+    units = {name.rpartition("_")[0].casefold(): name.rpartition("_") for name in names}
+    # A unit may follow an underscore, a blank or a bracket: x_m, x (m), x [m], x/m.
+    parts = re.fullmatch(r"(.*?)[\s_/\-]*[\s_(\[/]\s*([^\s_()\[\]/]+)[)\]\s]*", found)
+    stem, unit = (parts[1], parts[2]) if parts and found.casefold() not in units else (found, "")
+    if stem.casefold() not in units:
+        return f"is unknown, {unknown_name(found, [*KEYS, *names])}"
+    right, _, wanted = units[stem.casefold()]
+    allowed = f"allowed is {right}_{wanted} ({UNITS[wanted]})"
+    if not unit:
+        return f"names no unit, {allowed}"
+    if unit == wanted:
+        return f"is spelled in another way, {allowed}"
+    if unit.casefold() == wanted.casefold():
+        return f"has its unit in another case, {allowed}"
+    return f"has the unit {unit[:20]}, {allowed}: convert the numbers, not only the name"

@@ -1,0 +1,130 @@
+"""A campaign folder: two files in, a frozen Campaign out, or every complaint about them. Nothing is written."""
+
+from pathlib import Path
+
+import numpy as np
+
+from pipeline.campaign.complaints import BadCampaign, Complaints
+from pipeline.campaign.description import describe
+from pipeline.campaign.head import Description
+from pipeline.campaign.model import Campaign, Data, Noise, Test
+from pipeline.campaign.names import DISPLACEMENTS, TEMPERATURE, WRENCHES, gauge_column, known_columns
+from pipeline.campaign.plausible import judge
+from pipeline.campaign.rows import data_by_test
+from pipeline.campaign.sheet import sheet
+
+DESCRIPTION, MEASUREMENTS = "campaign.toml", "measurements.csv"
+LARGEST = {DESCRIPTION: 2**24, MEASUREMENTS: 2**30}
+"""Bytes."""
+
+
+def read(folder: Path) -> Campaign:
+    """The campaign in a folder.
+
+    BadCampaign, an InputError, names file, line, key or column, what was found and what is allowed, for every
+    mistake in campaign.toml, or if it has none for every mistake in measurements.csv.
+    """
+    texts = _texts(folder)
+    description = describe(texts[DESCRIPTION], Complaints(str(folder / DESCRIPTION)))
+    complaints = Complaints(str(folder / MEASUREMENTS))
+    known = known_columns(gauge.name for gauge in description.gauges)
+    frame = sheet(texts[MEASUREMENTS], known, complaints)
+    columns = set(frame.columns)
+    if not {"test", "step"} <= columns:
+        complaints.check()
+    data = data_by_test(frame, description, complaints)
+    noise = _noise(description)
+    remarks: list[str] = []
+    for head in description.heads:
+        if head.id in data:
+            remarks += judge(head, data[head.id], description.gauges, noise, columns, complaints)
+    complaints.check()
+    tests = tuple(
+        Test(head.id, head.q_deg, head.role, head.control, head.zero, head.rig, data[head.id])
+        for head in description.heads
+    )
+    remarks = [*_sigma_remarks(description, tests), *remarks]
+    return Campaign(
+        description.name, description.rig, noise, description.gauges, tests, folder, tuple(remarks)
+    )
+
+
+def _texts(folder: Path) -> dict[str, str]:
+    """The text of both files; complaints about all that cannot be read."""
+    if not folder.is_dir():
+        found = "is a file" if folder.exists() else "does not exist"
+        allowed = f"allowed is a folder with {DESCRIPTION} and {MEASUREMENTS}"
+        raise BadCampaign((f"{folder}: {found}, {allowed}",))
+    texts: dict[str, str] = {}
+    sentences: list[str] = []
+    for name in (DESCRIPTION, MEASUREMENTS):
+        complaints = Complaints(str(folder / name))
+        try:
+            texts[name] = _text(folder / name, LARGEST[name], complaints)
+            complaints.check()
+        except OSError as error:
+            missing = isinstance(error, FileNotFoundError)
+            sentences.append(
+                f"{folder / name}: {'is missing' if missing else f'cannot be read: {error.strerror}'}"
+            )
+        except BadCampaign as error:
+            sentences += error.complaints
+    if sentences:
+        raise BadCampaign(tuple(sentences))
+    return texts
+
+
+def _text(path: Path, largest: int, complaints: Complaints) -> str:
+    """UTF-8 text, with or without a byte order mark."""
+    if (size := path.stat().st_size) > largest:
+        complaints.add("", f"has {size / 2**20:.0f} MB, allowed are {largest / 2**20:.0f}")
+        return ""
+    content = path.read_bytes()
+    if content.startswith((b"\xff\xfe", b"\xfe\xff")):
+        complaints.add("", "is written in UTF-16, allowed is UTF-8")
+        return ""
+    if b"\0" in content:
+        complaints.add(
+            "", "is a binary file, allowed is text", content.count(b"\n", 0, content.index(b"\0")) + 1
+        )
+        return ""
+    try:
+        text = content.decode("utf-8-sig")
+    except UnicodeDecodeError as error:
+        said = f"byte {error.object[error.start]:#04x} is no UTF-8, allowed is text in UTF-8"
+        complaints.add("", said, error.object.count(b"\n", 0, error.start) + 1)
+        return ""
+    if not text.strip():
+        complaints.add("", "is empty")
+    return text
+
+
+def _noise(description: Description) -> Noise:
+    def of(columns: tuple[str, ...]) -> np.ndarray:
+        return np.array([description.noise.get(column, np.nan) for column in columns], dtype=float)
+
+    gauges = tuple(gauge_column(gauge.name) for gauge in description.gauges)
+    temperature = description.noise.get(TEMPERATURE, np.nan)
+    return Noise(of(DISPLACEMENTS), of(WRENCHES), of(gauges), temperature)
+
+
+def _sigma_remarks(description: Description, tests: tuple[Test, ...]) -> list[str]:
+    """Columns that are measured without a sigma, and sigmas of what is not measured."""
+    measured = {column for test in tests for column in measured_columns(test.data, description)}
+    remarks = []
+    for column in known_columns(gauge.name for gauge in description.gauges):
+        if column in measured and column not in description.noise:
+            remarks.append(f"{DESCRIPTION}, noise.{column}: is missing, so the sigma is estimated")
+        elif column not in measured and column in description.noise:
+            remarks.append(f"{DESCRIPTION}, noise.{column}: is given, but {column} is not measured")
+    unmeasured = [gauge.name for gauge in description.gauges if gauge_column(gauge.name) not in measured]
+    return remarks + [f"{DESCRIPTION}, gauge {name!r}: is not measured" for name in unmeasured]
+
+
+def measured_columns(data: Data, description: Description) -> list[str]:
+    """Columns of which a test has at least one reading."""
+    gauges = [gauge_column(gauge.name) for gauge in description.gauges]
+    readings = np.column_stack([data.displacement, data.wrench, data.gauges])
+    names = [*DISPLACEMENTS, *WRENCHES, *gauges]
+    found = [name for k, name in enumerate(names) if np.isfinite(readings[:, k]).any()]
+    return found + ([] if data.temperature is None else [TEMPERATURE])

@@ -1,0 +1,89 @@
+"""From the table of cells to the data of each test, and what is wrong with them."""
+
+import numpy as np
+import pandas as pd
+from numpy.typing import NDArray
+
+from pipeline.campaign.complaints import Complaints, lines_named, shown
+from pipeline.campaign.head import Description, Head
+from pipeline.campaign.model import Array, Data
+from pipeline.campaign.names import DISPLACEMENTS, TEMPERATURE, WRENCHES, gauge_column, unknown_name
+from pipeline.campaign.sheet import numbers
+
+_DIGITS = 9
+
+
+def data_by_test(frame: pd.DataFrame, description: Description, complaints: Complaints) -> dict[str, Data]:
+    """Data of every test that has rows, by its id; complaints about rows and steps that make no sense."""
+    names = [gauge_column(gauge.name) for gauge in description.gauges]
+    columns = (*DISPLACEMENTS, *WRENCHES, *names, TEMPERATURE)
+    values = np.column_stack([numbers(frame, column, complaints) for column in columns])
+    steps = _steps(frame, complaints)
+    lines = frame.index.to_numpy(dtype=np.int64)
+    rows = _rows_by_test(frame, [head.id for head in description.heads], complaints)
+    found = {}
+    for head in description.heads:
+        mine = rows.get(head.id)
+        if mine is None:
+            complaints.add(f"test {shown(head.id)}", "has no rows, allowed are one or more")
+            continue
+        _rising(head, steps[mine], lines[mine], complaints)
+        temperature = values[mine, -1]
+        found[head.id] = Data(
+            np.nan_to_num(steps[mine]).astype(np.int64),
+            values[mine, :6],
+            values[mine, 6:12],
+            values[mine, 12:-1],
+            None if np.isnan(temperature).all() else temperature,
+            lines[mine],
+        )
+    return found
+
+
+def _rows_by_test(
+    frame: pd.DataFrame, known: list[str], complaints: Complaints
+) -> dict[str, NDArray[np.int64]]:
+    """Numbers of the rows of each known test, in their order."""
+    ids = frame["test"].str.strip()
+    places = pd.Series(np.arange(len(frame)), index=frame.index)
+    found = {}
+    for name, mine in places.groupby(ids.to_numpy(), sort=False):
+        if name in known:
+            found[str(name)] = mine.to_numpy(dtype=np.int64)
+            continue
+        where = lines_named([int(line) for line in mine.index])
+        if name:
+            said = f"names test {shown(str(name))}, which campaign.toml does not have; {unknown_name(str(name), known)}"
+        else:
+            said = "is empty, allowed is the id of a test"
+        complaints.add("column test", said + where, int(mine.index[0]))
+    return found
+
+
+def _steps(frame: pd.DataFrame, complaints: Complaints) -> Array:
+    """(N,) step numbers, NaN where the cell is none."""
+    steps = np.full(len(frame), np.nan)
+    for k, (line, cell) in enumerate(zip(frame.index, frame["step"], strict=True)):
+        text = cell.strip()
+        if text.isascii() and text.isdigit() and len(text) <= _DIGITS:
+            steps[k] = int(text)
+        else:
+            complaints.add("column step", f"holds {shown(text)}, allowed is a whole number from 0", int(line))
+    return steps
+
+
+def _rising(head: Head, steps: Array, lines: NDArray[np.int64], complaints: Complaints) -> None:
+    """Complaints about steps that are there twice or go back."""
+    place = f"test {shown(head.id)}"
+    first: dict[float, int] = {}
+    highest = -1.0
+    for step, line in zip(steps.tolist(), lines.tolist(), strict=True):
+        if np.isnan(step):
+            continue
+        if step in first:
+            complaints.add(place, f"step {step:.0f} is there already, in line {first[step]}", line)
+        elif step < highest:
+            said = f"step {step:.0f} comes after step {highest:.0f}, allowed is the order of the measurement"
+            complaints.add(place, said, line)
+        first.setdefault(step, line)
+        highest = max(highest, step)

@@ -1,0 +1,188 @@
+"""The schema of campaign.toml: what each table may hold, in the units of the file."""
+
+from typing import Annotated, Any, Literal
+
+from pydantic import BaseModel, ConfigDict, Field, ValidationError, field_validator, model_validator
+
+from pipeline.campaign.complaints import shown
+from pipeline.campaign.matrix import not_a_stiffness, symmetric
+from pipeline.campaign.model import Kind, Rig, Role, UniformBar, Zero
+from pipeline.campaign.names import unknown_name
+from vjm.mechanisms.bar import Base, Tip
+
+Number = Annotated[float, Field(strict=True, allow_inf_nan=False)]
+# The bounds keep every product of three such numbers far from what a float can hold.
+Length = Annotated[Number, Field(ge=1e-3, le=1e6)]
+Rigidity = Annotated[Number, Field(ge=1e-3, le=1e15)]
+Entry = Annotated[Number, Field(ge=-1e15, le=1e15)]
+Weight = Annotated[Number, Field(ge=0.0, le=1e9)]
+Sigma = Annotated[Number, Field(ge=1e-12, le=1e9)]
+Celsius = Annotated[Number, Field(ge=-273.15, le=1e4)]
+Angle = Annotated[Number, Field(ge=-85.0, le=85.0)]
+Text = Annotated[str, Field(min_length=1, max_length=100)]
+Direction = Literal["x", "y", "z", "-x", "-y", "-z"]
+
+
+_BOUNDS = {"greater_than_equal": ("at least", "ge"), "less_than_equal": ("at most", "le")}
+
+
+class Table(BaseModel):
+    """A table of the file; unknown keys are refused."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True, str_strip_whitespace=False)
+
+
+def printable(value: str) -> str:
+    """A name that fits into one cell and one sentence."""
+    if value != value.strip() or not value.isprintable():
+        raise ValueError("allowed is printable text without blanks at its ends")
+    return value
+
+
+class Top(Table):
+    """The whole file, its tables still as they were read."""
+
+    schema_version: Annotated[int, Field(alias="schema", strict=True)]
+    name: Text
+    rig: dict[str, Any]
+    noise: dict[str, Any] = {}
+    gauges: list[dict[str, Any]] = []
+    tests: Annotated[list[dict[str, Any]], Field(min_length=1)]
+
+    _name = field_validator("name")(printable)
+
+
+class BarTable(Table):
+    """A uniform bar."""
+
+    EA_N: Rigidity
+    EIy_Nmm2: Rigidity
+    EIz_Nmm2: Rigidity
+    GJ_Nmm2: Rigidity
+
+
+class RigTable(Table):
+    """The rig, each key on its own."""
+
+    kind: Kind
+    length_mm: Length
+    width_mm: Length | None = None
+    bar_stiffness: list[list[Entry]] | None = None
+    bar: BarTable | None = None
+    base: Base | None = None
+    tip: Tip | None = None
+    gravity: tuple[Number, Number, Number] | None = None
+    line_weight_N_per_mm: Weight = 0.0
+    platform_weight_N: Weight = 0.0
+    reference_temperature_C: Celsius | None = None
+    fibre_y_mm: Length | None = None
+    fibre_z_mm: Length | None = None
+
+    @field_validator("bar_stiffness")
+    @classmethod
+    def stiffness(cls, value: list[list[float]] | None) -> list[list[float]] | None:
+        if value is not None and (said := not_a_stiffness(value)):
+            raise ValueError(said)
+        return value
+
+    @field_validator("gravity")
+    @classmethod
+    def somewhere(cls, value: tuple[float, float, float] | None) -> tuple[float, float, float] | None:
+        if value is not None and not 1e-6 <= max(map(abs, value)) <= 1e6:
+            raise ValueError("allowed is a direction other than zero, such as [0, 0, -1]")
+        return value
+
+    @model_validator(mode="after")
+    def consistent(self) -> "RigTable":
+        if said := self.contradictions():
+            raise ValueError("; ".join(said))
+        if self.bar is not None and (why := not_a_stiffness(self.rig().stiffness.tolist())):
+            raise ValueError(f"the 6x6 of bar at this length cannot be used: {why}")
+        return self
+
+    def contradictions(self) -> list[str]:
+        """What does not go together."""
+        said = []
+        if (self.bar_stiffness is None) == (self.bar is None):
+            both = (
+                "neither bar_stiffness nor bar is" if self.bar is None else "both bar_stiffness and bar are"
+            )
+            said.append(f"{both} given, allowed is one of the two")
+        if self.kind == "parallelogram":
+            if self.width_mm is None:
+                said.append("width_mm is missing, a parallelogram needs it")
+            loose = [key for key in ("base", "tip") if getattr(self, key) is not None]
+            said += [f'{key} is given, allowed only with kind = "bar"' for key in loose]
+        elif self.width_mm is not None:
+            said.append('width_mm is given, allowed only with kind = "parallelogram"')
+        if self.gravity is None and self.line_weight_N_per_mm + self.platform_weight_N > 0.0:
+            said.append("a weight is given without its direction, allowed with gravity = [x, y, z]")
+        return said
+
+    def rig(self) -> Rig:
+        """The frozen object."""
+        matrix = None if self.bar_stiffness is None else symmetric(self.bar_stiffness)
+        return Rig(
+            self.kind,
+            self.length_mm,
+            self.width_mm,
+            matrix,
+            None if self.bar is None else UniformBar(*self.bar.model_dump().values()),
+            self.base or "clamped",
+            self.tip or "free",
+            self.gravity,
+            self.line_weight_N_per_mm,
+            self.platform_weight_N,
+            self.reference_temperature_C,
+            self.fibre_y_mm,
+            self.fibre_z_mm,
+        )
+
+
+class GaugeTable(Table):
+    """One gauge."""
+
+    name: Annotated[str, Field(pattern=r"^[A-Za-z][A-Za-z0-9_]{0,39}$")]
+    bar: Annotated[int, Field(strict=True, ge=1, le=2)] = 1
+    station: Annotated[Number, Field(ge=0.0, le=1.0)]
+    direction: Direction
+
+
+class TestTable(Table):
+    """One test; whether its control can hold depends on the rig."""
+
+    __test__ = False
+
+    id: Text
+    q_deg: Angle | None = None
+    role: Role
+    control: dict[str, str]
+    zero: Zero = "nominal"
+    rig: dict[str, Any] = {}
+
+    _id = field_validator("id")(printable)
+
+
+def sentences(error: ValidationError, model: type[BaseModel]) -> list[tuple[tuple[str | int, ...], str]]:
+    """Each of pydantic's complaints as path and sentence."""
+    return [(e["loc"], _sentence(dict(e), model)) for e in error.errors(include_url=False)]
+
+
+def _sentence(error: dict[str, Any], model: type[BaseModel]) -> str:
+    kind, found, loc = error["type"], error["input"], error["loc"]
+    if kind == "missing":
+        return "is missing"
+    if kind == "extra_forbidden":
+        keys = BarTable.model_fields if loc[:-1] == ("bar",) else model.model_fields
+        names = [field.alias or name for name, field in keys.items()]
+        return f"is not a key of this table, {unknown_name(str(loc[-1]), names)}"
+    message = error["msg"].removeprefix("Value error, ")
+    if kind == "value_error":
+        return f"is {shown(found)}, {message}" if isinstance(found, str) else message
+    wanted = (message[0].lower() + message[1:]).removeprefix("input should be ")
+    if kind in _BOUNDS:
+        word, key = _BOUNDS[kind]
+        wanted = f"{word} {error['ctx'][key]:g}"
+    wanted = {"dict_type": "a table", "list_type": "a list"}.get(kind, wanted)
+    named = "a table" if isinstance(found, dict) else "a list" if isinstance(found, list) else shown(found)
+    return f"is {named}, allowed is: {wanted}"

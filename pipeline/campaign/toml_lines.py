@@ -1,0 +1,35 @@
+"""The line of a key in a TOML text, as far as it can be told at a glance."""
+
+import re
+
+_HEADER = re.compile(r"\s*(\[\[?)\s*([A-Za-z0-9_.\"' -]+?)\s*\]\]?\s*(#.*)?$")
+_KEY = re.compile(r"\s*([A-Za-z0-9_-]+)\s*[=.]")
+
+
+class TomlLines:
+    """Looks up lines; None where a key is not written in the plain way."""
+
+    def __init__(self, text: str) -> None:
+        self._lines: dict[tuple[str | int, ...], int] = {}
+        # Inside a string of several lines anything may look like a key.
+        if '"""' in text or "'''" in text:
+            return
+        table: tuple[str | int, ...] = ()
+        counts: dict[str, int] = {}
+        for number, line in enumerate(text.split("\n"), start=1):
+            if header := _HEADER.match(line):
+                name = header[2]
+                table = (name,)
+                if header[1] == "[[":
+                    counts[name] = counts.get(name, -1) + 1
+                    table = (name, counts[name])
+                self._lines.setdefault(table, number)
+            elif key := _KEY.match(line):
+                self._lines.setdefault((*table, key[1]), number)
+
+    def of(self, *path: str | int) -> int | None:
+        """Line, counted from 1, of the innermost part of the path that can be found."""
+        for length in range(len(path), 0, -1):
+            if (line := self._lines.get(path[:length])) is not None:
+                return line
+        return None

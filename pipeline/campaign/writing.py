@@ -1,0 +1,144 @@
+"""A frozen Campaign to a folder of two files, from which the same campaign is read again."""
+
+import tempfile
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pandas as pd
+import tomlkit
+
+from meshes.files import replacing
+from pipeline.campaign.complaints import BadCampaign
+from pipeline.campaign.model import Campaign, Rig
+from pipeline.campaign.names import (
+    COORDINATES,
+    DISPLACEMENTS,
+    SUPPORT,
+    TEMPERATURE,
+    WRENCHES,
+    gauge_column,
+)
+from pipeline.campaign.reading import DESCRIPTION, MEASUREMENTS, read
+from pipeline.errors import InputError
+
+
+def write(folder: Path, campaign: Campaign, overwrite: bool = False) -> None:
+    """Write both files, each whole or not at all; `read` then gives the same numbers to the last bit.
+
+    InputError if the folder has a campaign already and `overwrite` is not set, or cannot be written.
+    ValueError if the campaign is one that `read` would refuse; nothing is written then.
+    """
+    there = [name for name in (DESCRIPTION, MEASUREMENTS) if (folder / name).exists()]
+    if there and not overwrite:
+        raise InputError(f"{folder / there[0]} exists, allowed is a folder without a campaign")
+    texts = {DESCRIPTION: description_text(campaign), MEASUREMENTS: measurements_text(campaign)}
+    with tempfile.TemporaryDirectory() as trial:
+        for name, text in texts.items():
+            (Path(trial) / name).write_text(text, encoding="utf-8", newline="")
+        try:
+            read(Path(trial))
+        except BadCampaign as error:
+            raise ValueError(f"the campaign could not be read again: {error.complaints[0]}") from error
+    try:
+        # The measurements first: a folder with a description is complete.
+        for name in (MEASUREMENTS, DESCRIPTION):
+            with replacing(folder / name) as part:
+                part.write_text(texts[name], encoding="utf-8", newline="")
+    except OSError as error:
+        raise InputError(f"{folder} cannot be written: {error.strerror}") from error
+
+
+def description_text(campaign: Campaign) -> str:
+    """campaign.toml."""
+    document: dict[str, Any] = {"schema": 1, "name": campaign.name, "rig": rig_table(campaign.rig)}
+    document["noise"] = noise_table(campaign)
+    if campaign.gauges:
+        document["gauges"] = [
+            {"name": g.name, "bar": g.bar, "station": g.station, "direction": g.direction}
+            for g in campaign.gauges
+        ]
+    base = rig_table(campaign.rig)
+    document["tests"] = []
+    for test in campaign.tests:
+        control = {key: by for key, by in zip(COORDINATES, test.control, strict=True) if by != SUPPORT}
+        entry = {"id": test.id, "q_deg": test.q_deg, "role": test.role, "control": inline(control)}
+        if test.zero != "nominal":
+            entry["zero"] = test.zero
+        if own := _differences(test.id, base, rig_table(test.rig)):
+            entry["rig"] = inline(own)
+        document["tests"].append(entry)
+    return tomlkit.dumps(document)
+
+
+def measurements_text(campaign: Campaign) -> str:
+    """measurements.csv: columns that no test measured are left out."""
+    gauges = [gauge_column(gauge.name) for gauge in campaign.gauges]
+    names = [*DISPLACEMENTS, *WRENCHES, *gauges, TEMPERATURE]
+    tables = []
+    for test in campaign.tests:
+        data = test.data
+        heat = np.full(data.steps.size, np.nan) if data.temperature is None else data.temperature
+        table = pd.DataFrame(
+            np.column_stack([data.displacement, data.wrench, data.gauges, heat]), columns=names
+        )
+        table.insert(0, "step", data.steps)
+        table.insert(0, "test", test.id)
+        tables.append(table)
+    whole = pd.concat(tables, ignore_index=True)
+    measured = [name for name in names if whole[name].notna().any()]
+    return str(whole[["test", "step", *measured]].to_csv(index=False, lineterminator="\n"))
+
+
+def rig_table(rig: Rig) -> dict[str, Any]:
+    """A rig in the keys and units of the file; what has its default is left out."""
+    bar = rig.bar
+    matrix = None if rig.bar_stiffness is None else np.asarray(rig.bar_stiffness).tolist()
+    table: dict[str, Any] = {
+        "kind": rig.kind,
+        "length_mm": rig.length,
+        "width_mm": rig.width,
+        "bar_stiffness": matrix,
+        "bar": None
+        if bar is None
+        else inline({"EA_N": bar.EA, "EIy_Nmm2": bar.EIy, "EIz_Nmm2": bar.EIz, "GJ_Nmm2": bar.GJ}),
+        "base": rig.base if rig.kind == "bar" else None,
+        "tip": rig.tip if rig.kind == "bar" else None,
+        "gravity": None if rig.gravity is None else list(rig.gravity),
+        "line_weight_N_per_mm": rig.line_weight or None,
+        "platform_weight_N": rig.platform_weight or None,
+        "reference_temperature_C": rig.reference_temperature,
+        "fibre_y_mm": rig.fibre_y,
+        "fibre_z_mm": rig.fibre_z,
+    }
+    return {key: value for key, value in table.items() if value is not None}
+
+
+def noise_table(campaign: Campaign) -> dict[str, float]:
+    """The sigmas that are known, by column."""
+    noise = campaign.noise
+    names = [*DISPLACEMENTS, *WRENCHES, *(gauge_column(g.name) for g in campaign.gauges), TEMPERATURE]
+    sigmas = [*noise.displacement, *noise.wrench, *noise.gauges, noise.temperature]
+    return {name: float(sigma) for name, sigma in zip(names, sigmas, strict=True) if np.isfinite(sigma)}
+
+
+def inline(values: dict[str, Any]) -> Any:
+    """A table in one line."""
+    table = tomlkit.inline_table()
+    table.update(values)
+    return table
+
+
+def _differences(test: str, base: dict[str, Any], own: dict[str, Any]) -> dict[str, Any]:
+    """What a test's rig has of its own."""
+    different = {key: value for key, value in own.items() if base.get(key) != value}
+    if "length_mm" in different and "bar_stiffness" in own:
+        different["bar_stiffness"] = own["bar_stiffness"]
+    lost = [key for key in base if key not in own and key not in ("bar", "bar_stiffness")]
+    for key in lost:
+        if key not in ("line_weight_N_per_mm", "platform_weight_N"):
+            raise ValueError(
+                f"test {test!r} has no {key}, but the rig of its campaign has: no file can say that"
+            )
+        different[key] = 0.0
+    return different

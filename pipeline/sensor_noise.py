@@ -1,0 +1,105 @@
+"""The sigma of a sensor from its own readings, where the campaign does not say it."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.special import gammaln
+from scipy.stats import norm
+
+Array = NDArray[np.float64]
+FEWEST = 6
+"""Differences below which a median says nothing."""
+DRAWS, FEWEST_DRAWS, BATCH, EFFORT = 1000, 100, 20, 10**7
+"""Draws of noise: the bias is known to the spread of one estimate over the root of this, 3 % of its
+standard error; where the differences are so many that the bias is lost anyway, by fewer draws."""
+WINDOW = 4
+"""Steps in a difference: a quadratic in the load passes it without a trace, at any spacing of the loads."""
+
+
+@dataclass(frozen=True)
+class SigmaEstimate:
+    """An estimate, its standard error and from how many differences it is; None with a reason where there is none."""
+
+    value: float | None
+    std: float | None
+    differences: int
+    reason: str = ""
+
+
+def from_repeats(readings: Array, group: NDArray[np.int64]) -> SigmaEstimate:
+    """Sigma from steps that were done more than once; equal `group` (N,) marks them.
+
+    Pooled: s² = sum (y - mean of its group)² / nu, nu = N - number of groups. Unbiased for normal noise: divided by
+    c4(nu) = sqrt(2 / nu) gamma((nu + 1) / 2) / gamma(nu / 2), with the standard error value * sqrt(1 / c4² - 1).
+    ValueError for readings that are not finite.
+    """
+    if not np.isfinite(readings).all():
+        raise ValueError("the readings have values that are not finite")
+    names, place = np.unique(group, return_inverse=True)
+    nu = readings.size - names.size
+    if nu < 1:
+        return SigmaEstimate(None, None, 0, "no step was repeated")
+    means = np.bincount(place, readings) / np.bincount(place)
+    s = np.sqrt(float(np.sum((readings - means[place]) ** 2)) / nu)
+    c4 = np.sqrt(2.0 / nu) * np.exp(gammaln(0.5 * (nu + 1)) - gammaln(0.5 * nu))
+    # Rounding of c4 at many repeats must not turn the root around; 1 / c4² - 1 tends to 1 / (2 nu).
+    spread = np.sqrt(max(1.0 / c4**2 - 1.0, 0.25 / nu))
+    return SigmaEstimate(float(s / c4), float(s / c4 * spread), int(nu))
+
+
+def from_roughness(
+    paths: Sequence[tuple[Array, Array]], rng: np.random.Generator | None = None
+) -> SigmaEstimate:
+    """Sigma from what no smooth curve explains: paths are pairs of loads (n,) and readings (n,), one a test, in order.
+
+    Of every four steps in a row the combinations w'y of unit length that vanish for a quadratic in the load (third
+    differences where the loads are evenly spaced, 1 3 3 1 over the root of 20) have the standard deviation sigma.
+    The estimate is 1.4826 times the median of their magnitudes, which a jump where the load turns does not move much.
+    Overlapping differences are dependent, and a median of few is biased: the same statistic of `DRAWS` draws of unit
+    noise through the same w gives its mean, by which the estimate is divided, and its spread, the standard error.
+    A smooth curve leaves its own third difference behind: h³ f''' / root of 20, so the steps must be fine enough.
+    ValueError for loads or readings that are not finite.
+    """
+    rng = np.random.default_rng(0) if rng is None else rng
+    if not all(np.isfinite(load).all() and np.isfinite(y).all() for load, y in paths):
+        raise ValueError("the loads or the readings have values that are not finite")
+    found = [_differences(np.asarray(load, dtype=float)) for load, _ in paths]
+    count = sum(len(w) for _, w in found)
+    if count < FEWEST:
+        return SigmaEstimate(None, None, count, f"{count} differences, allowed are {FEWEST} or more")
+    readings = [np.asarray(y, dtype=float)[:, None] for _, y in paths]
+    raw = float(_spread(found, readings)[0])
+    if raw == 0.0:
+        return SigmaEstimate(None, None, count, "most differences are zero: the readings are rounded")
+    batches = [
+        _spread(found, [rng.normal(size=(len(y), BATCH)) for y in readings])
+        for _ in range(int(np.clip(EFFORT / count, FEWEST_DRAWS, DRAWS)) // BATCH)
+    ]
+    noise = np.concatenate(batches)
+    mean = float(np.mean(noise))
+    return SigmaEstimate(raw / mean, raw / mean * float(np.std(noise)) / mean, count)
+
+
+def _spread(found: list[tuple[NDArray[np.int64], Array]], readings: list[Array]) -> Array:
+    """(k,) 1.4826 times the median magnitude of all differences; readings (n, k), one a path."""
+    values = [
+        sum(w[:, j, None] * y[first + j] for j in range(WINDOW))
+        for (first, w), y in zip(found, readings, strict=True)
+    ]
+    return np.asarray(np.median(np.abs(np.concatenate(values)), axis=0) / norm.ppf(0.75), dtype=float)
+
+
+def _differences(load: Array) -> tuple[NDArray[np.int64], Array]:
+    """First step (m,) and weights (m, 4), of unit length and blind to quadratics in the load, of each difference."""
+    if load.size < WINDOW:
+        return np.zeros(0, dtype=np.int64), np.zeros((0, WINDOW))
+    s = np.lib.stride_tricks.sliding_window_view(load, WINDOW)
+    reach = np.ptp(s, axis=1, keepdims=True)
+    u = (s - s.mean(axis=1, keepdims=True)) / np.where(reach > 0.0, reach, 1.0)
+    left, sizes, _ = np.linalg.svd(np.stack([np.ones_like(u), u, u**2], axis=2), full_matrices=True)
+    # Loads that repeat leave more than one combination blind to the curve.
+    blind = np.column_stack([sizes < 1e-9 * sizes[:, :1], np.ones(len(u), dtype=bool)])
+    first, column = np.nonzero(blind)
+    return first.astype(np.int64), left[first, :, column]

@@ -1,0 +1,43 @@
+"""Play: a displacement that is nearly free within ± play and meets stops beyond.
+
+The dead-zone law, as in F. Pfeiffer, C. Glocker, "Multibody Dynamics with Unilateral Contacts", Wiley 1996.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from vjm import checks
+from vjm.frames import Array
+from vjm.laws import Response
+
+CENTRING = 20.0
+"""N/mm: the soft spring inside the play, which keeps the position defined."""
+
+
+@dataclass(frozen=True)
+class Clearance:
+    """Scalar law: centring spring within ± play, mm, and stops of the stiffness `stop`, N/mm, beyond.
+
+    ValueError unless both numbers are positive and finite.
+    """
+
+    play: float
+    stop: float
+
+    def __post_init__(self) -> None:
+        checks.positive("play", self.play)
+        checks.positive("stop", self.stop)
+
+    @property
+    def initial_memory(self) -> Array:
+        return np.zeros(0)
+
+    def respond(self, strain: Array, memory: Array) -> Response:
+        beyond = strain - np.clip(strain, -self.play, self.play)
+        force = CENTRING * strain + self.stop * beyond
+        energy = 0.5 * CENTRING * strain[..., 0] ** 2 + 0.5 * self.stop * beyond[..., 0] ** 2
+        tangent = np.where(beyond == 0.0, CENTRING, CENTRING + self.stop)[..., None]
+        return Response(energy, force, tangent, memory)

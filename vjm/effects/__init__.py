@@ -1,0 +1,44 @@
+"""The catalogue of physical effects: every module beside this one that defines an effect belongs to it."""
+
+from __future__ import annotations
+
+import importlib
+import importlib.util
+import inspect
+import pkgutil
+from pathlib import Path
+from types import ModuleType
+
+from vjm.effects.base import Effect
+
+
+def catalogue() -> dict[str, Effect]:
+    """All effects of this package by name, in alphabetical order."""
+    names = sorted(info.name for info in pkgutil.iter_modules(__path__))
+    modules = (importlib.import_module(f"{__name__}.{name}") for name in names)
+    return {effect.name: effect for module in modules for effect in defined_in(module)}
+
+
+def from_file(path: Path) -> dict[str, Effect]:
+    """Effects that a user's own file defines, by name.
+
+    ValueError if the file cannot be run or defines none.
+    """
+    spec = importlib.util.spec_from_file_location(f"user_effects_{path.stem}", path)
+    if spec is None or spec.loader is None:
+        raise ValueError(f"{path}: not a Python file")
+    module = importlib.util.module_from_spec(spec)
+    try:
+        spec.loader.exec_module(module)
+        found = {effect.name: effect for effect in defined_in(module)}
+    except Exception as error:
+        raise ValueError(f"{path}: {type(error).__name__}: {error}") from error
+    if not found:
+        raise ValueError(f"{path}: found no class that inherits from vjm.effects.base.Effect")
+    return found
+
+
+def defined_in(module: ModuleType) -> list[Effect]:
+    """One instance of every concrete effect class that the module itself defines."""
+    classes = [c for _, c in inspect.getmembers(module, inspect.isclass) if c.__module__ == module.__name__]
+    return [c() for c in classes if issubclass(c, Effect) and not inspect.isabstract(c)]

@@ -1,0 +1,115 @@
+"""What a physical effect is: parameters with a null value, and a change of the mechanism.
+
+At its null values an effect changes nothing, exactly. Effects compose by being applied in turn, and commute
+as far as the physics does. An effect that happens at the sensors adds one of `vjm.sensors`.
+"""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, replace
+from functools import partial
+from typing import ClassVar, TypeAlias
+
+import numpy as np
+
+from vjm.frames import Array
+from vjm.link import Link
+from vjm.mechanisms.bar import Bar
+from vjm.mechanisms.parallelogram import Parallelogram
+
+Rig: TypeAlias = Parallelogram | Bar
+Values = Mapping[str, float]
+
+
+@dataclass(frozen=True)
+class Parameter:
+    """One number of an effect.
+
+    null: where the effect is absent. typical: the size of a real one, from null. low, high: bounds.
+    one_sided: only one direction from null has a meaning.
+    """
+
+    name: str
+    unit: str
+    null: float
+    typical: float
+    low: float
+    high: float
+    meaning: str
+
+    @property
+    def one_sided(self) -> bool:
+        """Whether null is a bound."""
+        return self.null in (self.low, self.high)
+
+
+class Effect(ABC):
+    """A physical effect.
+
+    name: canonical. title: in words. equation, signature (what it looks like in data), limits, source: text.
+    parameters: none for an effect that is there or not. kinds: of rig that can have it.
+    smooth: False where the response has a kink or a dead zone in the parameters, so that a fit needs several
+    starts and a derivative at null says little. history: whether the order of load steps matters.
+    """
+
+    name: ClassVar[str]
+    title: ClassVar[str]
+    equation: ClassVar[str]
+    signature: ClassVar[str]
+    limits: ClassVar[str]
+    source: ClassVar[str]
+    parameters: ClassVar[tuple[Parameter, ...]] = ()
+    kinds: ClassVar[tuple[str, ...]] = ("parallelogram", "bar")
+    smooth: ClassVar[bool] = True
+    history: ClassVar[bool] = False
+
+    @abstractmethod
+    def change(self, rig: Rig, values: Values) -> Rig:
+        """The mechanism with the effect at values that are not all null."""
+
+    def apply(self, rig: Rig, values: Values) -> Rig:
+        """The mechanism with the effect; itself where all values are null.
+
+        values: by parameter name, complete. ValueError for a kind of rig that cannot have it.
+        """
+        if kind_of(rig) not in self.kinds:
+            raise ValueError(f"{self.name} needs a rig of kind {' or '.join(self.kinds)}, not {kind_of(rig)}")
+        if self.parameters and all(values[p.name] == p.null for p in self.parameters):
+            return rig
+        return self.change(rig, values)
+
+    @property
+    def nulls(self) -> dict[str, float]:
+        """The null value of every parameter."""
+        return {p.name: p.null for p in self.parameters}
+
+    @property
+    def typicals(self) -> dict[str, float]:
+        """Every parameter one typical size above null."""
+        return {p.name: p.null + p.typical for p in self.parameters}
+
+
+def kind_of(rig: Rig) -> str:
+    """The rig's kind as a campaign names it."""
+    return "parallelogram" if isinstance(rig, Parallelogram) else "bar"
+
+
+def for_bars(rig: Rig, change: Callable[[Link], Link], only: int | None = None) -> Rig:
+    """The mechanism with all bars changed, or only that number (0, 1)."""
+    return rig.altered(partial(_one, change, only))
+
+
+def _one(change: Callable[[Link], Link], only: int | None, number: int, link: Link) -> Link:
+    return change(link) if only is None or number == only else link
+
+
+def vector(values: Values, *names: str) -> Array:
+    """Values in this order."""
+    return np.array([values[name] for name in names])
+
+
+def adding(link: Link, **gives: Array) -> Link:
+    """The bar with compliances added between it and its hinges."""
+    return replace(link, **{name: getattr(link, name) + give for name, give in gives.items()})

@@ -1,0 +1,33 @@
+"""Play along the bar in each base hinge."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from vjm.clearance import Clearance
+from vjm.effects.base import Effect, Parameter, Rig, Values, for_bars
+from vjm.link import Link
+
+
+class JointClearance(Effect):
+    """A slide along the bar that is free within ± play and hard beyond."""
+
+    name = "joint_clearance"
+    title = "play in the base hinges"
+    equation = "F = 20 N/mm x u for abs(u) < play, then the stop"
+    signature = "a dead band about zero in the axial direction; beyond it the slope of the tight linkage"
+    limits = "a centring spring of 20 N/mm inside; under loads of one sign it looks like an offset of x"
+    source = (
+        "the dead-zone law, as in F. Pfeiffer, C. Glocker, Multibody Dynamics with Unilateral Contacts, 1996"
+    )
+    parameters = (
+        Parameter("play_mm", "mm", 0.0, 0.01, 0.0, 2.0, "half of the free travel of one base hinge"),
+    )
+    smooth = False
+
+    def change(self, rig: Rig, values: Values) -> Rig:
+        def loose(link: Link) -> Link:
+            stop = 100.0 * link.stiffness[0, 0]
+            return replace(link, slides=(*link.slides, Clearance(values["play_mm"], stop)))
+
+        return for_bars(rig, loose)
