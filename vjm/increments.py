@@ -39,8 +39,7 @@ def solve(
             failed,
             _in_increments(problem.take(failed), start[failed], before[failed], tolerance, limit, follow),
         )
-    wandered = (direct > _SOON) | (end.strayed > _FAR)
-    doubtful = np.flatnonzero((end.unstable > 0) | ((end.unstable == 0) & (direct > 0) & wandered))
+    doubtful = np.flatnonzero((end.unstable > 0) | ((end.unstable == 0) & (direct > 0) & _wandered(end)))
     if doubtful.size and not follow:
         again = _in_increments(
             problem.take(doubtful), start[doubtful], before[doubtful], tolerance, limit, follow
@@ -88,6 +87,8 @@ def _in_increments(
         drives = before[active] + share * (problem.drives[active] - before[active])
         part = _newton(problem.take(active).aim(aim, drives), end.unknowns[active], tolerance, limit)
         good = (part.reason == CONVERGED) & (follow | (part.unstable <= 0))
+        # A smaller step tells whether one that wandered has found the continuation; the least one is believed.
+        good &= ~_wandered(part) | (step[active] < 2.0 * LEAST_STEP)
         part.unknowns[~good] = end.unknowns[active[~good]]
         end.put(active, part)
         reached[active[good]] = share[good, 0]
@@ -99,6 +100,11 @@ def _in_increments(
         end.unstable[lost] = -1
         active = active[(step[active] >= LEAST_STEP) & (reached[active] < 1.0)]
     return end
+
+
+def _wandered(end: Iterate) -> np.ndarray:
+    """Members that took many iterations or went far from their first step."""
+    return (end.iterations > _SOON) | (end.strayed > _FAR)
 
 
 def _members(end: Iterate, mask: np.ndarray) -> Iterate:

@@ -56,6 +56,8 @@ class Bar:
     gravity: Array = field(default_factory=lambda: np.array([0.0, 0.0, -1.0]))
     sensors: tuple[Sensor, ...] = ()
     gauge_at: tuple[GaugeAt, ...] = ()
+    fibre_y: float | None = None
+    fibre_z: float | None = None
 
     def __post_init__(self) -> None:
         checks.positive("length", self.length)

@@ -1,0 +1,1 @@
+"""From measurements to what is missing in the model: prediction, residuals, fit."""

@@ -1,0 +1,117 @@
+"""A model of a rig: what it starts from, and the effects in it with their values."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field, replace
+from functools import reduce
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pipeline.campaign import Gauge
+from pipeline.campaign import Rig as Described
+from pipeline.inference.rigs import mechanism_of
+from vjm.effects.base import Effect, Parameter, Rig
+
+Array = NDArray[np.float64]
+START = 3e-3
+"""A one-sided parameter stays at least this part of its typical size from null: so far the effect is there, and
+has a derivative, while what it does is far below any noise."""
+
+
+@dataclass(frozen=True)
+class Free:
+    """A number of the model that a fit may move."""
+
+    effect: str
+    parameter: Parameter
+
+    @property
+    def name(self) -> str:
+        """Name in results: effect.parameter."""
+        return f"{self.effect}.{self.parameter.name}"
+
+    @property
+    def bounds(self) -> tuple[float, float]:
+        """Least and greatest value that a fit may try."""
+        p = self.parameter
+        low = p.low + START * p.typical if p.low == p.null else p.low
+        high = p.high - START * abs(p.typical) if p.high == p.null else p.high
+        return low, high
+
+
+@dataclass(frozen=True)
+class Term:
+    """An effect in a model, with the value of each of its parameters."""
+
+    effect: Effect
+    values: Mapping[str, float]
+
+    def __post_init__(self) -> None:
+        names = {p.name for p in self.effect.parameters}
+        if set(self.values) != names:
+            raise ValueError(
+                f"{self.effect.name} has the parameters {sorted(names)}, got {sorted(self.values)}"
+            )
+
+
+@dataclass(frozen=True)
+class Model:
+    """The plain virtual-joint model of a rig with these effects, applied in turn.
+
+    fixed: names effect.parameter that a fit leaves alone.
+    """
+
+    terms: tuple[Term, ...] = ()
+    fixed: frozenset[str] = field(default_factory=frozenset)
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """Names of the effects, in order."""
+        return tuple(term.effect.name for term in self.terms)
+
+    @property
+    def free(self) -> tuple[Free, ...]:
+        """The numbers that a fit may move, in order."""
+        every = (Free(term.effect.name, p) for term in self.terms for p in term.effect.parameters)
+        return tuple(each for each in every if each.name not in self.fixed)
+
+    @property
+    def values(self) -> Array:
+        """(P,) present values of the free numbers."""
+        by_name = {term.effect.name: term.values for term in self.terms}
+        return np.array([by_name[each.effect][each.parameter.name] for each in self.free], dtype=float)
+
+    def at(self, values: Array) -> Model:
+        """The model with other values (P,) of its free numbers."""
+        new = {each.name: float(value) for each, value in zip(self.free, values, strict=True)}
+        terms = []
+        for term in self.terms:
+            own = {name: new.get(f"{term.effect.name}.{name}", old) for name, old in term.values.items()}
+            terms.append(replace(term, values=own))
+        return replace(self, terms=tuple(terms))
+
+    def with_effects(self, effects: Iterable[Effect]) -> Model:
+        """The model with further effects at the nearest values to null that a fit may try.
+
+        A parameter that is no size of the effect, such as a presliding angle, begins at its null as declared.
+        ValueError for an effect that is in the model already.
+        """
+        terms = list(self.terms)
+        for effect in effects:
+            if effect.name in {term.effect.name for term in terms}:
+                raise ValueError(f"{effect.name} is in the model already")
+            start = {p.name: float(np.clip(p.null, *Free(effect.name, p).bounds)) for p in effect.parameters}
+            terms.append(Term(effect, start))
+        return replace(self, terms=tuple(terms))
+
+    def without(self, name: str) -> Model:
+        """The model without one of its effects."""
+        return replace(self, terms=tuple(term for term in self.terms if term.effect.name != name))
+
+    def mechanism(self, rig: Described, gauges: tuple[Gauge, ...]) -> Rig:
+        """The mechanism of a rig. ValueError for an effect that this rig cannot have."""
+        return reduce(
+            lambda it, term: term.effect.apply(it, term.values), self.terms, mechanism_of(rig, gauges)
+        )

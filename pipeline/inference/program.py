@@ -1,0 +1,143 @@
+"""The load cases of a campaign as arrays: tests of one rig together, so that they are solved together."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pipeline.campaign import Campaign
+from pipeline.campaign import Rig as Described
+from pipeline.campaign.names import DISPLACEMENT, FORCE, SUPPORT
+from pipeline.inference.rigs import nominal_pose
+
+Array = NDArray[np.float64]
+CHANNELS = 12
+"""Six of the pose and six of the wrench; gauges follow."""
+
+
+@dataclass(frozen=True, eq=False)
+class Group:
+    """Tests of one rig, filled up to equal numbers of steps with their last one.
+
+    numbers: (T,) of the tests in the campaign. lengths: (T,) steps. targets: (T, S, 6) as `vjm.equilibrium`
+    takes them. channels: (T, 6). q: (T,) rad. rise: (T, S) K above the reference temperature.
+    """
+
+    rig: Described
+    numbers: np.ndarray
+    lengths: np.ndarray
+    targets: Array
+    channels: np.ndarray
+    q: Array
+    rise: Array
+
+    @property
+    def nominal(self) -> Array:
+        """(T, 1, 6) pose from which displacements count."""
+        return nominal_pose(self.rig, self.q)[:, None, :]
+
+    @cached_property
+    def real(self) -> np.ndarray:
+        """(T, S) steps that are not filling."""
+        return np.arange(self.targets.shape[1]) < self.lengths[:, None]
+
+
+@dataclass(frozen=True, eq=False)
+class Program:
+    """All rows of a campaign, in its order; C = 12 + gauges channels.
+
+    measured: (R, C), NaN where not measured. predicted: (R, C) mask of what a model predicts and the campaign
+    measured. channels: (R, 6) channel that each coordinate's control prescribes. input_sigma: (R, 6) noise of
+    what is prescribed. sigma: (C,) noise of every sensor. temperature_sigma: K. test: (R,) number of the test.
+    """
+
+    campaign: Campaign
+    groups: tuple[Group, ...]
+    measured: Array
+    predicted: np.ndarray
+    channels: np.ndarray
+    input_sigma: Array
+    sigma: Array
+    temperature_sigma: float
+    test: np.ndarray
+
+    @cached_property
+    def first(self) -> np.ndarray:
+        """(tests + 1,) first row of each test."""
+        counts = [test.data.steps.size for test in self.campaign.tests]
+        return np.concatenate([[0], np.cumsum(counts)]).astype(int)
+
+    @cached_property
+    def fitted(self) -> np.ndarray:
+        """(R,) rows that may be used to fit and to choose."""
+        roles = np.array([test.role == "fit" for test in self.campaign.tests])
+        return roles[self.test]
+
+    def rows_of(self, group: Group) -> np.ndarray:
+        """Rows of the real steps of a group, test by test."""
+        return np.concatenate([np.arange(self.first[n], self.first[n + 1]) for n in group.numbers])
+
+
+def program(campaign: Campaign) -> Program:
+    """The load cases of a campaign. Sigmas that it does not say must have been filled in before."""
+    tests, gauges = campaign.tests, campaign.gauges
+    noise = campaign.noise
+    sigma = np.concatenate([noise.displacement, noise.wrench, noise.gauges])
+    measured = np.concatenate(
+        [np.hstack([t.data.displacement, t.data.wrench, t.data.gauges]) for t in tests], axis=0
+    )
+    number = np.repeat(np.arange(len(tests)), [t.data.steps.size for t in tests])
+    channels = np.array([_channels(t.control, [g.name for g in gauges]) for t in tests])[number]
+    given = np.take_along_axis(measured, channels, axis=1)
+    held = np.array([[by == SUPPORT for by in t.control] for t in tests])[number]
+    # A force that was not read, and a coordinate on its support, are what they are without a sensor's noise.
+    input_sigma = np.where(np.isnan(given) | held, 0.0, sigma[channels])
+    predicted = np.isfinite(measured)
+    np.put_along_axis(predicted, channels, False, axis=1)
+    groups: dict[int, list[int]] = {}
+    for k, test in enumerate(tests):
+        same = next((n for n in groups if tests[n].rig is test.rig), k)
+        groups.setdefault(same, []).append(k)
+    return Program(
+        campaign,
+        tuple(_group(campaign, np.array(numbers)) for numbers in groups.values()),
+        measured,
+        predicted,
+        channels,
+        input_sigma,
+        sigma,
+        float(np.nan_to_num(noise.temperature)),
+        number,
+    )
+
+
+def _group(campaign: Campaign, numbers: np.ndarray) -> Group:
+    tests = [campaign.tests[n] for n in numbers]
+    rig = tests[0].rig
+    lengths = np.array([t.data.steps.size for t in tests])
+    longest = int(lengths.max())
+    q = np.array([t.q for t in tests])
+    channels = np.array([_channels(t.control, [g.name for g in campaign.gauges]) for t in tests])
+    targets, rise = np.zeros((len(tests), longest, 6)), np.zeros((len(tests), longest))
+    reference = rig.reference_temperature
+    for k, test in enumerate(tests):
+        inputs = test.inputs(campaign.gauges)
+        inputs = inputs + np.where(channels[k] < 6, nominal_pose(rig, q[k]), 0.0)
+        targets[k] = inputs[np.minimum(np.arange(longest), lengths[k] - 1)]
+        if test.data.temperature is not None and reference is not None:
+            warm = np.nan_to_num(test.data.temperature - reference)
+            rise[k] = warm[np.minimum(np.arange(longest), lengths[k] - 1)]
+    return Group(rig, numbers, lengths, targets, channels, q, rise)
+
+
+def _channels(control: tuple[str, ...], gauges: list[str]) -> list[int]:
+    numbers = []
+    for k, by in enumerate(control):
+        if by in (DISPLACEMENT, SUPPORT):
+            numbers.append(k)
+        else:
+            numbers.append(k + 6 if by == FORCE else CHANNELS + gauges.index(by))
+    return numbers

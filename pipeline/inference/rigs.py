@@ -1,0 +1,45 @@
+"""A rig as it was described, as a mechanism of virtual springs with what is known about it."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from pipeline.campaign import Gauge
+from pipeline.campaign import Rig as Described
+from vjm.effects.base import Rig
+from vjm.mechanisms.assembly import GaugeAt
+from vjm.mechanisms.bar import Bar
+from vjm.mechanisms.parallelogram import Parallelogram
+from vjm.sensors import DeadWeight, Sensor, TrueMoment
+
+
+def mechanism_of(rig: Described, gauges: tuple[Gauge, ...]) -> Rig:
+    """The plain mechanism: lumped springs (Eq. 1), known weights, sensors that read true moments."""
+    sensors: tuple[Sensor, ...] = (TrueMoment(),)
+    down = rig.down
+    if down is not None and rig.platform_weight:
+        sensors = (*sensors, DeadWeight(rig.platform_weight * down))
+    places = tuple(GaugeAt(g.bar, g.station, g.vector) for g in gauges)
+    it: Rig
+    if rig.kind == "parallelogram":
+        assert rig.width is not None
+        it = Parallelogram(rig.length, rig.width, rig.stiffness)
+    else:
+        it = Bar(rig.length, rig.stiffness, base=rig.base, tip=rig.tip)
+    it = replace(it, sensors=sensors, gauge_at=places, **_fibres(it, rig))
+    if down is None:
+        return it
+    return replace(it, gravity=down, line_load=rig.line_weight * down)
+
+
+def nominal_pose(rig: Described, q: np.ndarray) -> np.ndarray:
+    """(..., 6) unloaded platform of the rig as drawn at the angles q (...), rad."""
+    pose = np.zeros((*np.shape(q), 6))
+    pose[..., 0], pose[..., 2] = rig.length * np.cos(q), -rig.length * np.sin(q)
+    return pose
+
+
+def _fibres(it: Rig, rig: Described) -> dict[str, float | None]:
+    return {name: getattr(rig, name) for name in ("fibre_y", "fibre_z") if hasattr(it, name)}

@@ -1,0 +1,1 @@
+"""The virtual bench: campaigns measured on a finite-element truth with hidden effects."""

@@ -1,0 +1,110 @@
+"""Measures a planned campaign on the frame finite elements: hidden errors, then the sensors' noise."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from fem.frame import bench
+from fem.frame.errors import Errors
+from fem.frame.rig import Gauge as FrameGauge
+from fem.frame.rig import Rig as FrameRig
+from fem.frame.section import Section, uniform
+from pipeline.campaign import Campaign, Data, Gauge, Noise, Rig, Test
+from pipeline.campaign.model import Role
+from pipeline.errors import InputError
+from pipeline.virtual.plan import PlannedTest
+
+
+def measure(
+    name: str,
+    rig: Rig,
+    plan: Sequence[PlannedTest],
+    noise: Noise,
+    hidden: Mapping[str, float],
+    seed: int,
+    gauges: tuple[Gauge, ...] = (),
+) -> Campaign:
+    """A campaign as a bench with these hidden errors ("effect.parameter": value) would have measured it.
+
+    The prescribed quantities are reached exactly and read with noise, as all others. InputError for errors that the
+    truth cannot have, RuntimeError where it finds no equilibrium.
+    """
+    try:
+        errors = Errors.of(_as_frame(hidden, rig))
+        trials = [bench.Trial(np.radians(t.q_deg), t.control, t.values, t.temperature) for t in plan]
+        sights = [FrameGauge(g.name, g.bar, g.station, g.vector) for g in gauges]
+        found = bench.run(frame_rig(rig), errors, trials, sights)
+    except ValueError as error:
+        raise InputError(str(error)) from error
+    generator = np.random.default_rng(seed)
+    tests = []
+    for planned, readings in zip(plan, found, strict=True):
+        if not readings.converged.all():
+            step = int(np.argmin(readings.converged))
+            raise RuntimeError(
+                f"the bench finds no state: test {planned.id}, step {step}: {readings.reason[step]}"
+            )
+        if (readings.negative > 0).any():
+            step = int(np.argmax(readings.negative > 0))
+            raise RuntimeError(f"the bench has buckled: test {planned.id}, step {step}")
+        tests.append(_test(planned, rig, readings, noise, generator))
+    return Campaign(name, rig, replace(noise, gauges=noise.gauges[: len(gauges)]), gauges, tuple(tests))
+
+
+def frame_rig(rig: Rig) -> FrameRig:
+    """The rig for the frame finite elements."""
+    bar: Section | np.ndarray = rig.stiffness
+    if rig.bar is not None:
+        bar = uniform(EA=rig.bar.EA, EIy=rig.bar.EIy, EIz=rig.bar.EIz, GJ=rig.bar.GJ)
+    more = {} if rig.reference_temperature is None else {"reference_temperature": rig.reference_temperature}
+    return FrameRig(
+        rig.kind,
+        rig.length,
+        bar,
+        rig.width or 0.0,
+        rig.base,
+        rig.tip,
+        rig.gravity or (0.0, 0.0, -1.0),
+        rig.line_weight,
+        rig.platform_weight,
+        fibre_y=rig.fibre_y or 0.0,
+        fibre_z=rig.fibre_z or 0.0,
+        **more,
+    )
+
+
+def _as_frame(hidden: Mapping[str, float], rig: Rig) -> dict[str, float]:
+    """Names of the catalogue as the frame spells them: weights are vectors there."""
+    down = np.array([0.0, 0.0, -1.0]) if rig.down is None else rig.down
+    out: dict[str, float] = {}
+    for name, value in hidden.items():
+        effect, _, parameter = name.partition(".")
+        if effect == "self_weight" and parameter == "line_N_per_mm":
+            out |= {f"self_weight.line_{a}_N_per_mm": value * d for a, d in zip("xyz", down, strict=True)}
+        elif effect == "self_weight" and parameter.startswith("platform_"):
+            out[f"self_weight.f{parameter[9]}_N"] = value
+        elif effect != "bar_geometric_nonlinearity":
+            out[name] = value
+    return out
+
+
+def _test(
+    planned: PlannedTest, rig: Rig, readings: bench.Readings, noise: Noise, generator: np.random.Generator
+) -> Test:
+    def read(values: np.ndarray, sigma: np.ndarray) -> np.ndarray:
+        return np.asarray(values + generator.normal(size=values.shape) * sigma)
+
+    steps = np.arange(len(planned.values))
+    data = Data(
+        steps,
+        read(readings.displacement, noise.displacement),
+        read(readings.wrench, noise.wrench),
+        read(readings.gauges, noise.gauges[: readings.gauges.shape[1]]),
+        planned.temperature + generator.normal(size=steps.size) * noise.temperature,
+        np.zeros(steps.size, dtype=np.int64),
+    )
+    role: Role = "holdout" if planned.holdout else "fit"
+    return Test(planned.id, planned.q_deg, role, planned.control, "nominal", rig, data)
