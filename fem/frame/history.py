@@ -1,0 +1,184 @@
+"""Load histories: steps in order, each from the equilibrium before, cut in halves where Newton's method needs it."""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from fem.frame.batch import Bools, Ints, put, take
+from fem.frame.control import DISPLACEMENT, FORCE, Targets, displacement, measured, reading
+from fem.frame.model import Model, State, Unloaded, at_rest
+from fem.frame.newton import CONVERGED, REASONS, Outcome, equilibrium
+from fem.frame.reference import bowed_axis, reference
+from meshes.solid import Floats
+
+FINEST = 1.0 / 64.0
+"""Shortest part of a step."""
+AFTER_FAILURE = "a step before it failed"
+
+
+@dataclass(frozen=True, eq=False)
+class Histories:
+    """Prescribed steps: kind (B, 6); value (B, S, 6); temperature (B, S) C; steps (B,): how many count."""
+
+    kind: Ints
+    value: Floats
+    temperature: Floats
+    steps: Ints
+
+
+@dataclass(frozen=True, eq=False)
+class Records:
+    """Measured quantities of every step, NaN where there is no equilibrium: displacement (B, S, 6), wrench (B, S, 6)
+    read, gauges (B, S, G) mm. converged (B, S); reason (B, S) empty or why not; iterations (B, S), residual (B, S)
+    over the allowed out-of-balance; negative (B, S) eigenvalues with the held coordinates fixed, 0: stable."""
+
+    displacement: Floats
+    wrench: Floats
+    gauges: Floats
+    converged: Bools
+    reason: np.ndarray
+    iterations: Ints
+    residual: Floats
+    negative: Ints
+
+
+def unloaded_bars(model: Model, temperature: Floats) -> Unloaded:
+    """The bars without load at a temperature (B,)."""
+    length = model.warmed(temperature)
+    _, triads = bowed_axis(model.bars, length)
+    return Unloaded(reference(model.bars, length), triads[:, :, [0, -1]])
+
+
+def settled(model: Model, mechanism: Bools) -> Outcome:
+    """The unloaded linkage as mounted, at its reference temperature, without dead load, hinge spring or friction.
+
+    mechanism (B, 6): platform coordinates in which the linkage is a mechanism; they stay as mounted.
+    """
+    joints = replace(
+        model.joints,
+        return_spring=np.zeros_like(model.joints.return_spring),
+        torque=np.zeros_like(model.joints.torque),
+    )
+    # Newton's method may pass through strains that no fibre sees.
+    free = replace(model, joints=joints, fibres=None)
+    nominal = np.repeat(np.linalg.norm(model.nominal, axis=1)[:, None], model.length.shape[1], axis=1)
+    x, triads = bowed_axis(model.bars, nominal)
+    start = at_rest(model, x, triads)
+    kind = np.where(mechanism, DISPLACEMENT, FORCE)
+    value = np.where(mechanism, displacement(model, start), 0.0)
+    unloaded = unloaded_bars(model, model.reference_temperature)
+    zero = np.zeros(model.gauges.station.shape)
+    return equilibrium(free, unloaded, start, Targets(kind, value), np.zeros(len(value)), zero)
+
+
+@dataclass(frozen=True, eq=False)
+class _Here:
+    """Where each test stands: its state, gauge coordinates, temperature and share of the dead loads."""
+
+    state: State
+    gauge: Floats
+    temperature: Floats
+    dead: Floats
+    negative: Ints
+
+
+def run(model: Model, histories: Histories, mechanism: Bools) -> Records:
+    """Follow every history from its settled, unloaded state."""
+    first = settled(model, mechanism)
+    count, steps = histories.temperature.shape
+    zero = first.gauge
+    records = _empty(count, steps, zero.shape[-1])
+    failed = first.code != CONVERGED
+    reasons = np.array([f"unloaded state: {REASONS[int(c)]}" if c else "" for c in first.code], object)
+    still = np.zeros(count)
+    slider = np.zeros_like(first.state.slider)
+    state = replace(first.state, slider=slider)
+    here = _Here(state, first.gauge, model.reference_temperature.copy(), still, first.negative)
+    for step in range(steps):
+        going = np.flatnonzero(~failed & (step < histories.steps))
+        records.reason[failed, step] = reasons[failed]
+        if len(going):
+            part, codes, effort = _step(take((model, here, histories, zero), going), step)
+            here = put(here, going, part)
+            _record(records, going, step, take(model, going), part, zero[going], codes, effort)
+            failed[going] = codes != CONVERGED
+            reasons[going] = AFTER_FAILURE
+    return records
+
+
+def _step(
+    parts: tuple[Model, _Here, Histories, Floats], step: int
+) -> tuple[_Here, Ints, tuple[Ints, Floats]]:
+    """One step of some tests, in parts of its length where needed: where they stand then, codes and effort."""
+    model, here, histories, zero = parts
+    kind = histories.kind
+    goal = histories.value[:, step]
+    warm = histories.temperature[:, step]
+    from_value = measured(model, here.state, here.gauge - zero, kind)
+    from_warm, from_dead = here.temperature, here.dead
+    count = len(goal)
+    done, size = np.zeros(count), np.ones(count)
+    codes = np.full(count, CONVERGED)
+    iterations, residual = np.zeros(count, int), np.zeros(count)
+    while True:
+        going = np.flatnonzero((done < 1.0) & (codes == CONVERGED))
+        if not len(going):
+            return here, codes, (iterations, residual)
+        to = np.minimum(done + size, 1.0)
+        share = to[:, None]
+        value = np.where(share == 1.0, goal, from_value + share * (goal - from_value))
+        temperature = from_warm + to * (warm - from_warm)
+        dead = from_dead + to * (1.0 - from_dead)
+        some = take((model, here, Targets(kind, value), temperature, dead, zero), going)
+        outcome = equilibrium(
+            some[0], unloaded_bars(some[0], some[3]), some[1].state, some[2], some[4], some[5]
+        )
+        iterations[going] += outcome.iterations
+        residual[going] = outcome.residual
+        finest = size[going] <= FINEST
+        lost_stability = (outcome.negative > 0) & (some[1].negative == 0) & ~finest
+        good = (outcome.code == CONVERGED) & ~lost_stability
+        accepted = np.flatnonzero(good)
+        new = _Here(outcome.state, outcome.gauge, some[3], some[4], outcome.negative)
+        here = put(here, going[accepted], take(new, accepted))
+        done[going[accepted]] = to[going[accepted]]
+        size[going[accepted]] *= 2.0
+        poor = np.flatnonzero(~good)
+        codes[going[poor[finest[poor]]]] = outcome.code[poor[finest[poor]]]
+        size[going[poor]] /= 2.0
+
+
+def _empty(count: int, steps: int, gauges: int) -> Records:
+    nan = np.full((count, steps), np.nan)
+    return Records(
+        np.full((count, steps, 6), np.nan),
+        np.full((count, steps, 6), np.nan),
+        np.full((count, steps, gauges), np.nan),
+        np.zeros((count, steps), bool),
+        np.full((count, steps), "", object),
+        np.zeros((count, steps), int),
+        nan,
+        np.zeros((count, steps), int),
+    )
+
+
+def _record(
+    records: Records,
+    going: Ints,
+    step: int,
+    model: Model,
+    here: _Here,
+    zero: Floats,
+    codes: Ints,
+    effort: tuple[Ints, Floats],
+) -> None:
+    """Write one step of some tests into the records."""
+    good = codes == CONVERGED
+    at = going[good]
+    records.displacement[at, step] = displacement(model, here.state)[good]
+    records.wrench[at, step] = reading(model, here.state)[good]
+    records.gauges[at, step] = (here.gauge - zero)[good]
+    records.negative[at, step] = here.negative[good]
+    records.converged[going, step] = good
+    records.reason[going, step] = [REASONS[int(code)] for code in codes]
+    records.iterations[going, step], records.residual[going, step] = effort
