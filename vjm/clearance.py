@@ -16,6 +16,9 @@ from vjm.laws import Response
 CENTRING = 20.0
 """N/mm: the soft spring inside the play, which keeps the position defined."""
 
+STOP = 1e8
+"""N/mm: the stops; some thousand times a bar's stiffness along its axis, so that 4 kN press them in by 0.04 µm."""
+
 
 @dataclass(frozen=True)
 class Clearance:
@@ -25,7 +28,7 @@ class Clearance:
     """
 
     play: float
-    stop: float
+    stop: float = STOP
 
     def __post_init__(self) -> None:
         checks.positive("play", self.play)

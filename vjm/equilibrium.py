@@ -16,7 +16,7 @@ from vjm import lagrangian
 from vjm.frames import POSE_NAMES, Array, moment
 from vjm.increments import solve
 from vjm.laws import Response
-from vjm.mechanism import Mechanism, initial_memory
+from vjm.mechanism import ElasticChain, Mechanism, initial_memory
 from vjm.newton import CONVERGED, Iterate, Step, dense, newton
 from vjm.problem import Held, Problem, channel_numbers
 from vjm.readings import read
@@ -118,18 +118,24 @@ class Equilibrium:
     @property
     def next_memory(self) -> Array:
         """(..., M) what the laws remember after this step."""
-        return np.concatenate([answer.memory for answer in self._responses()], axis=-1)
+        if not self.memory.shape[-1]:
+            return self.memory
+        return np.concatenate([chain.remember(*strain) for chain, strain in self._strains()], axis=-1)
 
     def _responses(self) -> list[Response]:
+        return [chain.respond(*strain) for chain, strain in self._strains()]
+
+    def _strains(self) -> list[tuple[ElasticChain, tuple[Array, Array]]]:
+        """Each chain with its strain (..., m) and the memory (..., M) of its laws."""
         place = lagrangian.layout(self.mechanism)
         rest = lagrangian.rest(self.mechanism, self.drives)
         parts = zip(self.mechanism.chains, rest, place.coordinates, place.memories, strict=True)
         return [
-            chain.respond(self.unknowns[..., x] - r[..., chain.moving], self.memory[..., past])
+            (chain, (self.unknowns[..., x] - r[..., chain.moving], self.memory[..., past]))
             for chain, r, x, past in parts
         ]
 
-    def member(self, index: int | tuple[int, ...] | slice | np.ndarray) -> Equilibrium:
+    def member(self, index: int | tuple[int | slice, ...] | slice | np.ndarray) -> Equilibrium:
         """One state of the batch, or several."""
         return Equilibrium(self.mechanism, *(np.asarray(part[index]) for part in _arrays(self)))
 
@@ -189,13 +195,15 @@ def equilibrium(
     limit: int = ITERATIONS,
     follow: bool = False,
     drives: Drives | None = None,
+    memory: Array | None = None,
 ) -> Equilibrium:
     """Newton's method on the stationarity of the Lagrange function, Hessians included.
 
     targets: (..., 6); a held coordinate's entry is its pose value (mm, rad), a free one's its load (N, N·mm),
     conjugate to the rotation vector unless the mechanism's sensors read otherwise, a gauge's its reading.
     held: names for all load cases, a mask (..., 6), or channel numbers (..., 6); default all six names.
-    drives: inputs by name, (...) each, default as built.
+    drives: inputs by name, (...) each, default as built. memory: (..., M) of the laws before the step, default
+    what the start leaves.
     start: state to begin from, broadcast over the batch; default the unloaded mechanism. Laws with memory
     continue from it.
     follow: stay on the branch of the start even where it is unstable.
@@ -204,7 +212,7 @@ def equilibrium(
     critical load, is returned as such: see `Equilibrium.unstable` and `vjm.stability.verified`.
     ValueError for targets whose last axis is not 6 or that are not finite.
     """
-    problem, first, before, batch = _posed(mechanism, targets, held, start, drives)
+    problem, first, before, batch = _posed(mechanism, targets, held, start, drives, memory)
     return record(problem, solve(problem, first, before, tolerance, limit, follow), batch)
 
 
@@ -222,7 +230,7 @@ def picard(
     critical load. `equilibrium` is the safe choice there; both share residual and record. Laws beside the
     linear springs enter with their tangent.
     """
-    problem, first, _, batch = _posed(mechanism, poses, POSE_NAMES, start, None)
+    problem, first, _, batch = _posed(mechanism, poses, POSE_NAMES, start, None, None)
     place = problem.place
     weight = place.scale / place.energy
     parts = list(zip(mechanism.chains, place.coordinates, place.memories, strict=True))
@@ -295,7 +303,12 @@ def _checked(targets: ArrayLike) -> Array:
 
 
 def _posed(
-    mechanism: Mechanism, targets: ArrayLike, held: Held, start: Equilibrium | None, drives: Drives | None
+    mechanism: Mechanism,
+    targets: ArrayLike,
+    held: Held,
+    start: Equilibrium | None,
+    drives: Drives | None,
+    memory: Array | None,
 ) -> tuple[Problem, Array, Array, tuple[int, ...]]:
     """The problem with flat batch axes, unknowns and inputs to begin with, and the batch shape."""
     targets, numbers = _checked(targets), channel_numbers(held, len(mechanism.gauges))
@@ -303,13 +316,13 @@ def _posed(
     shapes = [targets.shape[:-1], numbers.shape[:-1], inputs.shape[:-1]]
     batch = np.broadcast_shapes(*shapes)
     if start is None:
-        unknowns, memory = lagrangian.at_rest(mechanism, inputs), initial_memory(mechanism)
-        before = inputs
+        unknowns, past, before = lagrangian.at_rest(mechanism, inputs), initial_memory(mechanism), inputs
     else:
-        unknowns, memory, before = start.unknowns, start.next_memory, start.drives
+        unknowns, before = start.unknowns, start.drives
+        past = start.next_memory if memory is None else memory
 
     def flat(part: np.ndarray) -> np.ndarray:
         return np.broadcast_to(part, (*batch, part.shape[-1])).reshape(int(np.prod(batch)), part.shape[-1])
 
-    problem = Problem(mechanism, *(flat(part) for part in (targets, numbers, memory, inputs)))
+    problem = Problem(mechanism, *(flat(part) for part in (targets, numbers, past, inputs)))
     return problem, flat(unknowns).copy(), flat(before), batch

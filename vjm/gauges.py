@@ -23,7 +23,7 @@ class Posed(Protocol):
 
 @dataclass(frozen=True, eq=False)
 class Gauge:
-    """A displacement gauge; reads zero in the unloaded state.
+    """A displacement gauge; reads zero in the unloaded state. Seen from the base body: `vjm.readings` adds its motion.
 
     chain: number of the chain it sits on. path: from the base to its point. coordinates: numbers of the
     path's coordinates in that chain. direction: (3,) base frame.
@@ -36,14 +36,18 @@ class Gauge:
 
     def at(self, coordinates: Array, unloaded: Array) -> Array:
         """Displacement (...), mm, at all coordinates (..., n) of its chain from the unloaded ones."""
-        there, before = (self.path.pose(x[..., self.coordinates])[..., :3] for x in (coordinates, unloaded))
-        return np.asarray((there - before) @ self.direction)
+        return np.asarray((self.point(coordinates) - self.point(unloaded)) @ self.direction)
 
-    def slope(self, coordinates: Array) -> Array:
-        """Derivative (..., n) of the reading by the coordinates (..., n) of its chain."""
+    def point(self, coordinates: Array) -> Array:
+        """Place (..., 3) of its point at all coordinates (..., n) of its chain."""
+        return self.path.pose(coordinates[..., self.coordinates])[..., :3]
+
+    def slope(self, coordinates: Array, direction: Array | None = None) -> Array:
+        """Derivative (..., n) of the reading by the coordinates (..., n), along its own or a direction (..., 3)."""
         jacobian = self.path.jacobian(coordinates[..., self.coordinates])[..., :3, :]
         slope = np.zeros(coordinates.shape)
-        slope[..., self.coordinates] = np.einsum("k,...kn->...n", self.direction, jacobian)
+        along = self.direction if direction is None else direction
+        slope[..., self.coordinates] = np.einsum("...k,...kn->...n", along, jacobian)
         return slope
 
     def reading(self, state: Posed) -> Array:

@@ -124,13 +124,12 @@ class BeamColumn:
         energy = h * linear + 0.5 * axial * h * h - 0.5 * ease * g * tension**2
         block = self._tangent(bow, give, slope, ease, tension, g)
         for b, triple in zip(self.coupling.T, _TWISTED, strict=True):
-            for turn in range(3):
-                i, j, k = np.roll(triple, turn)
+            for i, j, k in (triple, (*triple[1:], triple[0]), (triple[2], *triple[:2])):
                 force[..., i] += b * theta[..., j] * theta[..., k]
                 block[..., j, k] += b * theta[..., i]
                 block[..., k, j] += b * theta[..., i]
             energy += b * np.prod(theta[..., triple], axis=-1)
-        return Response(np.sum(energy, axis=-1), force.reshape(strain.shape), _block_diagonal(block), memory)
+        return Response(np.sum(energy, axis=-1), force.reshape(strain.shape), block_diagonal(block), memory)
 
     def _tangent(self, bow: Array, give: Array, slope: Array, ease: Array, tension: Array, g: Array) -> Array:
         """Second derivative of the energy, (..., n, 6, 6)."""
@@ -155,7 +154,7 @@ def _square(v: Array, factor: Array) -> Array:
     return (factor[..., None] * v)[..., :, None] * v[..., None, :]
 
 
-def _block_diagonal(blocks: Array) -> Array:
+def block_diagonal(blocks: Array) -> Array:
     """(..., n, k, k) as (..., n k, n k)."""
     n, k = blocks.shape[-3], blocks.shape[-1]
     full = np.zeros((*blocks.shape[:-3], n * k, n * k))

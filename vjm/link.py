@@ -6,6 +6,7 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
+from vjm.fibres import Fibres
 from vjm.frames import Array
 from vjm.laws import Law
 
@@ -24,6 +25,7 @@ class Link:
     of its hinges stay where they are without.
     slides: laws in series of a displacement along the bar at its base hinge.
     elongation: stress-free lengthening per unit of an input, mm, by the name of the input.
+    fibres: of a bar that yields; such a bar is always modelled in segments (`vjm.refined`).
     """
 
     length: float
@@ -33,14 +35,19 @@ class Link:
     bow: tuple[float, float] = (0.0, 0.0)
     slides: tuple[Law, ...] = ()
     elongation: tuple[tuple[str, float], ...] = ()
+    fibres: Fibres | None = None
 
     def lengthened(self, change: float) -> Link:
-        """The bar with `change`, mm, added to its length at the same section: a uniform bar's 6x6 follows it."""
+        """The bar with `change`, mm, added to its length at the same section: a uniform bar's 6x6 follows it.
+
+        So does what it grows by per unit of an input.
+        """
         length = self.length + change
         ratio = self.length / length
         powers = np.sqrt(ratio ** np.array([1.0, 3.0, 3.0, 1.0, 1.0, 1.0]))
         stiffness = powers[:, None] * self.stiffness * powers
-        return replace(self, length=length, stiffness=stiffness)
+        elongation = tuple((name, rate / ratio) for name, rate in self.elongation)
+        return replace(self, length=length, stiffness=stiffness, elongation=elongation)
 
     def stiffened(self, scale: float) -> Link:
         """The bar with its stiffness scaled."""

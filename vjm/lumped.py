@@ -24,12 +24,15 @@ _BOWED = 24
 class Lumped:
     """All six springs at one place of an otherwise rigid bar (Eq. 1: at the tip).
 
-    A bow enters as the compliance that a bowed bar has at its tip, and in no other way.
+    A bow enters as the compliance that a bowed bar has at its tip, and in no other way. A bar that yields has
+    no such model: it is refined instead.
     """
 
     spring_at: SpringAt = "tip"
 
     def limb(self, link: Link) -> Limb:
+        if link.fibres is not None:
+            return Refined().limb(link)
         before = STATION[self.spring_at] * link.length
         elements: tuple[Element, ...] = (_ahead(before), *spring_joints(), _ahead(link.length - before))
         stretch = np.eye(6)[0]
@@ -40,6 +43,8 @@ class Lumped:
         return Limb(elements, stiffness, np.zeros(6), stretch, stations=stations)
 
     def reach(self, link: Link, station: float) -> tuple[Element, ...]:
+        if link.fibres is not None:
+            return Refined().reach(link, station)
         check_station(station)
         place = STATION[self.spring_at]
         if station < place:

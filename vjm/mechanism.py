@@ -110,6 +110,16 @@ class ElasticChain:
             remembered.append(answer.memory)
         return Response(energy, force, tangent, np.concatenate(remembered, axis=-1))
 
+    def remember(self, strain: Array, memory: Array) -> Array:
+        """Memory (..., M) of the laws after a step that ends at the strain (..., m)."""
+        parts = zip(self.springs, self._groups, self._memories, strict=True)
+        kept = [
+            spring.law.respond(strain[..., numbers], memory[..., part]).memory
+            for spring, numbers, part in parts
+            if part.stop > part.start
+        ]
+        return np.concatenate([np.zeros((*strain.shape[:-1], 0)), *kept], axis=-1)
+
     @cached_property
     def _groups(self) -> tuple[np.ndarray, ...]:
         """Numbers of each spring's coordinates among the moving ones."""

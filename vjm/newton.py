@@ -20,6 +20,8 @@ CONVERGED, RUNNING = "converged", "not converged within the allowed iterations"
 DIVERGED, SINGULAR = "diverged: the residual grew beyond bounds", "stopped at a singular matrix"
 DIVERGED_ABOVE = 1e4
 LARGEST_STEP = 0.5
+# Of the length, or rad: what a solution is improved by when it was nearly known is not a way that it went.
+SMALL_STEP = 1e-3
 
 
 @dataclass(frozen=True, eq=False)
@@ -118,7 +120,7 @@ def newton(
             np.max(np.abs((b - a) / scale)[:, part], axis=-1)
             for a, b in ((start, first), (first, end.unknowns))
         ]
-        end.strayed[:] = ways[1] / np.maximum(ways[0], np.finfo(float).tiny)
+        end.strayed[:] = ways[1] / (ways[0] + SMALL_STEP)
     return end
 
 

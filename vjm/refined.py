@@ -33,9 +33,12 @@ import numpy as np
 
 from vjm.bars import Limb, X, Y, Z, check_station
 from vjm.chain import Element, Fixed, Joint, Role
+from vjm.fibres import Fibres
 from vjm.frames import Array, exp
-from vjm.laws import BeamColumn, Spring
+from vjm.laws import BeamColumn, Law, Spring
 from vjm.link import Link
+from vjm.section import Section
+from vjm.yielding import Yielding, strain_rates
 
 SEGMENTS = 6
 """Default refinement; see `Refined` for what it is good for."""
@@ -72,6 +75,9 @@ class Refined:
         numbers = (6 * np.arange(n)[:, None] + _ORDER).ravel()
         shape = bowed_shape(link, parts)
         law = BeamColumn(parts.stiffness, parts.curvature, parts.softening, parts.coupling, shape)
+        laws: tuple[Law, ...] = (law,)
+        if link.fibres is not None:
+            laws = (law, yielding(link.length, link.stiffness, link.fibres, parts, shape))
         stretch = np.zeros((n, 6))
         stretch[:, 0] = 1.0 / n
         return Limb(
@@ -79,7 +85,7 @@ class Refined:
             full,
             shape[:, _ORDER].ravel(),
             stretch[:, _ORDER].ravel(),
-            (Spring(tuple(numbers.tolist()), law),),
+            tuple(Spring(tuple(numbers.tolist()), each) for each in laws),
             _stations(start, pieces, parts.size),
         )
 
@@ -115,6 +121,7 @@ class Shares:
     softening: Array
     coupling: Array
     shear: Array
+    flexible: Array
 
 
 def share_out(length: float, stiffness: Array, segments: int) -> Shares:
@@ -123,14 +130,14 @@ def share_out(length: float, stiffness: Array, segments: int) -> Shares:
     size = length / segments
     lever = length - (np.arange(segments) + 0.5) * size
     parts, curvature, softening = np.zeros((segments, 6, 6)), np.zeros((segments, 6)), np.zeros((segments, 6))
-    offset, shear = np.zeros((segments, 2)), np.zeros(2)
+    offset, shear, flexible = np.zeros((segments, 2)), np.zeros(2), np.zeros(2)
     parts[:, 0, 0], parts[:, 3, 3] = whole[0, 0] / segments, whole[3, 3] / segments
     for plane, (shift, turn, sign) in enumerate(_PLANES):
         centre = sign * whole[shift, turn] / whole[turn, turn]
         spread = whole[shift, shift] - whole[shift, turn] ** 2 / whole[turn, turn]
         uniform = whole[turn, turn] * length**2 / 12
         a = np.sqrt(min(1.0, spread / uniform))
-        amount = whole[turn, turn] / segments
+        amount, flexible[plane] = whole[turn, turn] / segments, a * size
         bending, slip = amount * (a * size) ** 2 / 12, (spread - a**2 * uniform) / segments
         number = shear[plane] = slip / bending
         offset[:, plane] = centre + a * (lever - 0.5 * length) - lever
@@ -151,7 +158,20 @@ def share_out(length: float, stiffness: Array, segments: int) -> Shares:
         softening,
         np.tile(coupling, (segments, 1)),
         shear,
+        flexible,
     )
+
+
+def yielding(length: float, stiffness: Array, fibres: Fibres, parts: Shares, shape: Array) -> Yielding:
+    """The law of yielding of the segments of a bar with this 6x6; ValueError for fibres inside its section."""
+    amount = np.diag(_inverse(stiffness))
+    bending = len(shape) * parts.flexible / amount[[5, 4]]
+    rigidity = np.array([length / amount[0], bending[1], bending[0]])
+    section = Section(fibres, *fibres.grid(*np.sqrt(bending / rigidity[0])), rigidity)
+    # No strain yields over more than it has elastically, or the tangent would not stay positive.
+    shortest = float(min(parts.size, parts.flexible.min()))
+    rates = strain_rates(parts.stiffness, rigidity, parts.flexible)
+    return Yielding(section, shortest, parts.stiffness, parts.curvature, shape, rates)
 
 
 def _give_way(parts: Shares, link: Link) -> None:

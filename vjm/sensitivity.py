@@ -29,7 +29,7 @@ _STEP = 1e-3
 class Sensitivity:
     """Derivatives of an equilibrium; the last axis counts the inputs.
 
-    unknowns: (..., N, k). memory: (..., M, k) of `Equilibrium.next_memory`. readings: (..., 12 + G, k) of
+    unknowns: (..., N, k). memory: (..., M, k) of `Equilibrium.next_memory`, zero for targets. readings: (..., 12 + G, k) of
     `Equilibrium.readings`. regular: (...) False at a critical state, where there is no derivative and zeros
     stand.
     """
@@ -50,18 +50,6 @@ class Sensitivity:
         """(..., 6, k) of the total load."""
         places = lagrangian.layout(self.state.mechanism).multipliers
         return np.sum([self.unknowns[..., place, :] for place in places], axis=0)
-
-
-def by_targets(state: Equilibrium) -> Sensitivity:
-    """By the six targets: the reading that the control of each platform coordinate prescribes."""
-    place = lagrangian.layout(state.mechanism)
-    right = np.zeros((*state.unknowns.shape, 6))
-    right[..., place.platform, :] = np.eye(6) / channel_scale(place, state.channels)[..., None, :]
-    unknowns, regular = _solve(state, right)
-    memory = np.zeros((*state.memory.shape, 6))
-    if state.memory.shape[-1]:
-        memory = _memory_change(state, [None] * 6, unknowns, memory)
-    return Sensitivity(state, unknowns, memory, _readings(state, unknowns), regular)
 
 
 @dataclass(frozen=True, eq=False)
@@ -94,13 +82,29 @@ class DriveDirection:
         return replace(state, drives=drives)
 
 
+@dataclass(frozen=True)
+class Target:
+    """One of the six targets: the reading that the control of that platform coordinate prescribes."""
+
+    coordinate: int
+
+
+AnyDirection = Direction | DriveDirection | Target
+TARGETS = tuple(Target(k) for k in range(6))
+
+
+def by_targets(state: Equilibrium) -> Sensitivity:
+    """By the six targets."""
+    return by_parameters(state, TARGETS)
+
+
 def by_parameters(
     state: Equilibrium,
-    directions: Sequence[Direction | DriveDirection],
+    directions: Sequence[AnyDirection],
     target_slope: ArrayLike = 0.0,
     memory_slope: ArrayLike = 0.0,
 ) -> Sensitivity:
-    """By k parameters or inputs at once.
+    """By k parameters, inputs or targets at once.
 
     target_slope: (..., 6, k) derivative of the targets, where they change with them. memory_slope: (..., M, k)
     derivative of the memory at the start of the step, `Sensitivity.memory` of the step before.
@@ -112,6 +116,10 @@ def by_parameters(
     slope = np.zeros((*state.unknowns.shape, count))
     own = np.zeros((*state.readings.shape, count))
     for k, direction in enumerate(directions):
+        if isinstance(direction, Target):
+            sides = channel_scale(place, state.channels)[..., direction.coordinate]
+            slope[..., place.platform.start + direction.coordinate, k] -= 1.0 / sides
+            continue
         for offset, weight in zip(_OFFSETS, _WEIGHTS / (_STEP * direction.size), strict=True):
             step = _STEP * direction.size * offset
             moved = direction.moved(state, step)
@@ -162,24 +170,22 @@ def _solve(state: Equilibrium, right: Array) -> tuple[Array, np.ndarray]:
 
 
 def _memory_change(
-    state: Equilibrium,
-    directions: Sequence[Direction | DriveDirection | None],
-    unknowns: Array,
-    memory: Array,
+    state: Equilibrium, directions: Sequence[AnyDirection], unknowns: Array, memory: Array
 ) -> Array:
     """Derivative (..., M, k) of the memory after the step along the changes of unknowns and memory.
 
-    None among the directions: nothing but those changes, differences over a unit of the input.
+    What a target leaves in the memory is not followed: it belongs to its own step.
     """
     out = np.zeros(memory.shape)
     if not memory.shape[-2]:
         return out
     for k, direction in enumerate(directions):
-        size = 1.0 if direction is None else direction.size
-        for offset, weight in zip(_OFFSETS, _WEIGHTS / (_STEP * size), strict=True):
-            step = _STEP * size * offset
+        if isinstance(direction, Target):
+            continue
+        for offset, weight in zip(_OFFSETS, _WEIGHTS / (_STEP * direction.size), strict=True):
+            step = _STEP * direction.size * offset
             moved = replace(
-                state if direction is None else direction.moved(state, step),
+                direction.moved(state, step),
                 unknowns=state.unknowns + step * unknowns[..., k],
                 memory=state.memory + step * memory[..., k],
             )

@@ -68,15 +68,18 @@ class BaseSpring:
     compliance: Array
     stage: ClassVar[int] = 1
 
-    def read(self, channels: Array) -> Channels:
+    def motion(self, channels: Array) -> tuple[Array, Array]:
+        """(p_d, phi_d) (..., 6) of the base and its derivative (..., 6, 12) by the channels seen from it."""
         p, f, m = (channels[..., i : i + 3] for i in (0, 6, 9))
         to_origin = np.zeros((*channels.shape[:-1], 6, 12))
         to_origin[..., :3, 6:9] = to_origin[..., 3:, 9:] = np.eye(3)
         to_origin[..., 3:, 6:9] = skew(p)
         to_origin[..., 3:, :3] = -skew(f)
         wrench = np.concatenate([f, m + np.cross(p, f)], axis=-1)
-        moved, slope = wrench @ self.compliance.T, self.compliance @ to_origin
-        return _carried(channels, moved, slope)
+        return wrench @ self.compliance.T, self.compliance @ to_origin
+
+    def read(self, channels: Array) -> Channels:
+        return _carried(channels, *self.motion(channels))
 
 
 @dataclass(frozen=True, eq=False)
@@ -125,6 +128,42 @@ def through(sensors: tuple[Sensor, ...], channels: Array) -> Channels:
         after = sensor.read(values)
         values, slope = after.values, after.slope @ slope
     return Channels(values, slope)
+
+
+@dataclass(frozen=True, eq=False)
+class BaseMotion:
+    """Where the base body stands: turn (..., 3, 3), shift (..., 3) of its origin, mm.
+
+    slope: (..., 6, 12) of shift and spin by true pose and load.
+    """
+
+    turn: Array
+    shift: Array
+    slope: Array
+
+
+def base_motion(sensors: tuple[Sensor, ...], channels: Array) -> BaseMotion | None:
+    """Motion of the base body on its springs at true pose and load (..., 12); None where it stands still."""
+    values, slope, found = channels, _unit(channels), None
+    for sensor in sorted(sensors, key=lambda each: each.stage):
+        if isinstance(sensor, BaseSpring):
+            moved, rate = sensor.motion(values)
+            rate = rate @ slope
+            rate[..., 3:, :] = rotation_jacobian(moved[..., 3:]) @ rate[..., 3:, :]
+            step = BaseMotion(exp(moved[..., 3:]), moved[..., :3], rate)
+            found = step if found is None else _after(step, found)
+        after = sensor.read(values)
+        values, slope = after.values, after.slope @ slope
+    return found
+
+
+def _after(outer: BaseMotion, inner: BaseMotion) -> BaseMotion:
+    """The motion of a body on a body that moves itself."""
+    arm = np.einsum("...ij,...j->...i", outer.turn, inner.shift)
+    slope = outer.slope.copy()
+    slope[..., :3, :] += outer.turn @ inner.slope[..., :3, :] - skew(arm) @ outer.slope[..., 3:, :]
+    slope[..., 3:, :] += outer.turn @ inner.slope[..., 3:, :]
+    return BaseMotion(outer.turn @ inner.turn, arm + outer.shift, slope)
 
 
 def _carried(channels: Array, moved: Array, moved_slope: Array) -> Channels:

@@ -13,19 +13,16 @@ from scipy.optimize import least_squares
 from pipeline.inference.model import Model
 from pipeline.inference.prediction import Prediction, predict
 from pipeline.inference.program import Program
-from pipeline.inference.residual import Residual, Whitening, residual, whitening
+from pipeline.inference.residual import Residual, residual
 
 Array = NDArray[np.float64]
-REWEIGHTINGS = 4
-SETTLED = 1e-2
-"""Weights are renewed until that moves no number by more than this part of its standard error."""
 
 
 @dataclass(frozen=True, eq=False)
 class Fit:
     """A model at its best fit to the tests that may be fitted.
 
-    prediction, residual: there, with the weights of its own tangent. evaluations: of the whole campaign.
+    prediction, residual: there. evaluations: of the whole campaign.
     """
 
     model: Model
@@ -60,11 +57,6 @@ class Fit:
         """Whitened root mean square over the degrees of freedom; 1 is noise."""
         return float(np.sqrt(self.chi_square / max(self.degrees, 1)))
 
-    @property
-    def deviance(self) -> float:
-        """-2 log likelihood, but for a constant of the data: chi-square and the size of the noise."""
-        return self.chi_square + self.residual.log_determinant
-
     @cached_property
     def covariance(self) -> Array:
         """(P, P) of the free numbers; infinite variance where the data say nothing."""
@@ -85,32 +77,36 @@ class Fit:
 
 @dataclass(eq=False)
 class Objective:
-    """Whitened residuals and derivatives at values (P,), the weights held; remembers where it was."""
+    """Whitened residuals and derivatives at values (P,); goes on from where it was last.
+
+    The inputs that fit best follow from one evaluation to the next. At them the derivatives that the weights have
+    by the values cancel (envelope theorem), so the gradient of chi² is that of the residual alone.
+    """
 
     model: Model
     program: Program
-    weights: Whitening
-    start: Prediction
+    last: Prediction | None = None
     count: int = 0
-    _last: tuple[bytes, Residual] | None = field(default=None, repr=False)
+    _known: tuple[bytes, Prediction, Residual] | None = field(default=None, repr=False)
 
-    def at(self, values: Array) -> Residual:
-        """The residual at values, solved once for residuals and derivatives."""
+    def at(self, values: Array) -> tuple[Prediction, Residual]:
+        """Prediction and residual at values, solved once for residuals and derivatives."""
         key = np.asarray(values).tobytes()
-        if self._last is None or self._last[0] != key:
-            self.start = predict(self.model.at(values), self.program, start=self.start)
+        if self._known is None or self._known[0] != key:
+            shift = None if self._known is None else self._known[2].shift
+            self.last = predict(self.model.at(values), self.program, start=self.last, shift=shift)
             self.count += 1
-            self._last = (key, residual(self.program, self.start, self.weights))
-        return self._last[1]
+            self._known = (key, self.last, residual(self.program, self.last))
+        return self._known[1], self._known[2]
 
     def residuals(self, values: Array) -> Array:
         """(N,)"""
-        it = self.at(values)
+        it = self.at(values)[1]
         return _free_of(it.flat(it.offsets), it.flat(it.values))
 
     def jacobian(self, values: Array) -> Array:
         """(N, P)"""
-        it = self.at(values)
+        it = self.at(values)[1]
         return -_free_of(it.flat(it.offsets), it.flat(it.slopes))
 
 
@@ -122,47 +118,34 @@ def fit(
 ) -> Fit:
     """The best fit that is found from the model's own values.
 
-    Weights are those of the present tangent, renewed until they settle (iteratively reweighted least squares);
-    within, a trust-region method with bounds (M. A. Branch, T. F. Coleman, Y. Li, SIAM J. Sci. Comput. 21, 1999).
+    A dogleg method in a box (C. Voglis, I. E. Lagaris, WSEAS Applied Mathematics, 2004): it leaves a bound where
+    it began, as most effects do, without shrinking its steps.
     """
     free = model.free
-    bounds = np.array([each.bounds for each in free]).T.reshape(2, -1)
-    scale = np.array([abs(each.parameter.typical) for each in free])
-    values, count = np.clip(model.values, *bounds), 1
-    here = predict(model.at(values), program, slopes=bool(free), start=start)
-    weights = whitening(program, here)
-    if not free:
-        return Fit(model, here, residual(program, here, weights), 1)
-    for _ in range(REWEIGHTINGS):
-        # What was solved to renew the weights need not be solved again.
-        known = (values.tobytes(), residual(program, here, weights))
-        aim = Objective(model, program, weights, here, _last=known)
+    aim = Objective(model, program, start)
+    values = model.values
+    if free:
+        bounds = np.array([each.bounds for each in free]).T
+        scale = np.array([abs(each.parameter.typical) for each in free])
+        # In units of the typical sizes and counted from 1: the first step may then be as large as that.
+        values = np.clip(values, *bounds)
+        origin = values - scale
         found = least_squares(
-            aim.residuals,
-            values,
-            jac=aim.jacobian,
-            bounds=bounds,
-            x_scale=scale,
+            lambda z: aim.residuals(origin + scale * z),
+            np.ones(len(free)),
+            jac=lambda z: aim.jacobian(origin + scale * z) * scale,
+            method="dogbox",
+            bounds=np.clip((bounds - origin) / scale, [[-np.inf], [1.0]], [[1.0], [np.inf]]),
             xtol=1e-6,
             ftol=1e-6,
             gtol=1e-8,
             max_nfev=40,
         )
-        moved, values = np.abs(found.x - values), found.x
-        here = _settled(aim, values)
-        count += aim.count
-        weights = whitening(program, here)
+        values = origin + scale * found.x
         if watch is not None:
-            watch(f"{count} evaluations, chi-square {2 * found.cost:.4g}")
-        best = Fit(model.at(values), here, residual(program, here, weights), count)
-        if np.all(moved <= SETTLED * best.std):
-            break
-    return best
-
-
-def _settled(aim: Objective, values: Array) -> Prediction:
-    aim.at(values)
-    return aim.start
+            watch(f"{aim.count} evaluations, chi-square {2 * found.cost:.5g}")
+    prediction, there = aim.at(values)
+    return Fit(model.at(values), prediction, there, aim.count)
 
 
 def _free_of(columns: Array, values: Array) -> Array:

@@ -16,8 +16,8 @@ from vjm.effects.base import Effect, Parameter, Rig
 
 Array = NDArray[np.float64]
 START = 3e-3
-"""A one-sided parameter stays at least this part of its typical size from null: so far the effect is there, and
-has a derivative, while what it does is far below any noise."""
+"""A parameter stays at least this part of its typical size inside its bounds: there it has a derivative to both
+sides, and an effect whose null is a bound is there, while what it does is far below any noise."""
 
 
 @dataclass(frozen=True)
@@ -35,10 +35,8 @@ class Free:
     @property
     def bounds(self) -> tuple[float, float]:
         """Least and greatest value that a fit may try."""
-        p = self.parameter
-        low = p.low + START * p.typical if p.low == p.null else p.low
-        high = p.high - START * abs(p.typical) if p.high == p.null else p.high
-        return low, high
+        margin = START * abs(self.parameter.typical)
+        return self.parameter.low + margin, self.parameter.high - margin
 
 
 @dataclass(frozen=True)

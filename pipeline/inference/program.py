@@ -16,6 +16,8 @@ from pipeline.inference.rigs import nominal_pose
 Array = NDArray[np.float64]
 CHANNELS = 12
 """Six of the pose and six of the wrench; gauges follow."""
+INPUTS = 7
+"""What is prescribed for each coordinate, and the temperature."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -50,8 +52,8 @@ class Program:
     """All rows of a campaign, in its order; C = 12 + gauges channels.
 
     measured: (R, C), NaN where not measured. predicted: (R, C) mask of what a model predicts and the campaign
-    measured. channels: (R, 6) channel that each coordinate's control prescribes. input_sigma: (R, 6) noise of
-    what is prescribed. sigma: (C,) noise of every sensor. temperature_sigma: K. test: (R,) number of the test.
+    measured. channels: (R, 6) channel that each coordinate's control prescribes. input_sigma: (R, 7) noise of
+    what is prescribed, and of the temperature, K. sigma: (C,) noise of every sensor. test: (R,) its number.
     """
 
     campaign: Campaign
@@ -61,7 +63,6 @@ class Program:
     channels: np.ndarray
     input_sigma: Array
     sigma: Array
-    temperature_sigma: float
     test: np.ndarray
 
     @cached_property
@@ -95,6 +96,8 @@ def program(campaign: Campaign) -> Program:
     held = np.array([[by == SUPPORT for by in t.control] for t in tests])[number]
     # A force that was not read, and a coordinate on its support, are what they are without a sensor's noise.
     input_sigma = np.where(np.isnan(given) | held, 0.0, sigma[channels])
+    warm = np.full((len(number), 1), np.nan_to_num(noise.temperature))
+    input_sigma = np.concatenate([input_sigma, warm], axis=1)
     predicted = np.isfinite(measured)
     np.put_along_axis(predicted, channels, False, axis=1)
     groups: dict[int, list[int]] = {}
@@ -109,7 +112,6 @@ def program(campaign: Campaign) -> Program:
         channels,
         input_sigma,
         sigma,
-        float(np.nan_to_num(noise.temperature)),
         number,
     )
 

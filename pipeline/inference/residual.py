@@ -1,9 +1,15 @@
-"""Residuals in units of their own noise.
+"""Residuals in units of their own noise, with inputs that are measured as well.
 
-The noise of a predicted channel is that of its sensor and, through the model's tangent, that of what was
-prescribed at the same step: S = diag(sigma²) + A diag(sigma_in²) A^T + a a^T sigma_T², A the derivative by what is
-prescribed and a that by temperature. An input's error moves several channels at once, so S is not diagonal;
-residuals are whitened with its Cholesky factor. What the noise of earlier steps does to a memory is left out.
+What is prescribed at a step is read with noise too: y = f(xi) + noise, x = xi + noise, the true inputs xi unknown.
+Linearised at inputs xi_0 near them, with A = df/dxi there, the residual
+
+    e = y - f(xi_0) - A (x - xi_0),    covariance S = diag(sigma_y²) + A diag(sigma_x²) A^T,
+
+has chi² = e^T S^-1 e, which is what remains when xi is fitted as well, at xi = x + Sigma_x A^T S^-1 e. Taking
+f and its derivatives there, and not at the measured x, keeps the noise of the inputs out of the slopes, where it
+would pull every stiffness down. An input's error moves several channels at once, so S is not diagonal; residuals
+are whitened with its Cholesky factor. What the noise of earlier steps does to a memory is left out.
+W. A. Fuller, "Measurement Error Models", Wiley 1987, chapter 3; H. I. Britt, R. H. Luecke, Technometrics 15 (1973).
 """
 
 from __future__ import annotations
@@ -39,30 +45,33 @@ class Whitening:
 def whitening(program: Program, prediction: Prediction) -> Whitening:
     """That of a prediction's own tangent."""
     used = program.predicted
-    through = np.where(used[..., None], prediction.by_inputs, 0.0) * program.input_sigma[:, None, :]
-    through = np.where(prediction.lost[:, None, None], 0.0, through)
-    warm = np.where(used & ~prediction.lost[:, None], prediction.by_temperature, 0.0)
-    warm = warm[..., None] * program.temperature_sigma
-    noise = through @ np.swapaxes(through, -1, -2) + warm @ np.swapaxes(warm, -1, -2)
+    through = _through(program, prediction) * program.input_sigma[:, None, :]
     scale = np.where(used, program.sigma, 1.0)
-    unit = noise / scale[:, :, None] / scale[:, None, :]
-    unit[:, range(used.shape[1]), range(used.shape[1])] += 1.0
+    through = through / scale[..., None]
+    unit = through @ np.swapaxes(through, -1, -2) + np.eye(used.shape[1])
     factors = np.linalg.inv(np.linalg.cholesky(unit)) / scale[:, None, :]
     return Whitening(factors, used)
 
 
+def _through(program: Program, prediction: Prediction) -> Array:
+    """(R, C, 7) derivative by the inputs of the channels that are compared; none of a lost row."""
+    kept = program.predicted & ~prediction.lost[:, None]
+    return np.where(kept[..., None], prediction.by_inputs, 0.0)
+
+
 @dataclass(frozen=True, eq=False)
 class Residual:
-    """Measured less predicted, whitened: (R, C), zero where nothing is compared.
+    """e whitened: (R, C), zero where nothing is compared.
 
     slopes: (R, C, P) of the prediction, whitened. offsets: (R, C, O) whitened columns of unknown zeros.
+    shift: (R, 7) of the inputs that fit best, from the measured ones.
     """
 
     program: Program
     values: Array
     slopes: Array
     offsets: Array
-    log_determinant: float
+    shift: Array
 
     @cached_property
     def rows(self) -> np.ndarray:
@@ -74,18 +83,19 @@ class Residual:
         return np.asarray(array[self.rows[:, 0], self.rows[:, 1]])
 
 
-def residual(program: Program, prediction: Prediction, weights: Whitening) -> Residual:
-    """The residual of a prediction, whitened with given weights."""
-    difference = np.where(program.predicted, program.measured - prediction.values, 0.0)
+def residual(program: Program, prediction: Prediction) -> Residual:
+    """The residual of a prediction with the weights of its own tangent."""
+    weights, through = whitening(program, prediction), _through(program, prediction)
+    carried = np.einsum("rci,ri->rc", through, prediction.shift)
+    difference = np.where(program.predicted, program.measured - prediction.values + carried, 0.0)
     values = weights.apply(difference)
     slopes, offsets = weights.apply(prediction.by_free), weights.apply(_unknown_zeros(program, prediction))
+    gain = np.einsum("rij,rjk->rik", weights.factors, through)
+    shift = program.input_sigma**2 * np.einsum("rik,ri->rk", gain, values)
     values[prediction.lost] = np.where(program.predicted[prediction.lost], LOST, 0.0)
     slopes[prediction.lost] = 0.0
     offsets[prediction.lost] = 0.0
-    diagonal = np.diagonal(weights.factors, axis1=1, axis2=2)
-    use = program.predicted & program.fitted[:, None]
-    determinant = -2.0 * float(np.sum(np.log(np.abs(diagonal[use]))))
-    return Residual(program, values, slopes, offsets, determinant)
+    return Residual(program, values, slopes, offsets, shift)
 
 
 def _unknown_zeros(program: Program, prediction: Prediction) -> Array:

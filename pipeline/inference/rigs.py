@@ -28,7 +28,7 @@ def mechanism_of(rig: Described, gauges: tuple[Gauge, ...]) -> Rig:
         it = Parallelogram(rig.length, rig.width, rig.stiffness)
     else:
         it = Bar(rig.length, rig.stiffness, base=rig.base, tip=rig.tip)
-    it = replace(it, sensors=sensors, gauge_at=places, **_fibres(it, rig))
+    it = replace(it, sensors=sensors, gauge_at=places, fibre_y=rig.fibre_y, fibre_z=rig.fibre_z)
     if down is None:
         return it
     return replace(it, gravity=down, line_load=rig.line_weight * down)
@@ -39,7 +39,3 @@ def nominal_pose(rig: Described, q: np.ndarray) -> np.ndarray:
     pose = np.zeros((*np.shape(q), 6))
     pose[..., 0], pose[..., 2] = rig.length * np.cos(q), -rig.length * np.sin(q)
     return pose
-
-
-def _fibres(it: Rig, rig: Described) -> dict[str, float | None]:
-    return {name: getattr(rig, name) for name in ("fibre_y", "fibre_z") if hasattr(it, name)}

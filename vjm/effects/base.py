@@ -10,7 +10,7 @@ from abc import ABC, abstractmethod
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from functools import partial
-from typing import ClassVar, TypeAlias
+from typing import ClassVar, Literal, TypeAlias
 
 import numpy as np
 
@@ -49,7 +49,8 @@ class Effect(ABC):
     """A physical effect.
 
     name: canonical. title: in words. equation, signature (what it looks like in data), limits, source: text.
-    parameters: none for an effect that is there or not. kinds: of rig that can have it.
+    parameters: none for an effect that is there or not. kinds: of rig that can have it. hinge: the one it needs
+    of a single bar, "" for none; a parallelogram has all.
     smooth: False where the response has a kink or a dead zone in the parameters, so that a fit needs several
     starts and a derivative at null says little. history: whether the order of load steps matters.
     """
@@ -62,6 +63,7 @@ class Effect(ABC):
     source: ClassVar[str]
     parameters: ClassVar[tuple[Parameter, ...]] = ()
     kinds: ClassVar[tuple[str, ...]] = ("parallelogram", "bar")
+    hinge: ClassVar[Literal["", "base", "any"]] = ""
     smooth: ClassVar[bool] = True
     history: ClassVar[bool] = False
 
@@ -76,9 +78,14 @@ class Effect(ABC):
         """
         if kind_of(rig) not in self.kinds:
             raise ValueError(f"{self.name} needs a rig of kind {' or '.join(self.kinds)}, not {kind_of(rig)}")
-        if self.parameters and all(values[p.name] == p.null for p in self.parameters):
-            return rig
-        return self.change(rig, values)
+        if self.hinge and not _hinged(rig, self.hinge):
+            where = "at its base" if self.hinge == "base" else "at either end"
+            raise ValueError(f"{self.name} needs a bar with a hinge {where}")
+        return rig if self.absent(values) else self.change(rig, values)
+
+    def absent(self, values: Values) -> bool:
+        """Whether the values leave every mechanism as it is."""
+        return bool(self.parameters) and all(values[p.name] == p.null for p in self.parameters)
 
     @property
     def nulls(self) -> dict[str, float]:
@@ -94,6 +101,12 @@ class Effect(ABC):
 def kind_of(rig: Rig) -> str:
     """The rig's kind as a campaign names it."""
     return "parallelogram" if isinstance(rig, Parallelogram) else "bar"
+
+
+def _hinged(rig: Rig, which: Literal["base", "any"]) -> bool:
+    if isinstance(rig, Parallelogram):
+        return True
+    return rig.base == "pinned" or (which == "any" and rig.tip == "pinned")
 
 
 def for_bars(rig: Rig, change: Callable[[Link], Link], only: int | None = None) -> Rig:

@@ -18,6 +18,7 @@ class ContactStiffening(Effect):
     limits = "point contact; linear below the force of 1 N; hardly to be told from soft axes if small"
     source = "H. Hertz, Journal für die reine und angewandte Mathematik 92 (1882) 156-171"
     parameters = (Parameter("c_mm_per_N23", "mm/N^(2/3)", 0.0, 5e-5, 0.0, 1e-2, "give of one hinge at 1 N"),)
+    hinge = "base"
 
     def change(self, rig: Rig, values: Values) -> Rig:
         contact = Contact(values["c_mm_per_N23"])

@@ -6,7 +6,6 @@ from dataclasses import replace
 
 from vjm.clearance import Clearance
 from vjm.effects.base import Effect, Parameter, Rig, Values, for_bars
-from vjm.link import Link
 
 
 class JointClearance(Effect):
@@ -23,11 +22,9 @@ class JointClearance(Effect):
     parameters = (
         Parameter("play_mm", "mm", 0.0, 0.01, 0.0, 2.0, "half of the free travel of one base hinge"),
     )
+    hinge = "base"
     smooth = False
 
     def change(self, rig: Rig, values: Values) -> Rig:
-        def loose(link: Link) -> Link:
-            stop = 100.0 * link.stiffness[0, 0]
-            return replace(link, slides=(*link.slides, Clearance(values["play_mm"], stop)))
-
-        return for_bars(rig, loose)
+        play = Clearance(values["play_mm"])
+        return for_bars(rig, lambda link: replace(link, slides=(*link.slides, play)))

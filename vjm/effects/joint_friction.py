@@ -23,11 +23,12 @@ class JointFriction(Effect):
             "presliding_rad", "rad", 0.002, 0.002, 1e-5, 0.05, "turn of a relaxed hinge before it slips"
         ),
     )
+    hinge = "any"
     smooth = False
     history = True
 
-    def apply(self, rig: Rig, values: Values) -> Rig:
-        return rig if values["torque_Nmm"] == 0.0 else super().apply(rig, values)
+    def absent(self, values: Values) -> bool:
+        return values["torque_Nmm"] == 0.0
 
     def change(self, rig: Rig, values: Values) -> Rig:
         return replace(rig, hinges=(*rig.hinges, Jenkins(values["torque_Nmm"], values["presliding_rad"])))

@@ -20,6 +20,7 @@ class JointTorsionalStiffness(Effect):
     limits = "linear; all four hinges alike, relaxed where the test begins"
     source = "L. L. Howell, Compliant Mechanisms, Wiley 2001, chapter 5"
     parameters = (Parameter("stiffness_Nmm_per_rad", "N·mm/rad", 0.0, 2e3, 0.0, 1e6, "spring of one hinge"),)
+    hinge = "any"
 
     def change(self, rig: Rig, values: Values) -> Rig:
         return replace(rig, hinges=(*rig.hinges, Linear(np.array([[values["stiffness_Nmm_per_rad"]]]))))

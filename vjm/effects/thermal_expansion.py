@@ -19,7 +19,10 @@ class ThermalExpansion(Effect):
     signature = (
         "x or fx follows the temperature, whatever the load; at a constant temperature it is a length error"
     )
-    limits = "one temperature for both bars; the width does not grow; needs a measured temperature"
+    limits = (
+        "one temperature for both bars; the width does not grow, and bars keep the 6x6 of their reference length "
+        "(at 15 K above it, aluminium: forces good to 0.04 % along, 0.1 % across); needs a measured temperature"
+    )
     source = "the definition of the coefficient of linear expansion"
     parameters = (
         Parameter("alpha_per_K", "1/K", 0.0, 2.3e-5, -1e-4, 2e-4, "coefficient of expansion of the bars"),

@@ -38,7 +38,8 @@ class Bar:
     tip: "free" carries nothing; "guided" shifts but does not turn; "pinned" has a hinge about y to a block,
     the platform, that slides along x only. `held` names the coordinates that this holds.
     bar: another model of the bar than the 6x6 lumped at `spring_at`, such as `vjm.refined.Refined`.
-    hinges, alterations, mount, line_load, gravity, sensors, gauge_at: as in `vjm.mechanisms.parallelogram`.
+    hinges, alterations, mount, line_load, gravity, sensors, gauge_at, fibre_y, fibre_z: as in
+    `vjm.mechanisms.parallelogram`.
     ValueError for a length that is not positive, a stiffness that is not symmetric positive definite or a
     support that is none of those named.
     """

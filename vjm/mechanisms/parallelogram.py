@@ -41,7 +41,7 @@ class Parallelogram:
     alterations: what the bars are instead of what is drawn, applied in turn. wider: mm added to both widths.
     mount: (3,) rotation vector, rad, of the whole linkage against the base frame. line_load: (3,) N/mm along
     the bars, base frame. gravity: (3,) unit vector of weights given without a direction. sensors, gauge_at:
-    what is read (`vjm.sensors`, `vjm.gauges`).
+    what is read (`vjm.sensors`, `vjm.gauges`). fibre_y, fibre_z: outermost fibres of the bars, mm, where known.
     ValueError for lengths that are not positive, |q| of 90 degrees or more, a K_b that is not
     symmetric positive definite.
     """

@@ -1,0 +1,40 @@
+"""Which prescribed quantity drives a test: the load that its readings are looked at against."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pipeline.campaign import Gauge, Test
+from pipeline.campaign.names import DISPLACEMENT, DISPLACEMENTS, FORCE, SUPPORT, WRENCHES
+
+Array = NDArray[np.float64]
+TYPICAL = {"mm": 1e-3, "rad": 2e-5, "N": 1.0, "Nmm": 50.0}
+"""What a good sensor tells apart: makes travels of different units comparable."""
+
+
+def column_name(channel: int, gauges: tuple[Gauge, ...]) -> str:
+    """Channel of a `Program` as in campaign.toml: a coordinate, a force or a gauge, without its unit."""
+    names = [name.rpartition("_")[0] for name in (*DISPLACEMENTS, *WRENCHES)]
+    return [*names, *(gauge.name for gauge in gauges)][channel]
+
+
+def unit_of(channel: int) -> str:
+    """Unit of a channel as in the column's name: mm, rad, N, Nmm."""
+    return ([name.rpartition("_")[2] for name in (*DISPLACEMENTS, *WRENCHES)] + ["mm"])[min(channel, 12)]
+
+
+def control_channels(test: Test, gauges: tuple[Gauge, ...]) -> list[int]:
+    """Channel that is prescribed for each of the six coordinates."""
+    names = [gauge.name for gauge in gauges]
+    plain = {DISPLACEMENT: 0, SUPPORT: 0, FORCE: 6}
+    return [k + plain[by] if by in plain else 12 + names.index(by) for k, by in enumerate(test.control)]
+
+
+def driving(test: Test, gauges: tuple[Gauge, ...]) -> tuple[int, Array]:
+    """The channel whose prescribed quantity travels farthest, in `TYPICAL` sizes, and its values (N,)."""
+    channels = control_channels(test, gauges)
+    values = test.inputs(gauges)
+    sizes = np.array([TYPICAL[unit_of(channel)] for channel in channels])
+    number = int(np.argmax(np.ptp(values / sizes, axis=0)))
+    return channels[number], values[:, number]

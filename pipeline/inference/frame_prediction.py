@@ -1,0 +1,50 @@
+"""FEA: what finite elements of the rig as drawn predict, driven with the measured inputs."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from fem.frame import bench
+from fem.frame.errors import Errors
+from fem.frame.rig import Gauge as FrameGauge
+from pipeline.campaign.names import DISPLACEMENT, SUPPORT
+from pipeline.inference.prediction import Prediction, zeroed
+from pipeline.inference.program import INPUTS, Program
+from pipeline.virtual.bench import frame_rig
+
+
+def predict_frame(program: Program, tangent: Prediction) -> Prediction:
+    """Readings of geometrically exact frame elements without any error of the bench.
+
+    tangent: of another model of the same rig, in whose place the frame has none of its own. ValueError for a rig
+    that the frame refuses. `states` is empty.
+    """
+    campaign = program.campaign
+    trials = [
+        bench.Trial(
+            test.q,
+            tuple(DISPLACEMENT if by == SUPPORT else by for by in test.control),
+            test.inputs(campaign.gauges),
+            None,
+            None if test.rig is campaign.rig else frame_rig(test.rig),
+        )
+        for test in campaign.tests
+    ]
+    sights = [FrameGauge(g.name, g.bar, g.station, g.vector) for g in campaign.gauges]
+    found = bench.run(frame_rig(campaign.rig), Errors(), trials, sights)
+    values = np.concatenate([np.hstack([r.displacement, r.wrench, r.gauges]) for r in found])
+    converged = np.concatenate([r.converged for r in found])
+    buckled = np.concatenate([r.negative for r in found]) > 0
+    said = [reason for r in found for reason in r.reason]
+    lost = ~converged | buckled
+    reasons = {int(k): "unstable" if converged[k] else said[k] for k in np.flatnonzero(lost)}
+    plain = Prediction(
+        np.where(lost[:, None], 0.0, values),
+        tangent.by_inputs,
+        np.zeros((*values.shape, 0)),
+        np.zeros((len(values), INPUTS)),
+        lost,
+        reasons,
+        (),
+    )
+    return zeroed(plain, program)

@@ -1,0 +1,175 @@
+"""95 % intervals of fitted numbers, and which of them the data cannot tell apart.
+
+An interval is what raises the sum of squares by no more than 3.841 after all other numbers were fitted again
+(profile likelihood). Where the sum is a parabola in the number the end is 1.96 standard errors away (Wald), and one
+evaluation a side shows it.
+Sources: D. J. Venzon, S. H. Moolgavkar, Applied Statistics 37 (1988) 87-94; D. M. Bates, D. G. Watts, Nonlinear
+Regression Analysis, Wiley 1988, ch. 6.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.stats import norm
+
+from pipeline.inference.fit import Fit
+from pipeline.inference.landscape import BLIND, CLOSE, NEARLY, RISE, STEPS, Landscape, Range
+from pipeline.inference.model import Free
+from pipeline.inference.prediction import predict
+from pipeline.inference.program import Program
+from pipeline.inference.residual import residual
+
+Array = NDArray[np.float64]
+Z = float(norm.ppf(0.975))
+
+
+@dataclass(frozen=True)
+class Interval:
+    """A fitted number. std: standard error, infinite where the data say nothing.
+
+    low, high: 95 %; None where the data set no end on that side. kind: how the ends were found; "undetermined"
+    where the whole range remains.
+    """
+
+    value: float
+    std: float
+    low: float | None
+    high: float | None
+    kind: Literal["wald", "profile", "undetermined"]
+
+
+def landscape(best: Fit, program: Program) -> Landscape:
+    """The sum of squares about a best fit."""
+    ranges = [_range(each) for each in best.model.free]
+    return Landscape(_Near(best, program), best.model.values, ranges, best.whitened, -best.jacobian)
+
+
+def _range(each: Free) -> Range:
+    return Range(*each.bounds, each.parameter.null, each.parameter.one_sided)
+
+
+@dataclass(frozen=True, eq=False)
+class _Near:
+    """The residuals of a campaign about its best fit: solved from there, linearised at the same inputs."""
+
+    best: Fit
+    program: Program
+
+    def _at(self, values: Array, slopes: bool) -> Fit:
+        model = self.best.model.at(values)
+        near = self.best.prediction
+        found = predict(model, self.program, slopes, start=near, shift=near.shift)
+        return Fit(model, found, residual(self.program, found), 1)
+
+    def residuals(self, values: Array) -> Array:
+        """(N,)"""
+        return self._at(values, slopes=False).whitened
+
+    def both(self, values: Array) -> tuple[Array, Array]:
+        """(N,) and (N, P)"""
+        found = self._at(values, slopes=True)
+        return found.whitened, -found.jacobian
+
+
+def intervals(land: Landscape) -> tuple[Interval, ...]:
+    """The interval of every number."""
+    return tuple(_interval(land, k) for k in range(land.values.size))
+
+
+def _interval(land: Landscape, k: int) -> Interval:
+    value, span = float(land.values[k]), land.ranges[k]
+    way, variance = land.ridge(k)
+    std = float(np.sqrt(variance))
+    if not std < span.high - span.low:
+        return Interval(value, np.inf, span.end(-1), span.end(1), "undetermined")
+    reach = Z * std
+    room = {-1: value - span.low, 1: span.high - value}
+    if not land.active[k] and min(room.values()) > reach:
+        # One look a side, the others moved along; what they could still gain makes the rise no larger.
+        looks = [land.chi_square(land.values + s * reach * way) for s in (-1, 1)]
+        if all(abs(look - land.least - RISE) < NEARLY * RISE for look in looks):
+            return Interval(value, std, value - reach, value + reach, "wald")
+    ends: dict[int, float | None] = {}
+    for side in (-1, 1):
+        slope = 2.0 * side * float(land.jacobian[:, k] @ land.residuals) if land.active[k] else 0.0
+        guess = 0.5 * (np.hypot(slope * variance, 2.0 * np.sqrt(RISE * variance)) - slope * variance)
+        shift = _end(land, k, side, float(guess), room[side], way)
+        ends[side] = span.end(side) if shift is None else value + side * shift
+    open_ends = all(ends[side] == span.end(side) for side in (-1, 1))
+    return Interval(value, std, ends[-1], ends[1], "undetermined" if open_ends else "profile")
+
+
+def _end(land: Landscape, k: int, side: int, guess: float, room: float, way: Array) -> float | None:
+    """Distance from the value at which the profile has risen by 3.841; None if the bound comes first."""
+    if room <= 1e-6 * (land.ranges[k].high - land.ranges[k].low):
+        return None
+    inside, below, outside, above = 0.0, 0.0, np.inf, np.inf
+    step = min(max(guess, 1e-9 * room), room)
+    for _ in range(STEPS):
+        rise, way = land.rise(k, side * step, way)
+        height = float(np.sqrt(max(rise, 0.0)))
+        if abs(height - Z) < CLOSE * Z:
+            return step
+        if height < Z:
+            if step >= room:
+                return None
+            inside, below = step, height
+        else:
+            outside, above = step, height
+        if np.isinf(outside):
+            step = min(room, step * float(np.clip(Z / max(height, 1e-9), 1.2, 10.0)))
+            continue
+        # The square root of a parabola is a line; kept off the ends of the bracket it also halves a jump.
+        part = float(np.clip((Z - below) / (above - below), 0.1, 0.9))
+        step = inside + part * (outside - inside)
+        if outside - inside < CLOSE * outside:
+            return step
+    return step
+
+
+def correlations(land: Landscape, least: float = 0.9) -> list[tuple[int, int, float]]:
+    """Pairs of numbers whose errors go together, strongest first: (i, j, correlation) of at least this size."""
+    free = np.flatnonzero(~land.active)
+    slopes = land.jacobian[:, free]
+    sizes = np.linalg.norm(slopes, axis=0)
+    seen = [
+        int(k)
+        for k, size in zip(free, sizes, strict=True)
+        if size > 0.0 and np.isfinite(land.ridge(int(k))[1])
+    ]
+    if len(seen) < 2:
+        return []
+    scaled = land.jacobian[:, seen] / np.linalg.norm(land.jacobian[:, seen], axis=0)
+    covariance = np.linalg.inv(scaled.T @ scaled)
+    std = np.sqrt(np.diag(covariance))
+    both = covariance / np.outer(std, std)
+    pairs = [
+        (int(seen[i]), int(seen[j]), float(both[i, j]))
+        for i in range(len(seen))
+        for j in range(i + 1, len(seen))
+        if abs(both[i, j]) >= least
+    ]
+    return sorted(pairs, key=lambda pair: -abs(pair[2]))
+
+
+def only_together(land: Landscape) -> list[tuple[int, ...]]:
+    """Sets of numbers of which the data see only combinations: each is visible, none is determined."""
+    sizes = np.linalg.norm(land.jacobian, axis=0)
+    free = np.flatnonzero(~land.active & (sizes > 0.0))
+    if free.size < 2:
+        return []
+    _, values, ways = np.linalg.svd(land.jacobian[:, free] / sizes[free], full_matrices=True)
+    hidden = ways[int(np.sum(values > BLIND * values.max())) :]
+    groups: list[set[int]] = []
+    for way in hidden:
+        # Any mixture of hidden directions is hidden: sets that share a number are one.
+        joined = {int(k) for k in free[np.abs(way) > 1e-3]}
+        for group in [g for g in groups if g & joined]:
+            groups.remove(group)
+            joined |= group
+        groups.append(joined)
+    return [tuple(sorted(group)) for group in groups if len(group) > 1]

@@ -1,0 +1,57 @@
+"""LIN: what a constant stiffness predicts, virtual springs linearised without load."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from pipeline.inference.model import Model
+from pipeline.inference.prediction import Prediction, zeroed
+from pipeline.inference.program import INPUTS, Group, Program
+from vjm.equilibrium import equilibrium
+from vjm.lagrangian import layout
+from vjm.sensitivity import by_targets
+
+NOT_HELD = "without load nothing holds the linkage with this control, so a constant stiffness has no answer"
+
+
+def predict_linear(program: Program) -> Prediction:
+    """Readings with the stiffness K_p (Eq. 11) of the unloaded linkage, or K_b of a bar, solved for its control.
+
+    The platform's six displacements and loads obey F = K t about the state under the known weights alone; what the
+    control prescribes is given and the rest is solved for, whatever the mixture. Gauges follow the shape that a
+    uniform bar of this K_b bends to, which a lumped spring does not have. The tangent is the same everywhere:
+    `by_inputs` of every step of a test is its constant one. `states` is empty.
+    """
+    rows, channels = program.measured.shape
+    values, by_inputs = np.zeros((rows, channels)), np.zeros((rows, channels, INPUTS))
+    lost, reasons = np.zeros(rows, dtype=bool), dict[int, str]()
+    for group in program.groups:
+        place, real = program.rows_of(group), group.real
+        predicted, tangent, why = _group(program, group)
+        values[place] = predicted[real]
+        by_inputs[place, :, :6] = np.broadcast_to(tangent[:, None], (*real.shape, channels, 6))[real]
+        for row, reason in zip(place, np.broadcast_to(why[:, None], real.shape)[real], strict=True):
+            if reason:
+                lost[row], reasons[int(row)] = True, str(reason)
+    plain = Prediction(
+        values, by_inputs, np.zeros((rows, channels, 0)), np.zeros((rows, INPUTS)), lost, reasons, ()
+    )
+    return zeroed(plain, program)
+
+
+def _group(program: Program, group: Group) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Readings (T, S, C), tangents (T, C, 6) and why there is none (T,)."""
+    mechanism = Model().mechanism(group.rig, program.campaign.gauges)
+    if program.campaign.gauges:
+        mechanism = mechanism.refined()
+    nominal = group.nominal[:, 0]
+    free = np.where(group.channels < 6, nominal, 0.0)
+    drives = {"q": group.q} if "q" in layout(mechanism).drives else {}
+    state = equilibrium(mechanism, free, group.channels, drives=drives)
+    tangent = by_targets(state)
+    change = group.targets - free[:, None]
+    readings = state.readings[:, None] + np.einsum("tci,tsi->tsc", tangent.readings, change)
+    readings[..., :6] -= nominal[:, None]
+    held = state.converged & tangent.regular
+    why = np.where(held, "", NOT_HELD).astype(object)
+    return readings, tangent.readings, why

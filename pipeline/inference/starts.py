@@ -1,0 +1,139 @@
+"""Where fits begin: sizes on a ladder for effects with kinks, a second look for the others, the best by chi-square."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Collection, Iterator
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.optimize import lsq_linear
+
+from pipeline.inference.fit import Fit, fit
+from pipeline.inference.model import Free, Model
+from pipeline.inference.prediction import Prediction, predict
+from pipeline.inference.program import Program
+from pipeline.inference.residual import residual
+from vjm.effects.base import Effect
+
+Array = NDArray[np.float64]
+Watch = Callable[[str], None]
+SIZES = tuple(10.0 ** np.linspace(-1.0, 1.0, 5))
+"""In typical sizes of the effect, a factor of three apart."""
+LARGEST = 1e3
+WORTH = 1.0
+"""Fall of chi-square that is worth another fit, in the mean square of what the first one leaves."""
+MINIMA = 2
+"""Valleys of the ladder that are fitted."""
+
+
+def best_fit(
+    model: Model,
+    program: Program,
+    new: Collection[str] = (),
+    start: Prediction | None = None,
+    watch: Watch | None = None,
+) -> Fit:
+    """The best of several fits by chi-square; `evaluations` counts those of all, in solutions of the campaign.
+
+    new: names of the effects that were just added, at null. One with kinks (`smooth` False) begins at the valleys
+    of a ladder of sizes of its one-sided numbers, 0.1 to 10 times typical and on while that helps. If all are smooth
+    the fit begins at null, and again at typical sizes if it ends at a bound, with lost rows, or where it says nothing
+    about one of their numbers, and a look from there promises more. start: a prediction of a like model.
+    """
+    begins, spent = [model], 0
+    kinked = [t.effect for t in model.terms if t.effect.name in new and not t.effect.smooth]
+    for effect in kinked:
+        ladders = [_ladder(begin, effect, program, start, watch) for begin in begins]
+        begins = [each for found, _ in ladders for each in found][:MINIMA]
+        spent += sum(count for _, count in ladders)
+    fits = [fit(begin, program, start, watch) for begin in begins]
+    if not kinked and _doubtful(fits[0], program, new):
+        there = _typical(fits[0].model, new)
+        spent += 1
+        # Where the linear step from there promises no more there is nothing to find.
+        if _height(there, program, start) < fits[0].chi_square - WORTH * max(fits[0].rms, 1.0) ** 2:
+            fits.append(fit(there, program, start, watch))
+    best = min(fits, key=lambda each: each.chi_square)
+    return replace(best, evaluations=spent + sum(each.evaluations for each in fits))
+
+
+def _sizes(model: Model, effect: Effect) -> list[Free]:
+    """The free one-sided numbers of an effect."""
+    return [each for each in model.free if each.effect == effect.name and each.parameter.one_sided]
+
+
+def _ladder(
+    model: Model, effect: Effect, program: Program, start: Prediction | None, watch: Watch | None
+) -> tuple[list[Model], int]:
+    """The model at the valleys of the ladder, best first, and the number of solutions."""
+    sizes = _sizes(model, effect)
+    if not sizes:
+        return [model], 0
+    heights: list[float] = []
+    rungs: list[Model] = []
+    for size in _rungs(heights):
+        at = {s.name: float(np.clip(s.parameter.null + size * s.parameter.typical, *s.bounds)) for s in sizes}
+        values = [at.get(each.name, value) for each, value in zip(model.free, model.values, strict=True)]
+        rungs.append(model.at(np.array(values)))
+        heights.append(_height(rungs[-1], program, start))
+        if watch is not None:
+            watch(f"{effect.name} at {size:.3g} times its typical size")
+        if all(at[s.name] == s.bounds[1] for s in sizes):
+            break
+    padded = [np.inf, *heights, np.inf]
+    valleys = [k for k, h in enumerate(heights) if h <= padded[k] and h < padded[k + 2]]
+    valleys.sort(key=lambda k: heights[k])
+    return [rungs[k] for k in valleys[:MINIMA]], len(rungs)
+
+
+def _rungs(heights: list[float]) -> Iterator[float]:
+    """Sizes to try; beyond the last one as long as each is better than all before."""
+    yield from SIZES
+    size = SIZES[-1]
+    while heights[-1] == min(heights) and size < LARGEST:
+        size *= SIZES[1] / SIZES[0]
+        yield size
+
+
+def _height(model: Model, program: Program, start: Prediction | None) -> float:
+    """Chi-square after one linear step of what is smooth in the model: a rung is judged with the rest fitted."""
+    kinked = {t.effect.name for t in model.terms if not t.effect.smooth}
+    model = replace(model, fixed=model.fixed | {f.name for f in model.free if f.effect in kinked})
+    found = predict(model, program, slopes=bool(model.free), start=start)
+    here = Fit(model, found, residual(program, found), 1)
+    if not model.free:
+        return here.chi_square
+    scale = np.array([abs(each.parameter.typical) for each in model.free])
+    bounds = np.array([each.bounds for each in model.free]).T - np.clip(model.values, *_bounds(model))
+    step = lsq_linear(here.jacobian * scale, here.whitened, bounds=bounds / scale + _ROUNDING)
+    return 2.0 * float(step.cost)
+
+
+_ROUNDING = np.array([[-1e-9], [1e-9]])
+
+
+def _bounds(model: Model) -> Array:
+    return np.array([each.bounds for each in model.free]).T
+
+
+def _doubtful(found: Fit, program: Program, new: Collection[str]) -> bool:
+    """Whether a fit may have missed the effect."""
+    mine = np.array([each.effect in new for each in found.model.free], dtype=bool)
+    if not mine.any():
+        return False
+    low, high = _bounds(found.model)
+    near = 1e-6 * (high - low)
+    values, std = found.model.values, found.std
+    ended = (values - low <= near) | (high - values <= near) | ~(std < high - low)
+    return bool(ended[mine].any() or found.prediction.lost[program.fitted].any())
+
+
+def _typical(model: Model, new: Collection[str]) -> Model:
+    values = [
+        float(np.clip(each.parameter.null + each.parameter.typical, *each.bounds))
+        if each.effect in new
+        else value
+        for each, value in zip(model.free, model.values, strict=True)
+    ]
+    return model.at(np.array(values))

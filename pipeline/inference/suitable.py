@@ -1,0 +1,82 @@
+"""Which effects can be added to the model of a campaign: names, files of the user's own, and what the rig allows."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from pipeline.campaign import Campaign
+from pipeline.campaign.names import unknown_name
+from pipeline.errors import InputError
+from pipeline.inference.rigs import mechanism_of
+from vjm.effects import catalogue, from_file
+from vjm.effects.base import Effect
+from vjm.effects.thermal_expansion import DRIVE
+from vjm.lagrangian import layout
+
+
+@dataclass(frozen=True)
+class Known:
+    """Effects by name, and the file of each that is the user's own."""
+
+    effects: Mapping[str, Effect]
+    files: Mapping[str, Path]
+
+    def files_of(self, names: Iterable[str]) -> tuple[Path, ...]:
+        """The user's files that define any of these effects."""
+        return tuple(dict.fromkeys(self.files[name] for name in names if name in self.files))
+
+
+def known_effects(files: Iterable[Path] = (), beside: Known | None = None) -> Known:
+    """The catalogue, or what is known already, and the effects of the user's files. A file is run as Python.
+
+    InputError for a file that defines none, or one of a name that is taken.
+    """
+    known = beside or Known(catalogue(), {})
+    for path in dict.fromkeys(Path(file).resolve() for file in files):
+        if path in known.files.values():
+            continue
+        found = _user_effects(path, known)
+        known = Known({**known.effects, **found}, {**known.files, **dict.fromkeys(found, path)})
+    return known
+
+
+def _user_effects(path: Path, known: Known) -> dict[str, Effect]:
+    if not path.is_file():
+        raise InputError(f"{path}: is no file, allowed is a Python file with a class of an effect")
+    try:
+        found = from_file(path)
+    except ValueError as error:
+        raise InputError(str(error)) from error
+    for name in found:
+        if name in known.effects:
+            raise InputError(f"{path}: defines {name}, which is taken, allowed is a name of its own")
+    return found
+
+
+def named_effects(names: Sequence[str], known: Mapping[str, Effect]) -> list[Effect]:
+    """The effects of these names, in order; InputError for one that is unknown or named twice."""
+    for k, name in enumerate(names):
+        if name not in known:
+            raise InputError(f"effect {name!r} is unknown, {unknown_name(name, known)}")
+        if name in names[:k]:
+            raise InputError(f"effect {name} is named twice, allowed is each once")
+    return [known[name] for name in names]
+
+
+def check_suitable(effects: Iterable[Effect], campaign: Campaign) -> None:
+    """InputError for an effect that a rig of the campaign cannot have, or whose input was never measured."""
+    warm = any(test.data.temperature is not None for test in campaign.tests)
+    for effect in effects:
+        for rig in {id(test.rig): test.rig for test in campaign.tests}.values():
+            plain = mechanism_of(rig, campaign.gauges)
+            try:
+                there = effect.apply(plain, effect.typicals)
+            except ValueError as error:
+                raise InputError(f"{campaign.name}: {error}") from error
+            if not warm and DRIVE in layout(there).drives:
+                raise InputError(
+                    f"{campaign.name}: {effect.name} needs temperatures, none was measured, "
+                    "allowed with the column temperature_C"
+                )

@@ -1,0 +1,24 @@
+"""A user's own effect: a seal that stiffens with the cube of the angle, in every hinge."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from vjm.effects.base import Effect, Parameter, Rig, Values
+from vjm.laws import Polynomial
+
+
+class SealSpring(Effect):
+    """A torque that follows the third power of the turn."""
+
+    name = "seal_spring"
+    title = "seals stiffen the hinges"
+    equation = "M = c angle³"
+    signature = "a force along z that grows with the cube of the displacement; no loop"
+    limits = "all hinges alike"
+    source = "Taylor series of an odd law"
+    parameters = (Parameter("cubic_Nmm", "N·mm/rad³", 0.0, 5e6, 0.0, 1e9, "torque at one radian"),)
+    hinge = "any"
+
+    def change(self, rig: Rig, values: Values) -> Rig:
+        return replace(rig, hinges=(*rig.hinges, Polynomial((0.0, 0.0, values["cubic_Nmm"]))))
