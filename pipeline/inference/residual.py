@@ -111,7 +111,7 @@ def _unknown_zeros(program: Program, prediction: Prediction) -> Array:
             column = np.zeros((len(program.test), channels))
             if channel in control:
                 # A zero of a prescribed quantity acts through the mechanism.
-                if not np.any(program.input_sigma[rows, control == channel]):
+                if not np.any(program.input_sigma[rows, :6][:, control == channel]):
                     continue
                 column[rows] = -prediction.by_inputs[rows][..., np.flatnonzero(control == channel)[0]]
             elif np.any(program.predicted[rows, channel]):
