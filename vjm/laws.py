@@ -92,7 +92,9 @@ class BeamColumn:
     theta^T K theta / 2 is h k·theta + K11 h²/2 - (1 + K11 g) g P²/2: that of eps^T K eps / 2, eps = theta with
     the extension theta_1 + h, which the yielding g relieves. It has no part below the third order, so K is
     what a small load sees. G' = 0 is the bar of T. von Kármán, "Festigkeitsprobleme im Maschinenbau", 1910.
-    coupling: (n, 2) b of the energy phi_x (b_y phi_y s_y + b_z phi_z s_z), twist against bending.
+    coupling: (n, 2) b of the energy phi_x (b_y phi_y s_y + b_z phi_z s_z), twist against bending. Each term is
+    completed to a square with the stiffness of its s, which adds the fourth-order part that keeps the energy
+    positive where a flat bar is bent far about its weak axis.
     shape: (n, 6) coordinates of the unloaded bar where it is not straight: h and g are those of shape + theta,
     h less what it is unloaded.
     """
@@ -123,13 +125,26 @@ class BeamColumn:
         force -= relief[..., None] * slope + 0.5 * (tension**2)[..., None] * give
         energy = h * linear + 0.5 * axial * h * h - 0.5 * ease * g * tension**2
         block = self._tangent(bow, give, slope, ease, tension, g)
-        for b, triple in zip(self.coupling.T, _TWISTED, strict=True):
-            for i, j, k in (triple, (*triple[1:], triple[0]), (triple[2], *triple[:2])):
-                force[..., i] += b * theta[..., j] * theta[..., k]
-                block[..., j, k] += b * theta[..., i]
-                block[..., k, j] += b * theta[..., i]
-            energy += b * np.prod(theta[..., triple], axis=-1)
+        for coupling, triple in zip(self.coupling.T, _TWISTED, strict=True):
+            energy += self._twist(coupling, triple, theta, force, block)
         return Response(np.sum(energy, axis=-1), force.reshape(strain.shape), block_diagonal(block), memory)
+
+    def _twist(
+        self, b: Array, triple: tuple[int, int, int], theta: Array, force: Array, block: Array
+    ) -> Array:
+        """Energy (..., n) of b phi_x phi s completed to a square; adds to force and tangent."""
+        for i, j, k in (triple, (*triple[1:], triple[0]), (triple[2], *triple[:2])):
+            force[..., i] += b * theta[..., j] * theta[..., k]
+            block[..., j, k] += b * theta[..., i]
+            block[..., k, j] += b * theta[..., i]
+        x, turn, shift = triple
+        fourth = b * b / self.stiffness[:, shift, shift]
+        for i, j in ((x, turn), (turn, x)):
+            force[..., i] += fourth * theta[..., i] * theta[..., j] ** 2
+            block[..., i, i] += fourth * theta[..., j] ** 2
+            block[..., i, j] += 2.0 * fourth * theta[..., i] * theta[..., j]
+        product = theta[..., x] * theta[..., turn]
+        return np.asarray(b * product * theta[..., shift] + 0.5 * fourth * product**2)
 
     def _tangent(self, bow: Array, give: Array, slope: Array, ease: Array, tension: Array, g: Array) -> Array:
         """Second derivative of the energy, (..., n, 6, 6)."""

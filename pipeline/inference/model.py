@@ -91,16 +91,19 @@ class Model:
         return replace(self, terms=tuple(terms))
 
     def with_effects(self, effects: Iterable[Effect]) -> Model:
-        """The model with further effects at the nearest values to null that a fit may try.
+        """The model with further effects at values beside null, where they are there and do next to nothing.
 
-        A parameter that is no size of the effect, such as a presliding angle, begins at its null as declared.
-        ValueError for an effect that is in the model already.
+        Numbers that are fixed are null.         ValueError for an effect that is in the model already.
         """
         terms = list(self.terms)
         for effect in effects:
             if effect.name in {term.effect.name for term in terms}:
                 raise ValueError(f"{effect.name} is in the model already")
-            start = {p.name: float(np.clip(p.null, *Free(effect.name, p).bounds)) for p in effect.parameters}
+            numbers = [Free(effect.name, p) for p in effect.parameters]
+            start = {
+                each.parameter.name: each.parameter.null if each.name in self.fixed else _beside_null(each)
+                for each in numbers
+            }
             terms.append(Term(effect, start))
         return replace(self, terms=tuple(terms))
 
@@ -113,3 +116,9 @@ class Model:
         return reduce(
             lambda it, term: term.effect.apply(it, term.values), self.terms, mechanism_of(rig, gauges)
         )
+
+
+def _beside_null(each: Free) -> float:
+    """A value that is not null, so that the effect is there, and no farther from it than `START`."""
+    p = each.parameter
+    return float(np.clip(p.null + START * p.typical, *each.bounds))

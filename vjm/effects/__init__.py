@@ -6,6 +6,7 @@ import importlib
 import importlib.util
 import inspect
 import pkgutil
+import sys
 from pathlib import Path
 from types import ModuleType
 
@@ -28,10 +29,13 @@ def from_file(path: Path) -> dict[str, Effect]:
     if spec is None or spec.loader is None:
         raise ValueError(f"{path}: not a Python file")
     module = importlib.util.module_from_spec(spec)
+    # Dataclasses of the file look their own module up.
+    sys.modules[module.__name__] = module
     try:
         spec.loader.exec_module(module)
         found = {effect.name: effect for effect in defined_in(module)}
     except Exception as error:
+        del sys.modules[module.__name__]
         raise ValueError(f"{path}: {type(error).__name__}: {error}") from error
     if not found:
         raise ValueError(f"{path}: found no class that inherits from vjm.effects.base.Effect")

@@ -2,10 +2,28 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
+
+import numpy as np
 
 from vjm.effects.base import Effect, Parameter, Rig, Values
-from vjm.laws import Polynomial
+from vjm.frames import Array
+from vjm.laws import Response
+
+
+@dataclass(frozen=True)
+class Cubic:
+    """M = c angle³."""
+
+    c: float
+
+    @property
+    def initial_memory(self) -> Array:
+        return np.zeros(0)
+
+    def respond(self, strain: Array, memory: Array) -> Response:
+        energy = 0.25 * self.c * strain[..., 0] ** 4
+        return Response(energy, self.c * strain**3, 3.0 * self.c * strain[..., None] ** 2, memory)
 
 
 class SealSpring(Effect):
@@ -21,4 +39,4 @@ class SealSpring(Effect):
     hinge = "any"
 
     def change(self, rig: Rig, values: Values) -> Rig:
-        return replace(rig, hinges=(*rig.hinges, Polynomial((0.0, 0.0, values["cubic_Nmm"]))))
+        return replace(rig, hinges=(*rig.hinges, Cubic(values["cubic_Nmm"])))

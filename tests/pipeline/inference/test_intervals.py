@@ -1,0 +1,150 @@
+"""Intervals against sums of squares whose profile is known in closed form."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+from scipy.optimize import least_squares
+
+from pipeline.inference.intervals import Interval, correlations, intervals, only_together
+from pipeline.inference.landscape import CLOSE, RISE, Landscape, Range
+
+Array = NDArray[np.float64]
+WIDE = Range(-1e3, 1e3, 0.0)
+POSITIVE = Range(0.0, 1e3, 0.0, one_sided=True)
+Z = np.sqrt(RISE)
+
+
+@dataclass
+class Toy:
+    """Residuals with their Jacobian; counts its solutions."""
+
+    function: Callable[[Array], Array]
+    slopes: Callable[[Array], Array]
+    solved: int = 0
+
+    def residuals(self, values: Array) -> Array:
+        self.solved += 1
+        return self.function(values)
+
+    def both(self, values: Array) -> tuple[Array, Array]:
+        self.solved += 1
+        return self.function(values), self.slopes(values)
+
+
+def land(toy: Toy, start: Array, ranges: list[Range]) -> Landscape:
+    bounds = np.array([(r.low, r.high) for r in ranges]).T
+    found = least_squares(toy.function, start, toy.slopes, bounds=bounds, xtol=1e-14, ftol=1e-14, gtol=1e-14)
+    values = np.asarray(found.x)
+    for k, r in enumerate(ranges):
+        # least_squares keeps off a bound by rounding only.
+        values[k] = r.low if values[k] - r.low < 1e-9 else values[k]
+    return Landscape(toy, values, ranges, toy.function(values), toy.slopes(values))
+
+
+def linear(matrix: Array, measured: Array) -> Toy:
+    return Toy(lambda v: matrix @ v - measured, lambda v: matrix)
+
+
+def test_linear_gaussian_intervals_are_exact_and_cover_the_truth_as_often_as_they_say() -> None:
+    """3 x 400 intervals at 95 %: the share that covers lies within three standard errors, 0.95 ± 0.019."""
+    rng = np.random.default_rng(11)
+    matrix, truth = rng.normal(size=(30, 3)) * [1.0, 100.0, 1e-3], np.array([2.0, -0.01, 500.0])
+    std = np.sqrt(np.diag(np.linalg.inv(matrix.T @ matrix)))
+    held = []
+    for _ in range(400):
+        toy = linear(matrix, matrix @ truth + rng.normal(size=30))
+        best = np.linalg.lstsq(matrix, matrix @ truth - toy.function(truth), rcond=None)[0]
+        there = Landscape(toy, best, [Range(-1e6, 1e6, 0.0)] * 3, toy.function(best), matrix)
+        found = intervals(there)
+        assert [it.kind for it in found] == ["wald"] * 3 and toy.solved == 6
+        np.testing.assert_allclose([it.std for it in found], std, rtol=1e-9)
+        np.testing.assert_allclose([it.high for it in found], best + Z * std, rtol=1e-9)
+        held.append([low <= t <= high for (low, high), t in zip(map(ends, found), truth, strict=True)])
+    assert abs(np.mean(held) - 0.95) < 3.0 * np.sqrt(0.95 * 0.05 / 1200)
+
+
+def ends(it: Interval) -> tuple[float, float]:
+    assert it.low is not None and it.high is not None
+    return it.low, it.high
+
+
+@pytest.mark.parametrize(
+    ("measured", "low", "high"),
+    [
+        # Below the bound: the estimate is 0 and (h + 0.5)² - 0.5² = 3.841.
+        (-0.5, 0.0, np.sqrt(RISE + 0.25) - 0.5),
+        (-30.0, 0.0, np.sqrt(RISE + 900.0) - 30.0),
+        # Above it, but zero within the interval.
+        (1.0, 0.0, 1.0 + Z),
+        (10.0, 10.0 - Z, 10.0 + Z),
+    ],
+)
+def test_a_one_sided_interval_begins_at_null(measured: float, low: float, high: float) -> None:
+    it = intervals(land(linear(np.eye(1), np.array([measured])), np.ones(1), [POSITIVE]))[0]
+    assert it.value == pytest.approx(max(measured, 0.0), abs=1e-8)
+    assert it.low == pytest.approx(low, abs=CLOSE * Z) and it.high == pytest.approx(high, rel=CLOSE)
+    assert it.low == 0.0 or measured > Z
+
+
+def test_a_number_at_its_bound_no_longer_widens_the_others() -> None:
+    """b >= 0 wants to be negative: a is then known as if b were not there."""
+    matrix = np.array([[1.0, 0.9], [0.0, 0.5]])
+    a, b = intervals(land(linear(matrix, np.array([3.0, -2.0])), np.ones(2), [WIDE, POSITIVE]))
+    assert b.value == b.low == 0.0
+    assert a.std == pytest.approx(1.0) and a.value == pytest.approx(3.0)
+    # A refit at any a leaves b at its bound, so the profile of a is that of one number.
+    assert a.kind == "wald" and a.high == pytest.approx(3.0 + Z)
+
+
+def curved(difference: float, s: float, t: float) -> Toy:
+    """((exp(a) + b - d) / s, b / t): b drops out of the profile of a, (exp(a) - d)² / (s² + t²)."""
+    return Toy(
+        lambda v: np.array([(np.exp(v[0]) + v[1] - difference) / s, v[1] / t]),
+        lambda v: np.array([[np.exp(v[0]) / s, 1.0 / s], [0.0, 1.0 / t]]),
+    )
+
+
+def test_an_asymmetric_interval_is_the_profiles() -> None:
+    """Ends log(d ± 1.96 (s² + t²)^½); Wald would give ± 0.49 about log 2."""
+    a, b = intervals(land(curved(2.0, 0.4, 0.3), np.array([0.5, 0.0]), [WIDE, WIDE]))
+    low, high = np.log(2.0 - Z * 0.5), np.log(2.0 + Z * 0.5)
+    assert a.kind == "profile"
+    # Ends are found to CLOSE of the square root of the rise, whose slope here is at least 2/3 of the parabola's.
+    assert a.low == pytest.approx(low, abs=1.5 * CLOSE * (np.log(2.0) - low))
+    assert a.high == pytest.approx(high, abs=1.5 * CLOSE * (high - np.log(2.0)))
+    assert a.std == pytest.approx(0.25)
+    assert b.kind == "wald" and b.high == pytest.approx(0.3 * Z)
+
+
+def test_an_end_that_the_data_do_not_set_is_none() -> None:
+    """exp(a) = 0.1 ± 0.5: no a is too small."""
+    a = intervals(land(curved(0.1, 0.4, 0.3), np.array([-2.0, 0.0]), [Range(-50.0, 50.0, 0.0), WIDE]))[0]
+    assert a.kind == "profile" and a.low is None
+    assert a.high == pytest.approx(np.log(0.1 + Z * 0.5), abs=0.1)
+
+
+def test_what_the_data_do_not_see_is_undetermined() -> None:
+    matrix = np.array([[1.0, 0.0, 2.0, 2.0], [1.0, 0.0, -1.0, -1.0], [0.5, 0.0, 0.0, 0.0]])
+    there = land(linear(matrix, np.ones(3)), np.ones(4), [WIDE, WIDE, POSITIVE, WIDE])
+    found = intervals(there)
+    assert [it.kind for it in found] == ["wald", "undetermined", "undetermined", "undetermined"]
+    assert np.isinf([it.std for it in found[1:]]).all()
+    assert found[1].low is None and found[1].high is None
+    assert found[2].low == 0.0 and found[2].high is None
+    assert only_together(there) == [(2, 3)]
+    assert correlations(there) == []
+
+
+def test_correlations_are_those_of_the_inverse() -> None:
+    """Two columns at an angle have errors that correlate by minus its cosine."""
+    c = 0.97
+    matrix = np.array([[1.0, c, 0.0], [0.0, np.sqrt(1.0 - c * c), 0.0], [0.0, 0.0, 1.0]])
+    there = land(linear(matrix * [1.0, 50.0, 2.0], np.ones(3)), np.zeros(3), [WIDE] * 3)
+    ((i, j, r),) = correlations(there)
+    assert (i, j) == (0, 1) and r == pytest.approx(-c, abs=1e-9)
+    assert correlations(there, least=0.98) == []

@@ -1,0 +1,115 @@
+"""Where fits begin: what one start misses, several find, and none is made without need."""
+
+from __future__ import annotations
+
+from functools import cache
+
+import numpy as np
+import pytest
+from scipy.stats import norm
+
+from pipeline.inference.fit import Fit, fit
+from pipeline.inference.intervals import intervals, landscape
+from pipeline.inference.landscape import NEARLY
+from pipeline.inference.model import Model
+from pipeline.inference.prediction import predict
+from pipeline.inference.program import Program, program
+from pipeline.inference.residual import residual
+from pipeline.inference.starts import SIZES, _rungs, best_fit
+from pipeline.simulate import bench_rig
+from pipeline.virtual.bench import measure
+from pipeline.virtual.plan import SENSORS, PlannedTest
+from tests.pipeline.bench import bench
+from vjm.effects import catalogue
+from vjm.effects.base import Effect, Parameter, Rig, Values, for_bars
+
+EFFECTS = catalogue()
+BENT = Model().with_effects([EFFECTS["bar_geometric_nonlinearity"]])
+LOADS = (400.0, 2000.0, 4000.0, 1500.0, -300.0, -2000.0, -4000.0, -1000.0)
+
+
+@cache
+def cases(effect: str, value: float) -> Program:
+    return program(bench(effect, value))
+
+
+@cache
+def pulled_and_pushed(play: float) -> Program:
+    """Along the bars at loads far from zero, where a reading of the load tells on which side of the play it is."""
+    values = np.zeros((len(LOADS), 6))
+    values[:, 0] = LOADS
+    control = ("force", *["displacement"] * 5)
+    plan = [PlannedTest(f"axial {q:g}", q, control, values, np.full(len(LOADS), 20.0)) for q in (0.0, 30.0)]
+    return program(measure("play", bench_rig(), plan, SENSORS, {"joint_clearance.play_mm": play}, 5))
+
+
+def holds(model: Model, tests: Program, new: tuple[str, ...], name: str, value: float) -> None:
+    """The 99.99 % interval holds the truth: one in 10000 benches of noise would not."""
+    best = best_fit(model.with_effects([EFFECTS[e] for e in new]), tests, new)
+    free = [each.name for each in best.model.free]
+    k = free.index(name)
+    assert abs(best.model.values[k] - value) < 4.0 * best.std[k]
+    it = intervals(landscape(best, tests))[k]
+    assert it.low is not None and it.high is not None and it.low < best.model.values[k] < it.high
+    # Far from kinks and bounds half an interval is 1.96 standard errors; these by differences of solved predictions.
+    half = norm.ppf(0.975) * std_by_differences(best, tests)[k]
+    assert it.high - it.low == pytest.approx(2.0 * half, rel=NEARLY)
+
+
+def std_by_differences(best: Fit, tests: Program) -> np.ndarray:
+    """(P,) standard errors from central differences of the residuals, the inputs as the best fit has them."""
+    near = best.prediction
+    columns = []
+    for k, each in enumerate(best.model.free):
+        step = np.zeros(len(best.model.free))
+        step[k] = 1e-3 * abs(each.parameter.typical)
+        sides = []
+        for sign in (1.0, -1.0):
+            model = best.model.at(best.model.values + sign * step)
+            there = predict(model, tests, slopes=False, start=near, shift=near.shift)
+            sides.append(Fit(model, there, residual(tests, there), 1).whitened)
+        columns.append((sides[0] - sides[1]) / (2.0 * step[k]))
+    slopes = np.stack(columns, axis=1)
+    return np.asarray(np.sqrt(np.diag(np.linalg.inv(slopes.T @ slopes))))
+
+
+@pytest.mark.parametrize("play", [0.003, 0.03, 0.3])
+def test_play_of_any_size_is_found_beside_a_number_that_is_smooth(play: float) -> None:
+    """From a tenth of the typical size to thirty times, beyond the end of the ladder's first rungs."""
+    new = ("joint_clearance", "modulus_error")
+    holds(Model(), pulled_and_pushed(play), new, "joint_clearance.play_mm", play)
+
+
+def test_the_ladder_goes_on_while_that_helps_and_keeps_valleys_only() -> None:
+    heights: list[float] = []
+    for size in _rungs(heights):
+        heights.append(abs(np.log(size / 100.0)))
+    # 100 is the seventh rung; the eighth is worse and ends it.
+    assert len(heights) == len(SIZES) + 3
+
+
+def test_a_smooth_effect_that_is_there_is_fitted_once() -> None:
+    tests = cases("modulus_error.scale", 0.95)
+    model = Model().with_effects([EFFECTS["modulus_error"]])
+    assert best_fit(model, tests, ("modulus_error",)).evaluations == fit(model, tests).evaluations
+    holds(Model(), tests, ("modulus_error",), "modulus_error.scale", 0.95)
+
+
+class Late(Effect):
+    """Stiffens from a tenth on: null is flat, and nothing there says so."""
+
+    name = title = equation = signature = limits = source = "late"
+    parameters = (Parameter("more", "1", 0.0, 0.2, -1.0, 1.0, "excess of the stiffness, and a tenth"),)
+
+    def change(self, rig: Rig, values: Values) -> Rig:
+        scale = 1.0 + max(abs(values["more"]) - 0.1, 0.0)
+        return for_bars(rig, lambda link: link.stiffened(scale))
+
+
+def test_an_effect_without_a_slope_at_null_is_found_from_its_typical_size() -> None:
+    tests = cases("modulus_error.scale", 1.09)
+    model = BENT.with_effects([Late()])
+    alone, best = fit(model, tests), best_fit(model, tests, ("late",))
+    assert abs(alone.model.values[0]) < 0.1 and not best.prediction.lost.any()
+    assert best.chi_square < alone.chi_square - 100.0 and best.evaluations > alone.evaluations
+    assert abs(best.model.values[0] - 0.19) < 4.0 * best.std[0]
