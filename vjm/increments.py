@@ -14,8 +14,8 @@ FIRST_STEP, LEAST_STEP = 1.0 / 16.0, 1.0 / 128.0
 # Numbers of a chunk's matrices; a few MB, so that they stay in a cache and memory does not grow with the batch.
 _NUMBERS = 400_000
 _SOON = 8
-# Beyond half of the first step the loading is far from linear, and there may be other solutions as near.
-_FAR = 0.5
+# Beyond a quarter of the first step, or this many iterations, there may be other solutions as near.
+_FAR, _MANY = 0.25, 6
 LOST_STABILITY = "no stable equilibrium further on"
 
 
@@ -104,7 +104,7 @@ def _in_increments(
 
 def _wandered(end: Iterate) -> np.ndarray:
     """Members that took many iterations or went far from their first step."""
-    return (end.iterations > _SOON) | (end.strayed > _FAR)
+    return (end.iterations > _MANY) | (end.strayed > _FAR)
 
 
 def _members(end: Iterate, mask: np.ndarray) -> Iterate:

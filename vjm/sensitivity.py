@@ -29,9 +29,9 @@ _STEP = 1e-3
 class Sensitivity:
     """Derivatives of an equilibrium; the last axis counts the inputs.
 
-    unknowns: (..., N, k). memory: (..., M, k) of `Equilibrium.next_memory`, zero for targets. readings: (..., 12 + G, k) of
-    `Equilibrium.readings`. regular: (...) False at a critical state, where there is no derivative and zeros
-    stand.
+    unknowns: (..., N, k). memory: (..., M, k) of `Equilibrium.next_memory`, zero for targets.
+    readings: (..., 12 + G, k) of `Equilibrium.readings`. regular: (...) False at a critical state, where there
+    is no derivative and zeros stand.
     """
 
     state: Equilibrium

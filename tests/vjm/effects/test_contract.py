@@ -47,6 +47,9 @@ CANONICAL = {
 }
 """Names that campaigns and results use; others follow from these or have three axes."""
 
+UNSEEN_ON_A_HINGE = ("base_compliance", "ry_rad_per_Nmm")
+"""A bar that is hinged about y at the base origin exerts no moment about y there."""
+
 PARAMETERS = [(name, p.name) for name, effect in EFFECTS.items() for p in effect.parameters]
 
 
@@ -103,8 +106,9 @@ def test_every_parameter_moves_something(name: str, rig: str) -> None:
     assert base.shape == (3, 2, 13) and np.all(np.isfinite(base))
     for p in EFFECTS[name].parameters:
         moved = with_values(name, RIGS[rig], {p.name: p.null + 1.05 * p.typical})
+        change = np.max(np.abs(run(moved).readings - base) / NOISE)
         # A twentieth of a typical size; some parameters meet hardly any load here. Solving leaves 1e-9 of the noise.
-        assert np.max(np.abs(run(moved).readings - base) / NOISE) > 1e-6, p.name
+        assert (change > 1e-6) != (rig.endswith("bar") and (name, p.name) == UNSEEN_ON_A_HINGE), p.name
 
 
 @pytest.mark.parametrize(("name", "rig"), CASES)
