@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.sparse.linalg import LinearOperator, eigsh
 
-from fem.linear import LinearModel
+from fem.linear import LinearModel, submatrix
 from fem.linkage import PLATFORM, Linkage
 from fem.prestress import prestress
 from meshes.solid import Floats
@@ -41,8 +41,8 @@ def buckling(model: LinearModel, held: Sequence[str], count: int = 6, driven: st
     r = model.reduction
     state = prestress(model, driven, held)
     free = r.others([driven, *held])
-    k = model.reduced[free][:, free].tocsr()
-    kg = state.geometric[free][:, free].tocsr()
+    k = submatrix(model.reduced, free)
+    kg = submatrix(state.geometric, free)
     factor = model.solver(k)
     inverse = LinearOperator(k.shape, matvec=factor, dtype=float)
     # Pushing reverses the sign of the unit state. Shift-invert about the unloaded state: the largest 1/λ
@@ -63,8 +63,7 @@ def buckling(model: LinearModel, held: Sequence[str], count: int = 6, driven: st
 def scaled_mode(model: LinearModel, load: float, motion: Floats) -> Mode:
     """The mode with its largest nodal displacement made +1 mm, and the plane it moves in."""
     r = model.reduction
-    transforms = r.transforms(r.rest)
-    fields = [t @ motion for t in transforms]
+    fields = r.fields(motion, r.rest)
     norms = [np.linalg.norm(f.reshape(-1, 3), axis=1) for f in fields]
     member = int(np.argmax([n.max() for n in norms]))
     # Of nodes that move equally far the first one sets the sign, so that rounding does not.

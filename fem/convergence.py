@@ -9,10 +9,7 @@ from dataclasses import dataclass
 from itertools import pairwise
 from math import log
 
-import numpy as np
 from scipy.optimize import brentq
-
-from meshes.solid import Floats
 
 SAFETY = 1.25
 ORDERS = (0.2, 8.0)
@@ -60,9 +57,3 @@ def extrapolate(sizes: Sequence[float], values: Sequence[float]) -> Extrapolatio
         return unsettled
     order = float(brentq(mismatch, *ORDERS))
     return Extrapolation(v3 - fine * h3**order / (h2**order - h3**order), order, spread)
-
-
-def orders_between(sizes: Sequence[float], errors: Sequence[float]) -> Floats:
-    """Order log(e_i / e_i+1) / log(h_i / h_i+1) between neighbouring meshes, for errors that are known."""
-    h, e = np.asarray(sizes, float), np.asarray(errors, float)
-    return np.log(e[:-1] / e[1:]) / np.log(h[:-1] / h[1:])

@@ -4,8 +4,6 @@ Each weak form is a batched matrix product over scikit-fem's basis arrays. One p
 Gram matrix of the shape-function gradients, from which the isotropic law picks its terms.
 """
 
-from collections.abc import Iterator
-
 import numpy as np
 import scipy.sparse as sp
 
@@ -13,15 +11,7 @@ from fem.material import Isotropic
 from fem.space import Space
 from meshes.solid import Floats
 
-# Bounds the memory of a batch to a few hundred megabytes whatever the mesh.
-CELLS_AT_ONCE = 2000
 IDENTITY = np.eye(3)
-
-
-def batches(space: Space) -> Iterator[slice]:
-    """Slices over the cells."""
-    for start in range(0, len(space.weights), CELLS_AT_ONCE):
-        yield slice(start, start + CELLS_AT_ONCE)
 
 
 def gradient_gram(gradients: Floats, weights: Floats) -> Floats:
@@ -33,7 +23,7 @@ def gradient_gram(gradients: Floats, weights: Floats) -> Floats:
 
 
 def isotropic_blocks(gram: Floats, material: Isotropic) -> Floats:
-    """λ ∂_a N_i ∂_b N_j + μ ∂_b N_i ∂_a N_j + μ δ_ab ∇N_i·∇N_j, integrated."""
+    """λ ∂_a N_i ∂_b N_j + μ ∂_b N_i ∂_a N_j + μ δ_ab ∇N_i·∇N_j, integrated, for the Gram blocks (..., 3, 3)."""
     mu = material.shear_modulus
     blocks = material.lame * gram + mu * np.swapaxes(gram, -1, -2)
     trace = mu * np.einsum("...cc->...", gram)
@@ -44,11 +34,9 @@ def isotropic_blocks(gram: Floats, material: Isotropic) -> Floats:
 
 def stiffness_matrix(space: Space, material: Isotropic) -> sp.csr_matrix:
     """K of ∫ σ(u):ε(v) dV, (dofs, dofs) sparse, N/mm."""
-    k = space.connectivity.shape[1]
-    local = np.empty((len(space.weights), k, k, 3, 3))
-    for part in batches(space):
-        local[part] = isotropic_blocks(gradient_gram(space.gradients[part], space.weights[part]), material)
-    return space.matrix(local)
+    # The law is linear in the Gram matrix: applied to the sums it is applied once a block, not once a cell.
+    gram = space.summed(lambda cells: gradient_gram(space.gradients[cells], space.weights[cells]))
+    return space.pattern.matrix(isotropic_blocks(gram.reshape(-1, 3, 3), material))
 
 
 def stress(space: Space, material: Isotropic, u: Floats) -> Floats:
@@ -57,6 +45,22 @@ def stress(space: Space, material: Isotropic, u: Floats) -> Floats:
     strain = 0.5 * (gradient + np.swapaxes(gradient, -1, -2))
     volumetric = np.einsum("...aa->...", strain)[..., None, None]
     return 2.0 * material.shear_modulus * strain + material.lame * volumetric * IDENTITY
+
+
+def nodal_forces(gradients: Floats, weighted_stress: Floats) -> Floats:
+    """∫ P ∇N_i dV, (m, k, 3), for `weighted_stress` = P times the integration weight, (m, q, 3, 3)."""
+    m, q, k, _ = gradients.shape
+    left = gradients.transpose(0, 2, 1, 3).reshape(m, k, 3 * q)
+    return left @ weighted_stress.transpose(0, 1, 3, 2).reshape(m, 3 * q, 3)
+
+
+def internal_forces(space: Space, sigma: Floats) -> Floats:
+    """Nodal forces (dofs,) N that a stress `sigma` (m, q, 3, 3) MPa takes."""
+    parts = [
+        nodal_forces(space.gradients[cells], sigma[cells] * space.weights[cells][:, :, None, None])
+        for cells in space.batches()
+    ]
+    return space.vector(np.concatenate(parts))
 
 
 def scalar_geometric_blocks(gradients: Floats, weighted_stress: Floats) -> Floats:
@@ -68,11 +72,9 @@ def scalar_geometric_blocks(gradients: Floats, weighted_stress: Floats) -> Float
 
 def geometric_stiffness_matrix(space: Space, sigma: Floats) -> sp.csr_matrix:
     """K_g of ∫ σ_ab ∂_a u·∂_b v dV for the stress `sigma` (m, q, 3, 3) MPa; (dofs, dofs) sparse, N/mm."""
-    k = space.connectivity.shape[1]
-    local = np.zeros((len(space.weights), k, k, 3, 3))
-    for part in batches(space):
-        weighted = sigma[part] * space.weights[part][:, :, None, None]
-        scalar = scalar_geometric_blocks(space.gradients[part], weighted)
-        for a in range(3):
-            local[part][..., a, a] = scalar
-    return space.matrix(local)
+
+    def local(cells: slice) -> Floats:
+        weighted = sigma[cells] * space.weights[cells][:, :, None, None]
+        return scalar_geometric_blocks(space.gradients[cells], weighted)[..., None]
+
+    return space.pattern.matrix(space.summed(local)[:, :, None] * IDENTITY)

@@ -6,7 +6,7 @@ With g_i = F ∇N_i the tangent is  λ g_i⊗g_j + μ g_j⊗g_i + μ (∇N_i·�
 import numpy as np
 import scipy.sparse as sp
 
-from fem.elasticity import IDENTITY, batches, gradient_gram
+from fem.elasticity import IDENTITY, gradient_gram, nodal_forces
 from fem.material import Isotropic
 from fem.space import Space
 from meshes.solid import Floats
@@ -14,16 +14,28 @@ from meshes.solid import Floats
 
 def force_and_tangent(space: Space, material: Isotropic, u: Floats) -> tuple[Floats, sp.csr_matrix]:
     """Nodal forces (dofs,) N and tangent (dofs, dofs) N/mm of nodal displacements `u`, (dofs,) mm."""
-    m, k = space.connectivity.shape
-    force, tangent = np.empty((m, k, 3)), np.empty((m, k, k, 3, 3))
+    force = np.empty((*space.connectivity.shape, 3))
     deformation = IDENTITY + space.displacement_gradient(u)
-    for part in batches(space):
-        gradients, weights, f = space.gradients[part], space.weights[part], deformation[part]
-        s = second_piola(f, material)
-        weighted = s * weights[:, :, None, None]
-        force[part] = np.einsum("mqab,mqib->mia", f @ weighted, gradients, optimize=True)
-        tangent[part] = tangent_blocks(gradients, weights, f, weighted, material)
-    return space.vector(force), space.matrix(tangent)
+
+    def local(cells: slice) -> Floats:
+        gradients, weights, f = space.gradients[cells], space.weights[cells], deformation[cells]
+        weighted = second_piola(f, material) * weights[:, :, None, None]
+        force[cells] = nodal_forces(gradients, f @ weighted)
+        return tangent_blocks(gradients, weights, f, weighted, material)
+
+    tangent = space.pattern.matrix(space.summed(local).reshape(-1, 3, 3))
+    return space.vector(force), tangent
+
+
+def deformed_forces(space: Space, material: Isotropic, u: Floats) -> Floats:
+    """The nodal forces alone, (dofs,) N."""
+    deformation = IDENTITY + space.displacement_gradient(u)
+    parts = []
+    for cells in space.batches():
+        f = deformation[cells]
+        weighted = second_piola(f, material) * space.weights[cells][:, :, None, None]
+        parts.append(nodal_forces(space.gradients[cells], f @ weighted))
+    return space.vector(np.concatenate(parts))
 
 
 def second_piola(f: Floats, material: Isotropic) -> Floats:

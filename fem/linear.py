@@ -7,12 +7,15 @@ from functools import cached_property
 import numpy as np
 import scipy.sparse as sp
 
+from fem.coarse_space import CORNERS_AND_EDGES, prolongation
 from fem.elasticity import stiffness_matrix
 from fem.linkage import PLATFORM, Linkage
 from fem.material import Isotropic
 from fem.reduction import Reduction
-from fem.solvers import Solver, direct
-from meshes.solid import Floats
+from fem.solvers import Factor, Solver, automatic
+from meshes.solid import Floats, Ints
+
+ROWS_AT_ONCE = 4000
 
 
 @dataclass(frozen=True)
@@ -21,15 +24,15 @@ class LinearModel:
 
     linkage: Linkage
     material: Isotropic
-    solver: Solver = direct
+    solver: Solver = automatic
 
     @cached_property
     def reduction(self) -> Reduction:
         return Reduction(self.linkage)
 
-    @cached_property
+    @property
     def matrices(self) -> tuple[sp.csr_matrix, ...]:
-        """Stiffness matrix of every member; members with the same space share one."""
+        """Stiffness matrix of every member, made anew and not kept; members with the same space share one."""
         made: dict[int, sp.csr_matrix] = {}
         for member in self.linkage.members:
             if id(member.space) not in made:
@@ -51,13 +54,17 @@ class LinearModel:
         columns = r.platform(driven)
         motion = np.zeros((r.size, len(driven)))
         motion[columns, np.arange(len(driven))] = 1.0
-        coupling = self.reduced[free][:, columns].toarray()
-        inner = self.reduced[free][:, free].tocsr()
-        factor = self.solver(inner)
-        found = factor(-coupling)
-        # One round of iterative refinement: the 6x6 mixes N/mm with N mm/rad, eleven orders of magnitude.
-        motion[free] = found - factor(inner @ found + coupling)
+        coupling = self.reduced[columns][:, free].toarray().T
+        motion[free] = self.factor(free)(-coupling)
         return motion
+
+    def factor(self, free: Ints) -> Factor:
+        """The stiffness of the unknowns `free`, ready to solve; SolveError if they are not held."""
+        kinds = {m.space.mesh.kind for m in self.linkage.members}
+        coarse = (lambda: prolongation(self.reduction, free)) if kinds <= set(CORNERS_AND_EDGES) else None
+        factor = self.solver(submatrix(self.reduced, free), coarse)
+        factor.require_held()
+        return factor
 
     @cached_property
     def stiffness(self) -> Floats:
@@ -67,7 +74,19 @@ class LinearModel:
 
     def energy_products(self, motion: Floats) -> Floats:
         """Motionᵀ K motion of unknowns (size, c), (c, c); the error of the motions enters squared only."""
-        # Extended precision: entries of 1e7 N/mm cancel to a few N where a bar bends.
+        # Extended precision: entries of 1e7 N/mm cancel to a few N where a bar bends. A few rows at a time, for a
+        # whole matrix of such numbers is large.
         wide = motion.astype(np.longdouble)
-        product = self.reduced.astype(np.longdouble) @ wide
-        return np.asarray(wide.T @ product, dtype=float)
+        total = np.zeros((motion.shape[1], motion.shape[1]), dtype=np.longdouble)
+        for start in range(0, len(motion), ROWS_AT_ONCE):
+            rows = self.reduced[start : start + ROWS_AT_ONCE].astype(np.longdouble)
+            total += wide[start : start + ROWS_AT_ONCE].T @ (rows @ wide)
+        return np.asarray(total, dtype=float)
+
+
+def submatrix(matrix: sp.csr_matrix, kept: Ints) -> sp.csr_matrix:
+    """Rows and columns `kept`, in rising order, of a sparse square matrix."""
+    count = len(kept)
+    if count and kept[-1] == count - 1:
+        return matrix[:count, :count]
+    return matrix[kept][:, kept]

@@ -1,4 +1,4 @@
-"""The stressed state of a linkage driven by one platform coordinate, and its geometric stiffness."""
+"""The stressed state of a linkage and its geometric stiffness."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -6,15 +6,15 @@ from dataclasses import dataclass
 import numpy as np
 import scipy.sparse as sp
 
-from fem.elasticity import geometric_stiffness_matrix, stress
+from fem.elasticity import geometric_stiffness_matrix, internal_forces, stress
 from fem.linear import LinearModel
 from fem.linkage import PLATFORM
 from meshes.solid import Floats
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Prestress:
-    """State for a unit displacement of the driven coordinate with others held.
+    """A state of small displacements and what it adds to the stiffness.
 
     displacements : node displacements (dofs,) of each member in its own frame, mm
     wrench        : (6,) exerted on the platform at its point, base frame, N and N·mm
@@ -28,12 +28,16 @@ class Prestress:
 
 def prestress(model: LinearModel, driven: str, held: Sequence[str]) -> Prestress:
     """Drive one platform coordinate by a unit, mm or rad, with the `held` ones at zero and the rest free of load."""
+    return stressed(model, model.motions([driven], held)[:, 0])
+
+
+def stressed(model: LinearModel, motion: Floats) -> Prestress:
+    """The state of a small `motion` (size,) of all unknowns."""
     r = model.reduction
-    motion = model.motions([driven], held)[:, 0]
-    fields = tuple(t @ motion for t in r.transforms(r.rest))
+    fields = r.fields(motion, r.rest)
     sigmas = [stress(m.space, model.material, u) for m, u in zip(model.linkage.members, fields, strict=True)]
     kg = [geometric_stiffness_matrix(m.space, s) for m, s in zip(model.linkage.members, sigmas, strict=True)]
-    nodal = [k @ u for k, u in zip(model.matrices, fields, strict=True)]
+    nodal = [internal_forces(m.space, s) for m, s in zip(model.linkage.members, sigmas, strict=True)]
     geometric = r.reduce(kg, r.rest) + r.curvature(nodal, r.rest)
     wrench = np.asarray(model.reduced @ motion)[r.platform(PLATFORM)]
     return Prestress(fields, wrench, geometric.tocsr())

@@ -46,6 +46,11 @@ class Reduction:
         return tuple(kept)
 
     @cached_property
+    def outer(self) -> tuple[Ints, ...]:
+        """Node dofs of the rigid faces of each member, base before tip."""
+        return tuple(node_dofs(np.concatenate([face.nodes for face in pair])) for pair in self.faces)
+
+    @cached_property
     def starts(self) -> tuple[int, ...]:
         """First unknown of each member, and the first generalised coordinate."""
         return tuple(int(s) for s in np.concatenate(([0], np.cumsum([len(i) for i in self.inner]))))
@@ -86,35 +91,56 @@ class Reduction:
         angle = at.angles[face.columns[-1] - 6] if face.axis is not None else 0.0
         return face.place(at.pose, self.linkage.point, angle)
 
-    def transforms(self, at: Placement) -> tuple[sp.csr_matrix, ...]:
-        """∂(node displacements)/∂(unknowns) of each member, sparse (dofs, size)."""
-        maps = []
-        for index, (member, pair, placed) in enumerate(
-            zip(self.linkage.members, self.faces, self.placed(at), strict=True)
-        ):
-            inner = self.inner[index]
-            rows, columns = [inner], [self.starts[index] + np.arange(len(inner))]
-            values = [np.ones(len(inner))]
+    def face_jacobians(self, at: Placement) -> tuple[Floats, ...]:
+        """∂(face displacements)/∂(generalised coordinates) of each member, (3 nodes of both faces, generalised)."""
+        parts = []
+        for member, pair, placed in zip(self.linkage.members, self.faces, self.placed(at), strict=True):
             for face, place in zip(pair, placed, strict=True):
-                block = np.einsum("ab,nac->nbc", member.turn, place.jacobian())
-                dofs = node_dofs(face.nodes).reshape(-1, 3, 1)
-                target = self.starts[-1] + face.columns.reshape(1, 1, -1)
-                r, c = np.broadcast_arrays(dofs, target)
-                rows.append(r.ravel())
-                columns.append(c.ravel())
-                values.append(block.ravel())
-            data = (np.concatenate(values), (np.concatenate(rows), np.concatenate(columns)))
-            matrix = sp.csr_matrix(data, shape=(member.space.dofs, self.size))
-            matrix.eliminate_zeros()
-            maps.append(matrix)
-        return tuple(maps)
+                block = np.zeros((3 * len(face.nodes), self.generalised))
+                turned = np.einsum("ab,nac->nbc", member.turn, place.jacobian())
+                block[:, face.columns] = turned.reshape(len(block), -1)
+                parts.append(block)
+        return tuple(np.concatenate(pair) for pair in zip(parts[::2], parts[1::2], strict=True))
+
+    def fields(self, motion: Floats, at: Placement) -> tuple[Floats, ...]:
+        """Node displacements (dofs, ...) of each member for a small `motion` (size, ...) of the unknowns."""
+        coordinates = motion[self.starts[-1] :]
+        made = []
+        for index, (member, jacobian) in enumerate(
+            zip(self.linkage.members, self.face_jacobians(at), strict=True)
+        ):
+            u = np.zeros((member.space.dofs, *motion.shape[1:]))
+            u[self.inner[index]] = motion[self.starts[index] : self.starts[index + 1]]
+            u[self.outer[index]] = jacobian @ coordinates
+            made.append(u)
+        return tuple(made)
+
+    def loads(self, forces: Sequence[Floats], at: Placement) -> Floats:
+        """Generalised forces (size,) of nodal forces (dofs,) of each member: the transpose of `fields`."""
+        parts = [force[inner] for force, inner in zip(forces, self.inner, strict=True)]
+        ends = [
+            jacobian.T @ force[outer]
+            for force, outer, jacobian in zip(forces, self.outer, self.face_jacobians(at), strict=True)
+        ]
+        return np.concatenate((*parts, np.sum(ends, axis=0)))
 
     def reduce(self, matrices: Sequence[sp.csr_matrix], at: Placement) -> sp.csr_matrix:
-        """Σ Tᵀ A T over the members, symmetric sparse (size, size)."""
-        total = sp.csr_matrix((self.size, self.size))
-        for matrix, t in zip(matrices, self.transforms(at), strict=True):
-            total = total + t.T @ (matrix @ t)
-        return (0.5 * (total + total.T)).tocsr()
+        """Σ Tᵀ A T over the members for symmetric A, with T = ∂(node displacements)/∂(unknowns); (size, size)."""
+        corner = np.zeros((self.generalised, self.generalised))
+        rows, borders = [], []
+        total = self.starts[-1]
+        for index, (matrix, jacobian) in enumerate(zip(matrices, self.face_jacobians(at), strict=True)):
+            inner, outer = self.inner[index], self.outer[index]
+            # Few columns, so symmetry makes them from rows.
+            ends = matrix[outer]
+            border = sp.csr_matrix(ends[:, inner].T @ sp.csr_matrix(jacobian))
+            corner += jacobian.T @ (ends[:, outer] @ jacobian)
+            before = sp.csr_matrix((len(inner), self.starts[index]))
+            after = sp.csr_matrix((len(inner), total - self.starts[index + 1]))
+            rows.append(sp.hstack((before, matrix[inner][:, inner], after, border), format="csr"))
+            borders.append(border.T)
+        rows.append(sp.hstack((*borders, sp.csr_matrix(0.5 * (corner + corner.T))), format="csr"))
+        return sp.csr_matrix(sp.vstack(rows, format="csr"))
 
     def curvature(self, forces: Sequence[Floats], at: Placement) -> sp.csr_matrix:
         """Σ f·∂²u over the rigid faces for nodal forces (dofs,) of each member, sparse (size, size)."""

@@ -1,37 +1,20 @@
-"""Displacement space of a solid mesh: shape-function gradients at the integration points, and block assembly.
+"""Displacement space of a solid mesh: shape-function gradients at the integration points, and assembly.
 
 Unknown 3 n + a is the displacement of node n along axis a of the mesh's own frame.
 """
 
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, reduce
 
 import numpy as np
-import scipy.sparse as sp
 
+from fem.pattern import SymmetricPattern
 from meshes.discrete import discretise
 from meshes.solid import Floats, Ints, SolidMesh
 
-
-@dataclass(frozen=True)
-class BlockPattern:
-    """Where the 3x3 block of every pair of local nodes goes in the global block matrix."""
-
-    order: Ints
-    starts: Ints
-    indices: Ints
-    indptr: Ints
-
-    @staticmethod
-    def of(connectivity: Ints, nodes: int) -> "BlockPattern":
-        """Pattern for cells (m, k) over `nodes` nodes."""
-        keys = (connectivity[:, :, None] * nodes + connectivity[:, None, :]).ravel()
-        order = np.argsort(keys, kind="stable")
-        ordered = keys[order]
-        starts = np.flatnonzero(np.concatenate(([True], ordered[1:] != ordered[:-1])))
-        rows, columns = np.divmod(ordered[starts], nodes)
-        indptr = np.searchsorted(rows, np.arange(nodes + 1))
-        return BlockPattern(order, starts, columns, indptr)
+# Bounds the memory of a batch to a few hundred megabytes whatever the mesh.
+CELLS_AT_ONCE = 4000
 
 
 @dataclass(frozen=True)
@@ -40,7 +23,7 @@ class Space:
 
     gradients : (m, q, k, 3) of the k shape functions at q points in m cells, 1/mm
     weights   : (m, q) integration weights, mm³
-    connectivity : (m, k) node of each local function
+    connectivity : (m, k) node of each local function, in rising order
     """
 
     mesh: SolidMesh
@@ -53,12 +36,15 @@ class Space:
         """The space of a mesh; ValueError if the mesh cannot carry it."""
         discrete = discretise(mesh)
         basis = discrete.basis
-        gradients = np.stack([function[0].grad for function in basis.basis], axis=-1)
+        order = np.argsort(discrete.connectivity, axis=1)
+        gradients = np.empty((*basis.dx.shape, order.shape[1], 3))
+        for k, function in enumerate(basis.basis):
+            gradients[:, :, k] = np.moveaxis(function[0].grad, 0, -1)
         return Space(
             mesh,
-            np.ascontiguousarray(gradients.transpose(1, 2, 3, 0)),
+            np.take_along_axis(gradients, order[:, None, :, None], axis=2),
             np.asarray(basis.dx),
-            discrete.connectivity,
+            np.take_along_axis(discrete.connectivity, order, axis=1),
         )
 
     @property
@@ -66,14 +52,19 @@ class Space:
         return self.mesh.dofs
 
     @cached_property
-    def pattern(self) -> BlockPattern:
-        return BlockPattern.of(self.connectivity, len(self.mesh.points))
+    def pattern(self) -> SymmetricPattern:
+        return SymmetricPattern.of(self.connectivity, len(self.mesh.points))
 
-    def matrix(self, local: Floats) -> sp.csr_matrix:
-        """Sum local blocks (m, k, k, 3, 3) into the sparse (dofs, dofs) matrix."""
-        p = self.pattern
-        blocks = np.add.reduceat(local.reshape(-1, 9)[p.order], p.starts, axis=0).reshape(-1, 3, 3)
-        return sp.bsr_matrix((blocks, p.indices, p.indptr), shape=(self.dofs, self.dofs)).tocsr()
+    def batches(self) -> Iterator[slice]:
+        """Slices over the cells."""
+        for start in range(0, len(self.weights), CELLS_AT_ONCE):
+            yield slice(start, start + CELLS_AT_ONCE)
+
+    def summed(self, local: Callable[[slice], Floats]) -> Floats:
+        """(count, c) of `pattern`, for values (m, k, k, c) of the cells in a slice, symmetric in the node pairs."""
+        first, second = np.triu_indices(self.connectivity.shape[1])
+        parts = (self.pattern.summed(cells, local(cells)[:, first, second]) for cells in self.batches())
+        return reduce(np.add, parts)
 
     def vector(self, local: Floats) -> Floats:
         """Sum local nodal vectors (m, k, 3) into a (dofs,) vector."""

@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from fem.convergence import extrapolate, orders_between
+from fem.convergence import extrapolate
 
 
 @settings(max_examples=40, derandomize=True, deadline=None, database=None)
@@ -69,7 +69,3 @@ def test_bad_studies(sizes: tuple[float, ...], values: tuple[float, ...], senten
     with pytest.raises(ValueError) as caught:
         extrapolate(sizes, values)
     assert str(caught.value) == sentence
-
-
-def test_orders_of_known_errors() -> None:
-    np.testing.assert_allclose(orders_between([4.0, 2.0, 1.0], [0.64, 0.08, 0.01]), [3.0, 3.0], rtol=1e-12)

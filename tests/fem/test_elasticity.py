@@ -8,7 +8,8 @@ import skfem
 from scipy.spatial import cKDTree
 from skfem.models.elasticity import linear_elasticity
 
-from fem.elasticity import CELLS_AT_ONCE, geometric_stiffness_matrix, stiffness_matrix, stress
+from fem import space
+from fem.elasticity import geometric_stiffness_matrix, stiffness_matrix, stress
 from fem.material import Isotropic
 from fem.reduction import node_dofs
 from fem.solvers import direct
@@ -93,6 +94,6 @@ def test_batches_do_not_change_the_matrix(
 ) -> None:
     """Cells are taken a few at a time: the seams must not show."""
     whole = stiffness_matrix(small_space, material)
-    assert len(small_space.weights) < CELLS_AT_ONCE
-    monkeypatch.setattr("fem.elasticity.CELLS_AT_ONCE", 3)  # type: ignore[attr-defined]
+    assert len(small_space.weights) < space.CELLS_AT_ONCE
+    monkeypatch.setattr(space, "CELLS_AT_ONCE", 3)  # type: ignore[attr-defined]
     assert abs(stiffness_matrix(small_space, material) - whole).max() < 1e-13 * abs(whole).max()

@@ -76,7 +76,8 @@ def test_two_bars_are_twice_one_where_the_width_does_not_matter() -> None:
 
 def test_members_of_one_space_share_their_matrix() -> None:
     model = bar_p.linkage_model(1, 0.0)
-    assert model.matrices[0] is model.matrices[1]
+    first, second = model.matrices
+    assert first is second
     assert model.linkage.hinges == 4
     assert model.linkage.dofs == 2 * bar_p.space(1).dofs
     assert bar_p.model(1).linkage.hinges == 0

@@ -88,6 +88,35 @@ def test_perfect_bars_end_at_their_bifurcation(straight: LinearModel, mode: Mode
     assert "unstable, a stable branch leaves the path before it" in found.failure
 
 
+def test_unstable_branches_are_followed_where_asked(straight: LinearModel, mode: Mode) -> None:
+    """The straight path of perfect bars past their bifurcation: both bars' sway is one unstable mode."""
+    found = follow(straight, bar_p.GUIDED, (-0.1, -0.4), unstable_past=0.0)
+    assert found.failure == ""
+    assert [p.unstable for p in found.points] == [0, 1]
+    slope = found.column("wrench", "x") / found.column("displacement", "x")
+    np.testing.assert_allclose(slope, straight.stiffness[0, 0], rtol=3e-3)
+    assert -found.points[1].wrench[0] > 1.5 * mode.load
+
+
+def test_the_way_back_is_the_way_there(bowed: LinearModel) -> None:
+    """An elastic linkage unloads along its loading curve, through the bend of the path."""
+    found = follow(bowed, bar_p.GUIDED, (-0.15, -0.3, -0.15))
+    assert found.failure == ""
+    there, _, back = found.points
+    np.testing.assert_allclose(back.wrench, there.wrench, rtol=1e-6, atol=1e-3)
+
+
+def test_tangents_of_earlier_points_change_nothing(
+    bowed: LinearModel, pushed: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Newton's method with its own tangents alone ends at the same points."""
+    monkeypatch.setattr(path, "STALE", 0)
+    found = follow(bowed, bar_p.GUIDED, PUSH)
+    for quantity in ("displacement", "wrench"):
+        mine = [getattr(p, quantity) for p in found.points]
+        np.testing.assert_allclose(mine, [getattr(p, quantity) for p in pushed.points], rtol=1e-6, atol=1e-5)
+
+
 @pytest.mark.parametrize("degrees", [0.0, 30.0])
 def test_tangent_is_the_derivative_of_the_residual(degrees: float) -> None:
     """At a bent, turned state far from equilibrium. Along a constant spin s, d/dt (r·s) is s·T·s."""

@@ -1,4 +1,4 @@
-"""Direct solvers: agreement, singular systems, inertia; an answer that is wrong must be an error."""
+"""Solvers: agreement, singular systems, inertia, choice by size; an answer that is wrong must be an error."""
 
 from __future__ import annotations
 
@@ -8,7 +8,22 @@ import numpy as np
 import pytest
 import scipy.sparse as sp
 
-from fem.solvers import Factor, PardisoFactor, SolveError, SuperLUFactor, checked, direct, has_pardiso
+from fem import solvers
+from fem.coarse_space import linear_in_quadratic, prolongation
+from fem.linear import LinearModel, submatrix
+from fem.solvers import (
+    Factor,
+    MultigridFactor,
+    PardisoFactor,
+    SolveError,
+    SuperLUFactor,
+    automatic,
+    checked,
+    direct,
+    has_pardiso,
+    multigrid,
+)
+from fem.virtual_experiments import rigid_motions
 from tests.fem import bar_p
 
 needs_pardiso = pytest.mark.skipif(not has_pardiso(), reason="pypardiso is not installed on this platform")
@@ -107,7 +122,9 @@ def test_not_finite_right_hand_side(make: Make, bad: float) -> None:
 def test_wrong_answer_is_an_error() -> None:
     k = sp.csr_matrix(np.diag([1.0, 2.0]))
     rhs = np.array([1.0, 2.0])
-    np.testing.assert_array_equal(checked(k, rhs, np.array([1.0, 1.0]), 2.0), [1.0, 1.0])
+    x, residual = checked(k, rhs, np.array([1.0, 1.0]), 2.0)
+    np.testing.assert_array_equal(x, [1.0, 1.0])
+    assert residual == 0.0
     with pytest.raises(SolveError, match=r"solved only to a residual of 0\.02 on a load of 2"):
         checked(k, rhs, np.array([1.0, 1.01]), 2.0)
     with pytest.raises(SolveError, match="singular to working precision"):
@@ -121,3 +138,93 @@ def test_direct_takes_the_fastest_that_is_there(monkeypatch: pytest.MonkeyPatch)
     assert direct(k).name == ("pardiso" if has_pardiso() else "SuperLU")
     monkeypatch.setattr("fem.solvers.has_pardiso", lambda: False)
     assert direct(k).name == "SuperLU"
+
+
+@pytest.mark.parametrize("kind", ["bar", "linkage"])
+def test_multigrid_solves_like_the_direct_solver(kind: str) -> None:
+    """To its tolerance of 1e-11 on the residual times a condition of 1e8 of which the smoother takes most."""
+    model = bar_p.model(1) if kind == "bar" else bar_p.linkage_model(1, 30.0)
+    free = model.reduction.others(("x", "z"))
+    k = submatrix(model.reduced, free)
+    rhs = np.random.default_rng(0).standard_normal((k.shape[0], 2))
+    one, other = direct(k), multigrid(k, lambda: prolongation(model.reduction, free))
+    expected = one(rhs)
+    assert np.abs(other(rhs) - expected).max() < 1e-6 * np.abs(expected).max()
+    np.testing.assert_allclose(other(rhs[:, 0]), other(rhs)[:, 0], atol=1e-6 * np.abs(expected).max())
+    assert other.record.solver == "multigrid" and 20 < other.record.iterations < 200
+    assert other.record.right_hand_sides == 5 and one.record.iterations == 0
+    with pytest.raises(SolveError, match="inertia is not available"):
+        _ = other.negative_eigenvalues
+
+
+def test_stiffness_by_multigrid() -> None:
+    """K_b is an energy: the error of the motions enters squared."""
+    model = bar_p.model(1)
+    other = LinearModel(model.linkage, model.material, multigrid)
+    np.testing.assert_allclose(bar_p.entries(other.stiffness), bar_p.entries(model.stiffness), rtol=1e-8)
+
+
+def test_multigrid_refuses_what_is_not_held() -> None:
+    model = bar_p.model(1, pinned=True)
+    free = model.reduction.others(("x",))
+    loose = multigrid(submatrix(model.reduced, free), lambda: prolongation(model.reduction, free))
+    with pytest.raises(SolveError):
+        loose(np.random.default_rng(0).standard_normal(len(free)))
+    negative = sp.csr_matrix(np.diag([1.0, -2.0]))
+    with pytest.raises(SolveError, match="not positive definite"):
+        MultigridFactor(negative, sp.csr_matrix(np.eye(2)), direct)
+    with pytest.raises(ValueError, match="needs the coarse space"):
+        multigrid(negative)
+
+
+@pytest.mark.parametrize("tetrahedra", [False, True])
+def test_rigid_motions_are_in_the_coarse_space(tetrahedra: bool) -> None:
+    """And every linear field: node values come back from corner values alone."""
+    mesh = bar_p.mesh(1, tetrahedra)
+    matrix, corners = linear_in_quadratic(mesh)
+    assert len(corners) < 0.35 * len(mesh.points)
+    motions = rigid_motions(mesh.points).reshape(-1, 3, 6)
+    for axis in range(3):
+        np.testing.assert_allclose(matrix @ motions[corners, axis], motions[:, axis], atol=1e-9)
+
+
+def test_choice_by_size(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Direct for the small, multigrid for the large where there is a coarse space."""
+    k = sp.csr_matrix(np.diag([1.0, 2.0, 3.0]))
+
+    def coarse() -> sp.csr_matrix:
+        return sp.csr_matrix(np.eye(3))
+
+    assert automatic(k, coarse).name == direct(k).name
+    monkeypatch.setattr(solvers, "LARGE", {"pardiso": 2, "SuperLU": 2})
+    assert automatic(k, coarse).name == "multigrid"
+    assert automatic(k).name == direct(k).name
+    np.testing.assert_allclose(automatic(k, coarse)(np.ones(3)), [1.0, 0.5, 1 / 3], rtol=1e-9)
+
+
+@pytest.mark.parametrize("make", FACTORS)
+def test_record(make: Make) -> None:
+    k = indefinite(3)
+    factor = make(k)
+    assert (factor.record.unknowns, factor.record.nonzeros) == (k.shape[0], k.nnz)
+    assert factor.record.right_hand_sides == 0
+    factor(np.ones((k.shape[0], 4)))
+    factor(np.ones(k.shape[0]))
+    record = factor.record
+    assert record.solver == factor.name and record.right_hand_sides == 5
+    assert record.setup_seconds > 0.0 and record.solve_seconds > 0.0
+    assert 0.0 <= record.residual < 1e-10
+
+
+@pytest.mark.parametrize("make", FACTORS)
+def test_renewed_factor(make: Make) -> None:
+    """Of a matrix with the same pattern, and of one with another."""
+    k = indefinite(3)
+    rhs = np.random.default_rng(1).standard_normal(k.shape[0])
+    for other in (2.0 * k + sp.diags(k.diagonal()), indefinite(4)):
+        other = sp.csr_matrix(other)
+        factor = make(k).renewed(other)
+        np.testing.assert_allclose(factor(rhs), np.linalg.solve(other.toarray(), rhs), rtol=1e-8, atol=1e-9)
+        if make is PardisoFactor:
+            negative = int(np.count_nonzero(np.linalg.eigvalsh(other.toarray()) < 0.0))
+            assert factor.negative_eigenvalues == negative
