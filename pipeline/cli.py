@@ -24,6 +24,18 @@ Out = Annotated[
 ]
 Quiet = Annotated[bool, typer.Option("--quiet", help="No progress.")]
 
+CampaignFolder = Annotated[
+    Path, typer.Argument(metavar="CAMPAIGN", help="Folder with campaign.toml and measurements.csv.")
+]
+ModelFile = Annotated[
+    Path | None, typer.Option("--model", help="Saved model; default model.toml of the campaign, if there.")
+]
+EffectsFrom = Annotated[
+    list[Path] | None,
+    typer.Option("--effects-from", help="Python file with an effect of your own; repeatable."),
+]
+Json = Annotated[Path | None, typer.Option("--json", help="File for the whole result.")]
+
 
 def give_up(message: str, code: int) -> NoReturn:
     """Print one sentence and end."""
@@ -63,12 +75,73 @@ def report(
     guarded(lambda: redraw(folder, quiet))
 
 
+@app.command()
+def compare(
+    campaign: CampaignFolder,
+    model: ModelFile = None,
+    effects_from: EffectsFrom = None,
+    json: Json = None,
+    out: Annotated[Path | None, typer.Option(help="Folder for comparison.json.")] = None,
+    quiet: Quiet = False,
+) -> None:
+    """Models against measurements: error by test and channel, and how the model fails."""
+    from pipeline.compare import compare
+
+    guarded(lambda: compare(campaign, model, json, out, quiet, effects_from or []))
+
+
+@app.command()
+def effects(
+    name: Annotated[str | None, typer.Argument(metavar="NAME", help="An effect; without it, all.")] = None,
+    effects_from: EffectsFrom = None,
+) -> None:
+    """The catalogue of physical effects, or one of them: equation, parameters, what it looks like."""
+    from pipeline.effects_page import effects
+
+    guarded(lambda: effects(name, effects_from or []))
+
+
+@app.command()
+def simulate(
+    out: Annotated[
+        Path, typer.Argument(metavar="OUT", help="Folder for the campaign; it must not have one.")
+    ],
+    effect: Annotated[
+        list[str] | None,
+        typer.Option("--effect", metavar="NAME[.PARAMETER][=VALUE]", help="What is hidden; repeatable."),
+    ] = None,
+    seed: Annotated[int, typer.Option(min=0, help="Of the noise, and of sizes that are not given.")] = 0,
+    quiet: Quiet = False,
+) -> None:
+    """A virtual bench: finite elements with hidden effects and noise write a campaign; the answer is sealed."""
+    from pipeline.simulate import simulate
+
+    guarded(lambda: simulate(out, effect or [], seed, quiet))
+
+
+@app.command()
+def add(
+    campaign: CampaignFolder,
+    effects: Annotated[list[str], typer.Argument(metavar="EFFECT...", help="Names as in the catalogue.")],
+    model: ModelFile = None,
+    effects_from: EffectsFrom = None,
+    json: Json = None,
+    out: Annotated[Path | None, typer.Option(help="Folder for answer.json.")] = None,
+    seed: Annotated[int | None, typer.Option(help="Kept with the answer; nothing here is random.")] = None,
+    quiet: Annotated[bool, typer.Option("--quiet", help="Only the verdict and the parameters.")] = False,
+) -> None:
+    """Add effects to the campaign's model, fit it, show how the error falls, save the model with the campaign."""
+    from pipeline.add_command import add_effects
+
+    guarded(lambda: add_effects(campaign, effects, model, effects_from or [], json, out, seed, quiet))
+
+
 def typed() -> str:
     """The command line that was given."""
     return shlex.join(["python", "-m", "pipeline", *sys.argv[1:]])
 
 
-def guarded(work: Callable[[], None]) -> None:
+def guarded(work: Callable[[], object]) -> None:
     """Run, and turn what went wrong into one sentence and an exit code."""
     try:
         work()

@@ -11,7 +11,7 @@ from pipeline.case import Case
 from pipeline.entries import rows
 from pipeline.result import Critical, Curve, Parallelogram, Validity
 from pipeline.stages.bar import Specimen
-from pipeline.stages.linkage import SolidBuckling, SolidPath, SolidStiffness
+from pipeline.stages.linkage import BOW, SolidBuckling, SolidPath, SolidStiffness
 from pipeline.stages.springs import PLACES, SpringLinkage, linear_slope
 from vjm.closed_forms import middle_hinge_only
 from vjm.stiffness import in_bar_frame, singular_values
@@ -174,39 +174,43 @@ def curve_records(case: Case, stiffness: Floats, paths: Sequence[SolidPath]) -> 
     """LIN, FEA and the lumped springs over the travel of each solid path."""
     records = []
     for path in paths:
-        x = np.array(path.x)
-        slope = linear_slope(SpringLinkage(case, stiffness, path.q_deg).closed_form, path.q_deg, path.held)
-        common = {"q_deg": path.q_deg, "held": path.held}
-        records.append(
-            Curve(
-                model="lin",
-                spring_at="tip",
-                branch="straight",
-                x_mm=[0.0, float(x[-1])],
-                fx_N=[0.0, float(slope * x[-1])],
-                critical_N=[],
-                note="LIN: the straight line of Eq. 11",
-                **common,
-            )
-        )
-        note = "FEA: solid bars with a bow of L/30000 in the shape of the lowest mode"
+        springs = {place: SpringLinkage(case, stiffness, path.q_deg, place) for place in PLACES}
+        slope = linear_slope(springs["tip"].closed_form, path.q_deg, path.held)
+        ends = np.array([0.0, path.x[-1]])
+        records.append(curve(path, "lin", "tip", ends, slope * ends, "LIN: the straight line of Eq. 11"))
+        note = f"FEA: solid bars with {BOW} in the shape of the lowest mode"
         if path.failure:
             note = f"FEA at q = {path.q_deg:g}°, {' '.join(path.held)} held: {path.failure}"
         records.append(
-            Curve(
-                model="fea",
-                spring_at="distributed",
-                branch="buckled",
-                x_mm=path.x,
-                fx_N=path.fx,
-                critical_N=[-path.critical],
-                note=note,
-                **common,
-            )
+            curve(path, "fea", "distributed", path.x, path.fx, note, [-path.critical], buckled=True)
         )
         for place in PLACES:
-            records.extend(spring_curves(SpringLinkage(case, stiffness, path.q_deg, place), path))
+            records.extend(spring_curves(springs[place], path))
     return records
+
+
+def curve(
+    path: SolidPath,
+    model: str,
+    spring_at: str,
+    x: Sequence[float] | Floats,
+    fx: Sequence[float] | Floats,
+    note: str,
+    critical: Sequence[float] = (),
+    buckled: bool = False,
+) -> Curve:
+    """A curve of a model under the conditions of a solid path."""
+    return Curve(
+        model=model,
+        q_deg=path.q_deg,
+        held=path.held,
+        spring_at=spring_at,
+        branch="buckled" if buckled else "straight",
+        x_mm=[float(v) for v in x],
+        fx_N=[float(v) for v in fx],
+        critical_N=[float(v) for v in critical],
+        note=note,
+    )
 
 
 def spring_curves(springs: SpringLinkage, path: SolidPath) -> list[Curve]:
@@ -217,35 +221,19 @@ def spring_curves(springs: SpringLinkage, path: SolidPath) -> list[Curve]:
     straight = x[x >= found.displacement] if within else x
     if within:
         straight = np.append(straight, found.displacement)
-    common = {"model": "vjm", "q_deg": path.q_deg, "held": path.held, "spring_at": springs.place}
-    critical = [float(found.load)] if found.found else []
+    critical = [found.load] if found.found else []
     loads = springs.curve(path.held, straight)
     good = np.isfinite(loads)
-    records = [
-        Curve(
-            branch="straight",
-            x_mm=[float(v) for v in straight[good]],
-            fx_N=[float(v) for v in loads[good]],
-            critical_N=critical,
-            note="VJM: lumped springs on the straight path"
-            if good.all()
-            else "VJM: lumped springs; the line ends where no equilibrium was found",
-            **common,
-        )
-    ]
+    note = "VJM: lumped springs on the straight path"
+    if not good.all():
+        note = "VJM: lumped springs; the line ends where no equilibrium was found"
+    records = [curve(path, "vjm", springs.place, straight[good], loads[good], note, critical)]
     if within:
         past = np.linspace(found.displacement, x[-1], 12)[1:]
         reached, force = springs.buckled(found, past)
-        records.append(
-            Curve(
-                branch="buckled",
-                x_mm=[float(found.displacement), *(float(v) for v in reached)],
-                fx_N=[float(found.load), *(float(v) for v in force)],
-                critical_N=critical,
-                note="VJM: the branch past the critical load",
-                **common,
-            )
-        )
+        note = "VJM: the branch past the critical load"
+        bent = ([found.displacement, *reached], [found.load, *force])
+        records.append(curve(path, "vjm", springs.place, *bent, note, critical, buckled=True))
     return records
 
 

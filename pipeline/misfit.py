@@ -129,6 +129,14 @@ def misfit(series: Series) -> Misfit:
     return Misfit(tuple(found), omitted)
 
 
+def explained(series: Series, signature: Signature) -> Array:
+    """(N,) what a number of `misfit` explains of the residual, in sigmas; zeros for the scatter."""
+    regressor, _, _ = _regressors(series)[signature.name]
+    if signature.name == "scatter" or regressor is None:
+        return np.zeros_like(series.residual)
+    return np.asarray(signature.value * regressor / series.sigma)
+
+
 def flagged(signatures: Iterable[Signature], rate: float = 0.05) -> tuple[Signature, ...]:
     """Those that noise alone would not give: at most the part `rate` of all looks at noise raises any flag.
 

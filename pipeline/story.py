@@ -6,6 +6,7 @@ import numpy as np
 
 from pipeline.entries import eight_entries
 from pipeline.result import Bar, Buckling, Critical, Parallelogram, Validity
+from pipeline.stages.linkage import BOW
 
 FULLY = ["y", "z", "rx", "ry", "rz"]
 GUIDED = ["z", "rx", "ry", "rz"]
@@ -147,7 +148,7 @@ def validity_sentences(records: Sequence[Validity]) -> list[str]:
         if 0.01 in loads and 0.05 in loads:
             sentences.append(
                 f"With the platform {named}, the linear model is good to 1 % up to {kilo(loads[0.01])} and to 5 % "
-                f"up to {kilo(loads[0.05])} (solid bars of the path's coarser mesh with a bow of L/30000, q = 0; "
+                f"up to {kilo(loads[0.05])} (solid bars of the path's coarser mesh with {BOW}, q = 0; "
                 f"a larger bow bends earlier)."
             )
     return sentences

@@ -72,10 +72,15 @@ def check_suitable(effects: Iterable[Effect], campaign: Campaign) -> None:
         for rig in {id(test.rig): test.rig for test in campaign.tests}.values():
             plain = mechanism_of(rig, campaign.gauges)
             try:
-                there = effect.apply(plain, effect.typicals)
+                # A mechanism may build its bars only when they are asked for.
+                drives = layout(effect.apply(plain, effect.typicals)).drives
             except ValueError as error:
                 raise InputError(f"{campaign.name}: {error}") from error
-            if not warm and DRIVE in layout(there).drives:
+            except Exception as error:
+                # A user's own effect may fail in any way: that is bad input, not a failure of the program.
+                said = f"{type(error).__name__}: {error}"
+                raise InputError(f"{effect.name} cannot be applied to the rig: {said}") from error
+            if not warm and DRIVE in drives:
                 raise InputError(
                     f"{campaign.name}: {effect.name} needs temperatures, none was measured, "
                     "allowed with the column temperature_C"

@@ -210,17 +210,17 @@ def working_stiffness(s: Specimen) -> Floats:
 def laws(s: Specimen, stiffness: Floats) -> dict[str, float]:
     """How well K_b keeps the laws that any elastic body keeps."""
     model = LinearModel(single_bar(s.space, s.bar.length), s.material)
-    points = s.space.mesh.points
+    points, matrix = s.space.mesh.points, model.matrices[0]
     worst = 0.0
     for motion in (*np.eye(3), *(np.cross(e, points / s.bar.length) for e in np.eye(3))):
         u = np.broadcast_to(motion, points.shape).ravel()
-        worst = max(worst, float(np.abs(model.matrices[0] @ u).max()))
+        worst = max(worst, float(np.abs(matrix @ u).max()))
     raw = model.energy_products(model.motions(PLATFORM, ()))
     scale = np.sqrt(np.outer(np.diag(raw), np.diag(raw)))
     eigenvalues = np.linalg.eigvalsh(stiffness / scale)
     return {
         "asymmetry": float(np.max(np.abs(raw - raw.T) / scale)),
-        "rigid_motion_force_share": worst / float(np.abs(model.matrices[0]).max()),
+        "rigid_motion_force_share": worst / float(abs(matrix).max()),
         "smallest_scaled_eigenvalue": float(eigenvalues[0]),
     }
 

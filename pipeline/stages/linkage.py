@@ -24,8 +24,9 @@ HELD_SETS: tuple[tuple[str, ...], ...] = (
 )
 # Enough for both planes: two equal bars give every mode of a bar twice, sideways modes come first.
 LOWEST = 5
-# Bow of both bars in the shape of the lowest mode, as a share of the length: a thirty-thousandth.
-BOW = 1.0 / 30000.0
+# Bow of both bars in the shape of the lowest mode: their length over this.
+LENGTH_TO_BOW = 30_000
+BOW = f"a bow of L/{LENGTH_TO_BOW}"
 
 
 class SolidBuckling(BaseModel):
@@ -103,7 +104,7 @@ def solid_path(case: Case, s: Specimen, q: float, held: tuple[str, ...], stage: 
     """The compression curve of slightly bowed solid bars, through the first critical load."""
     straight = solid_linkage(case, s, s.path_space, q)
     first: Mode = buckling(straight, held, 1)[0]
-    bowed = with_imperfection(straight.linkage, first.displacements, BOW * s.bar.length)
+    bowed = with_imperfection(straight.linkage, first.displacements, s.bar.length / LENGTH_TO_BOW)
     model = LinearModel(bowed, s.material)
     tangent = slope(model, held)
     values = first.load / tangent * np.array(s.detail.travel)

@@ -17,6 +17,9 @@ from pipeline.campaign.model import Role
 from pipeline.errors import InputError
 from pipeline.virtual.plan import PlannedTest
 
+DISPLAYED = 20.0
+"""Steps of a display in a sigma, at least: rounding then adds 1e-4 of the noise."""
+
 
 def measure(
     name: str,
@@ -29,11 +32,12 @@ def measure(
 ) -> Campaign:
     """A campaign as a bench with these hidden errors ("effect.parameter": value) would have measured it.
 
-    The prescribed quantities are reached exactly and read with noise, as all others. InputError for errors that the
+    The prescribed quantities are reached exactly and read with noise, as all others; displays show decimals down
+    to a twentieth of a sigma or less. InputError for errors that the
     truth cannot have, RuntimeError where it finds no equilibrium.
     """
     try:
-        errors = Errors.of(_as_frame(hidden, rig))
+        errors = Errors.of(as_frame(hidden, rig))
         trials = [bench.Trial(np.radians(t.q_deg), t.control, t.values, t.temperature) for t in plan]
         sights = [FrameGauge(g.name, g.bar, g.station, g.vector) for g in gauges]
         found = bench.run(frame_rig(rig), errors, trials, sights)
@@ -76,7 +80,7 @@ def frame_rig(rig: Rig) -> FrameRig:
     )
 
 
-def _as_frame(hidden: Mapping[str, float], rig: Rig) -> dict[str, float]:
+def as_frame(hidden: Mapping[str, float], rig: Rig) -> dict[str, float]:
     """Names of the catalogue as the frame spells them: weights are vectors there."""
     down = np.array([0.0, 0.0, -1.0]) if rig.down is None else rig.down
     out: dict[str, float] = {}
@@ -95,7 +99,10 @@ def _test(
     planned: PlannedTest, rig: Rig, readings: bench.Readings, noise: Noise, generator: np.random.Generator
 ) -> Test:
     def read(values: np.ndarray, sigma: np.ndarray) -> np.ndarray:
-        return np.asarray(values + generator.normal(size=values.shape) * sigma)
+        noisy = np.asarray(values + generator.normal(size=values.shape) * sigma)
+        for k, one in enumerate(sigma):
+            noisy[:, k] = _displayed(noisy[:, k], one)
+        return noisy
 
     steps = np.arange(len(planned.values))
     data = Data(
@@ -103,8 +110,15 @@ def _test(
         read(readings.displacement, noise.displacement),
         read(readings.wrench, noise.wrench),
         read(readings.gauges, noise.gauges[: readings.gauges.shape[1]]),
-        planned.temperature + generator.normal(size=steps.size) * noise.temperature,
+        _displayed(
+            planned.temperature + generator.normal(size=steps.size) * noise.temperature, noise.temperature
+        ),
         np.zeros(steps.size, dtype=np.int64),
     )
     role: Role = "holdout" if planned.holdout else "fit"
     return Test(planned.id, planned.q_deg, role, planned.control, "nominal", rig, data)
+
+
+def _displayed(values: np.ndarray, sigma: float) -> np.ndarray:
+    """Rounded to the decimals of a display."""
+    return np.asarray(np.round(values, int(np.ceil(-np.log10(sigma / DISPLAYED)))))

@@ -13,9 +13,9 @@ import numpy as np
 import pytest
 
 from vjm import closed_forms, paper, stiffness
-from vjm.lumped import STATION
 from vjm.critical import critical_load
 from vjm.equilibrium import equilibrium
+from vjm.lumped import STATION
 from vjm.paper_errata import eq_6_step, errata, example, moving_last_factor
 
 EVIDENCE = {erratum.number: erratum.evidence for erratum in errata()}

@@ -1,0 +1,84 @@
+"""What adding effects changed, in sentences."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from pipeline.answer import LEVEL, Answer, ModelError
+
+CLEARLY = 1.0 - LEVEL
+
+
+def verdict_sentence(answer: Answer) -> str:
+    """The verdict with its numbers."""
+    before, after = answer.error[0], answer.error[-1]
+    fall = f"error {before.fit:.3g} -> {after.fit:.3g} sigma (whitened RMS, 1 is noise)"
+    if after.holdout is not None and before.holdout is not None:
+        fall += f", held-out tests {before.holdout:.3g} -> {after.holdout:.3g}"
+    if answer.verdict == "within_noise":
+        return f"within_noise: what is left looks like noise; {fall}."
+    return f"{answer.verdict}: {_not_noise(after)}; {fall}."
+
+
+def sentences(answer: Answer, remarks: tuple[str, ...]) -> tuple[str, ...]:
+    """All that is worth saying, the verdict first."""
+    return (verdict_sentence(answer), *_details(answer), *_lost(answer), *(f"{r}." for r in remarks))
+
+
+def _not_noise(error: ModelError) -> str:
+    if error.lost:
+        return "the model has no prediction for some rows"
+    said = [
+        f"{what} (p = {p:.2g})"
+        for what, p in (("its size", error.chi_square_p), ("its order along the loads", error.lag_one_p))
+        if p is not None and p < LEVEL
+    ]
+    return f"what is left is no noise by {' and '.join(said)}" if said else "nothing can be tested"
+
+
+def _details(answer: Answer) -> Iterator[str]:
+    before, after = answer.error[0], answer.error[-1]
+    if before.chi_square is not None and after.chi_square is not None:
+        numbers = sum(name.partition(".")[0] in answer.added for name in answer.parameters)
+        gain = before.chi_square - after.chi_square
+        word = "fell" if gain >= 0.0 else "rose"
+        cost = {0: "without a further number", 1: "for one further number"}
+        yield (
+            f"Chi-square {word} by {abs(gain):.4g} to {after.chi_square:.4g} on {after.degrees} degrees of "
+            f"freedom, {cost.get(numbers, f'for {numbers} further numbers')}, with {', '.join(answer.added)}."
+        )
+    if after.chi_square_p is not None and after.chi_square_p > CLEARLY:
+        yield "The residual is smaller than its noise: the sigmas of the campaign may be too large."
+    if answer.parameters and after.chi_square_p is not None and after.chi_square_p < LEVEL:
+        yield (
+            "The intervals assume that the noise is as given and the model complete; what is left is larger "
+            "than noise, so they are too narrow."
+        )
+    for name in _absent(answer):
+        yield f"{name} is not larger than zero by these tests: its interval begins where the effect is absent."
+    for group in answer.undetermined:
+        if len(group) == 1:
+            yield f"{group[0]} is not determined by these tests: they say nothing about it."
+        else:
+            yield f"Only combinations of {_list(group)} are determined by these tests, none of them alone."
+    for pair in answer.correlations:
+        yield f"{pair.first} and {pair.second} are hardly told apart: correlation {pair.value:+.3f}."
+
+
+def _absent(answer: Answer) -> Iterator[str]:
+    for name, it in answer.parameters.items():
+        if it.interval == "profile" and it.low95 == 0.0 and it.value >= 0.0:
+            yield name
+
+
+def _lost(answer: Answer) -> Iterator[str]:
+    was, now = set(answer.error[0].lost), answer.error[-1].lost
+    for said in now:
+        yield f"{said}."
+    gone = len(was - set(now))
+    if gone and not now:
+        yield f"Rows without a prediction before, in {gone} tests, have one now."
+
+
+def _list(names: tuple[str, ...]) -> str:
+    return f"{', '.join(names[:-1])} and {names[-1]}"

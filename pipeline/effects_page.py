@@ -1,0 +1,89 @@
+"""The command effects: the catalogue as a table, and one effect as a page."""
+
+from __future__ import annotations
+
+import inspect
+from collections.abc import Iterable, Mapping
+from pathlib import Path
+
+from rich.console import Group, RenderableType
+from rich.padding import Padding
+from rich.table import Table
+from rich.text import Text
+
+from pipeline.campaign.names import unknown_name
+from pipeline.compare_table import screen
+from pipeline.errors import InputError
+from pipeline.inference.suitable import known_effects
+from vjm.effects.base import Effect, Parameter
+
+
+def effects(name: str | None = None, effects_from: Iterable[Path] = ()) -> None:
+    """Print all effects, or one. InputError for a name that is not in the catalogue."""
+    known = known_effects(effects_from).effects
+    shown = table(known) if name is None else page(effect_named(name, known))
+    screen().print(shown)
+
+
+def effect_named(name: str, known: Mapping[str, Effect]) -> Effect:
+    """The effect of that name. InputError with the nearest one, or all, if there is none."""
+    if name not in known:
+        raise InputError(f"effect {name!r} is unknown, {unknown_name(name, known)}")
+    return known[name]
+
+
+def table(known: Mapping[str, Effect]) -> Table:
+    """Name, title and parameters with units of all effects."""
+    out = Table(box=None, padding=(0, 0, 0, 2), pad_edge=False, header_style="bold")
+    for head in ("effect", "what it is", "parameters"):
+        out.add_column(head)
+    for effect in known.values():
+        parameters = ", ".join(map(_with_unit, effect.parameters)) or "there or not"
+        out.add_row(*map(Text, (effect.name, effect.title, parameters)))
+    return out
+
+
+def _with_unit(parameter: Parameter) -> str:
+    """The name, and the unit where the name does not end with it."""
+    spelled = parameter.unit.replace("·", "").replace("/", "_per_").removeprefix("1_")
+    return parameter.name if parameter.name.endswith(spelled) else f"{parameter.name} [{parameter.unit}]"
+
+
+def page(effect: Effect) -> RenderableType:
+    """Everything that an effect declares, and the file that it is in."""
+    parts: list[RenderableType] = [Text(f"{effect.name}: {effect.title}", style="bold"), Text()]
+    said = {
+        "equation": effect.equation,
+        "what it looks like": effect.signature,
+        "limits": effect.limits,
+        "rigs": " and ".join(effect.kinds),
+        "source": effect.source,
+        "file": _file_of(effect),
+    }
+    for head, text in said.items():
+        parts += [Text(head, style="bold"), Padding(Text(text), (0, 0, 0, 2))]
+    if effect.parameters:
+        parts += [Text(), _parameters(effect.parameters)]
+    else:
+        parts += [Text(), Text("no parameters: it is there or not")]
+    return Group(*parts)
+
+
+def _parameters(parameters: tuple[Parameter, ...]) -> Table:
+    out = Table(box=None, padding=(0, 0, 0, 2), pad_edge=False, header_style="bold")
+    out.add_column("parameter", no_wrap=True)
+    for head in ("unit", "absent", "typical", "lowest", "highest"):
+        out.add_column(head, no_wrap=True, justify="left" if head == "unit" else "right")
+    out.add_column("meaning")
+    for p in parameters:
+        numbers = (f"{value:.6g}" for value in (p.null, p.null + p.typical, p.low, p.high))
+        out.add_row(*map(Text, (p.name, p.unit, *numbers, p.meaning)))
+    return out
+
+
+def _file_of(effect: Effect) -> str:
+    """Path of the effect's file, from here where it is below."""
+    # The function knows its file; the class only through a module that may not be registered.
+    file = Path(inspect.getfile(type(effect).change)).resolve()
+    here = Path.cwd().resolve()
+    return str(file.relative_to(here)) if here in file.parents else str(file)

@@ -1,0 +1,90 @@
+"""The command simulate: a virtual bench writes a campaign, and the answer goes to a sealed file beside it."""
+
+from __future__ import annotations
+
+import json
+import re
+from collections.abc import Sequence
+from pathlib import Path
+
+import numpy as np
+
+from meshes.files import replacing
+from pipeline.campaign import Campaign, Rig, write
+from pipeline.campaign.reading import DESCRIPTION, MEASUREMENTS
+from pipeline.command import usable
+from pipeline.errors import InputError
+from pipeline.progress import Progress
+from pipeline.provenance import commit, versions
+from pipeline.virtual.bench import measure
+from pipeline.virtual.hidden import hidden
+from pipeline.virtual.plan import GAUGES, SENSORS, bench_plan
+from vjm import paper
+from vjm.effects import catalogue
+
+LENGTH, WIDTH = 310.0, 80.0
+FIBRE_Y, FIBRE_Z = 6.0, 7.75
+"""mm: outermost fibres of the plain I-bar, flange 12 wide and 15.5 high, that is nearly the paper's."""
+REFERENCE_C = 20.0
+
+
+def simulate(out: Path, effects: Sequence[str], seed: int, quiet: bool = False) -> Campaign:
+    """Measure the bench plan on frame finite elements with hidden effects, and write it to a folder.
+
+    The answer is in `sealed(out)`; what is printed says where it is, not what. InputError for effects that cannot
+    be had and for a folder with a campaign; RuntimeError where the bench itself finds no equilibrium.
+    """
+    rig = bench_rig()
+    _free(out)
+    # Sizes and noise are drawn apart, so that the same seed gives the same noise whatever is hidden.
+    sizes, noise = (np.random.default_rng(s) for s in np.random.SeedSequence(seed).spawn(2))
+    values = hidden(effects, catalogue(), rig, sizes)
+    paths = {f"{name}.{p}": value for name, own in values.items() for p, value in own.items()}
+    with Progress(quiet).stage("simulate"):
+        name = re.sub(r"\s+", " ", out.resolve().name)
+        campaign = measure(name, rig, bench_plan(), SENSORS, paths, int(noise.integers(2**63)), GAUGES)
+    answer = {
+        "campaign": campaign.name,
+        "effects": list(values),
+        "parameters": paths,
+        "seed": seed,
+        "rig": "parallelogram of the paper's Eq. 12",
+        "truth": "geometrically exact frame finite elements: bar_geometric_nonlinearity is always there",
+        "versions": versions(),
+        "commit": commit(),
+    }
+    write(out, campaign)
+    with replacing(sealed(out)) as part:
+        part.write_text(json.dumps(answer, indent=1) + "\n", encoding="utf-8")
+    rows = sum(test.data.steps.size for test in campaign.tests)
+    print(f"{out}: {len(campaign.tests)} tests, {rows} load steps; the answer is sealed in {sealed(out)}")
+    return campaign
+
+
+def bench_rig() -> Rig:
+    """The parallelogram of the paper's K_b (Eq. 12), with what thermometer and yield need to know."""
+    return Rig(
+        "parallelogram",
+        LENGTH,
+        WIDTH,
+        bar_stiffness=paper.BAR_STIFFNESS,
+        gravity=(0.0, 0.0, -1.0),
+        reference_temperature=REFERENCE_C,
+        fibre_y=FIBRE_Y,
+        fibre_z=FIBRE_Z,
+    )
+
+
+def sealed(out: Path) -> Path:
+    """Where the answer to a simulated campaign is."""
+    return out.parent / f"{out.name}.sealed.json"
+
+
+def _free(out: Path) -> None:
+    """InputError if there is a campaign already, its answer, or no way to write."""
+    for path in (out / DESCRIPTION, out / MEASUREMENTS, sealed(out)):
+        if path.exists():
+            raise InputError(f"{path} exists, allowed is a folder without a campaign or its answer")
+    if not out.name:
+        raise InputError(f"{out} has no name of its own, allowed is the path of a new folder")
+    usable(out, str(out))

@@ -1,0 +1,95 @@
+"""What a virtual bench hides: effects as they are asked for, NAME, NAME=VALUE or NAME.PARAMETER=VALUE, as numbers."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from math import isfinite
+
+import numpy as np
+
+from fem.frame.errors import Errors
+from pipeline.campaign import Rig
+from pipeline.campaign.names import unknown_name
+from pipeline.errors import InputError
+from pipeline.inference.rigs import mechanism_of
+from pipeline.virtual.bench import as_frame
+from vjm.effects.base import Effect, Parameter
+
+FACTOR = 2.0
+"""An effect without a value is up to so many times larger or smaller than its typical size."""
+
+
+def hidden(
+    asked: Iterable[str], known: Mapping[str, Effect], rig: Rig, generator: np.random.Generator
+) -> dict[str, dict[str, float]]:
+    """Values of all parameters, by effect and parameter.
+
+    NAME=VALUE sets the effect's first parameter, NAME.PARAMETER=VALUE any; the rest stay absent. NAME draws every
+    size of the effect: typical, times a factor between 1/2 and 2, of either sign where both have a meaning.
+    InputError for what is no effect, no parameter, no number, out of bounds, or not to be had on this bench.
+    """
+    given: dict[str, dict[str, float]] = {}
+    for text in asked:
+        left, equals, value = text.partition("=")
+        name, dot, parameter = left.strip().partition(".")
+        if name not in known:
+            raise InputError(f"--effect {text}: effect {name!r} is unknown, {unknown_name(name, known)}")
+        effect = known[name]
+        _simulable(text, effect, rig)
+        new = name not in given
+        own = given.setdefault(name, dict(effect.nulls))
+        if not equals and dot:
+            raise InputError(f"--effect {text}: has no value, allowed is {left}=VALUE")
+        if equals:
+            chosen = _parameter(text, effect, parameter)
+            own[chosen.name] = _number(text, value, chosen)
+        elif new:
+            own |= _drawn(effect, rig, generator)
+        else:
+            raise InputError(f"--effect {text}: {name} is given twice, allowed is once")
+    return given
+
+
+def _simulable(text: str, effect: Effect, rig: Rig) -> None:
+    paths = {f"{effect.name}.{p.name}": p.null for p in effect.parameters}
+    try:
+        Errors.of(as_frame(paths, rig))
+        effect.apply(mechanism_of(rig, ()), effect.typicals)
+    except ValueError as error:
+        raise InputError(f"--effect {text}: the virtual bench cannot have {effect.name}: {error}") from error
+
+
+def _parameter(text: str, effect: Effect, name: str) -> Parameter:
+    names = [p.name for p in effect.parameters]
+    if not names:
+        raise InputError(f"--effect {text}: {effect.name} is there or not, allowed is its name alone")
+    if name and name not in names:
+        raise InputError(f"--effect {text}: {effect.name} has no {name!r}, {unknown_name(name, names)}")
+    return effect.parameters[names.index(name) if name else 0]
+
+
+def _number(text: str, value: str, parameter: Parameter) -> float:
+    try:
+        number = float(value)
+    except ValueError:
+        number = np.nan
+    if not isfinite(number) or not parameter.low <= number <= parameter.high:
+        unit = "" if parameter.unit == "1" else f" {parameter.unit}"
+        raise InputError(
+            f"--effect {text}: {parameter.name} is {value.strip() or 'empty'}, "
+            f"allowed are numbers from {parameter.low:g} to {parameter.high:g}{unit}"
+        )
+    return number
+
+
+def _drawn(effect: Effect, rig: Rig, generator: np.random.Generator) -> dict[str, float]:
+    out = {}
+    mechanism = mechanism_of(rig, ())
+    for p in effect.parameters:
+        size = p.typical * FACTOR ** generator.uniform(-1.0, 1.0)
+        sign = 1.0 if p.one_sided else generator.choice([-1.0, 1.0])
+        alone = effect.nulls | {p.name: p.null + p.typical}
+        # A parameter that is no size of the effect, such as a presliding angle, changes nothing alone.
+        if effect.apply(mechanism, alone) is not mechanism:
+            out[p.name] = float(np.clip(p.null + sign * size, p.low, p.high))
+    return out
