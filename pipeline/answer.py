@@ -12,7 +12,7 @@ from typing import Any, Literal
 
 from meshes.files import replacing
 from pipeline.errors import InputError
-from pipeline.result import Record
+from pipeline.record import Record
 
 Verdict = Literal["within_noise", "identified", "ambiguous", "unknown"]
 LEVEL = 0.01

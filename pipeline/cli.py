@@ -85,7 +85,7 @@ def compare(
     quiet: Quiet = False,
 ) -> None:
     """Models against measurements: error by test and channel, and how the model fails."""
-    from pipeline.compare import compare
+    from pipeline.compare.command import compare
 
     guarded(lambda: compare(campaign, model, json, out, quiet, effects_from or []))
 
@@ -131,7 +131,7 @@ def add(
     quiet: Annotated[bool, typer.Option("--quiet", help="Only the verdict and the parameters.")] = False,
 ) -> None:
     """Add effects to the campaign's model, fit it, show how the error falls, save the model with the campaign."""
-    from pipeline.add_command import add_effects
+    from pipeline.add.command import add_effects
 
     guarded(lambda: add_effects(campaign, effects, model, effects_from or [], json, out, seed, quiet))
 

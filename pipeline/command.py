@@ -3,10 +3,10 @@
 import os
 from pathlib import Path
 
-from pipeline.case import load_case
 from pipeline.errors import InputError
 from pipeline.progress import Progress
 from pipeline.system import require_libraries
+from pipeline.validation.case import load_case
 
 KEPT = Path("reports/validation")
 OWN = Path("results")
@@ -17,10 +17,10 @@ def validate(name: str, coarse: bool, fine: bool, out: Path | None, quiet: bool,
     """The whole validation of a case, and its report; `typed` is the command line."""
     case = load_case(name)
     require_libraries()
-    from pipeline.detail import COARSE, DEFAULT, FINE
-    from pipeline.result import write_result
-    from pipeline.run import run
-    from pipeline.workshop import Workshop
+    from pipeline.validation.detail import COARSE, DEFAULT, FINE
+    from pipeline.validation.result import write_result
+    from pipeline.validation.run import run
+    from pipeline.validation.workshop import Workshop
 
     progress = Progress(quiet)
     detail = COARSE if coarse else FINE if fine else DEFAULT
@@ -39,7 +39,7 @@ def redraw(folder: Path, quiet: bool) -> None:
     """Draw a saved result again."""
     from pydantic import ValidationError
 
-    from pipeline.result import Result
+    from pipeline.validation.result import Result
 
     path = folder / "result.json"
     try:

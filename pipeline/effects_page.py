@@ -12,7 +12,7 @@ from rich.table import Table
 from rich.text import Text
 
 from pipeline.campaign.names import unknown_name
-from pipeline.compare_table import screen
+from pipeline.compare.table import screen
 from pipeline.errors import InputError
 from pipeline.inference.suitable import known_effects
 from vjm.effects.base import Effect, Parameter

@@ -6,7 +6,7 @@ import sys
 
 import pytest
 
-from pipeline.result import Result
+from pipeline.validation.result import Result
 from tests.conftest import ROOT
 
 README = (ROOT / "README.md").read_text(encoding="utf-8")

@@ -6,8 +6,8 @@ from pathlib import Path
 
 import pytest
 
-from pipeline.case import SHIPPED, load_case, shipped_cases
 from pipeline.errors import InputError
+from pipeline.validation.case import SHIPPED, load_case, shipped_cases
 from tests.conftest import Done
 
 PLAIN = (SHIPPED / "plain_i_bar.toml").read_text()

@@ -13,14 +13,14 @@ from rich.console import Console
 from fem.material import Isotropic
 from meshes.bar import Bar
 from pipeline import system
-from pipeline.comparison import departures
-from pipeline.entries import eight_entries
 from pipeline.errors import InputError
 from pipeline.progress import Progress, Stage
-from pipeline.reference_bar import Family, find_bar, thin_walled_stiffness
-from pipeline.result import write_text
-from pipeline.stages.linkage import SolidPath
-from pipeline.workshop import Workshop
+from pipeline.validation.comparison import departures
+from pipeline.validation.entries import eight_entries
+from pipeline.validation.reference_bar import Family, find_bar, thin_walled_stiffness
+from pipeline.validation.result import write_text
+from pipeline.validation.stages.linkage import SolidPath
+from pipeline.validation.workshop import Workshop
 
 ALUMINIUM = Isotropic(70e3, 0.33)
 

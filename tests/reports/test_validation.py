@@ -11,7 +11,7 @@ from typing import Any
 
 import pytest
 
-from pipeline.result import Result
+from pipeline.validation.result import Result
 from reports.validation import ReportError, draw
 from tests.reports import example
 

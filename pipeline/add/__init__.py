@@ -1,0 +1,1 @@
+"""Effects added to a campaign's model, fitted, and what that changed."""

@@ -1,0 +1,77 @@
+"""`add` from the command line: campaign and model in; terminal, JSON and model.toml out."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+
+from pipeline.add.fitting import Added, add
+from pipeline.add.table import show
+from pipeline.campaign import Campaign, read
+from pipeline.command import usable
+from pipeline.inference.model import Model
+from pipeline.inference.model_file import NAME, ModelFile, write_model
+from pipeline.inference.model_reading import read_model_file
+from pipeline.inference.suitable import Known, known_effects, named_effects
+from pipeline.progress import Progress
+from pipeline.provenance import commit, versions
+
+
+def add_effects(
+    folder: Path,
+    names: Sequence[str],
+    model_file: Path | None = None,
+    effects_from: Sequence[Path] = (),
+    json: Path | None = None,
+    out: Path | None = None,
+    seed: int | None = None,
+    quiet: bool = False,
+) -> None:
+    """Add effects to the model of the campaign in a folder, save it there, print what changed.
+
+    The model is that of `model_file`, else the one in the folder, else plain virtual springs. InputError for
+    bad input; nothing is written then.
+    """
+    known = known_effects(effects_from)
+    campaign = read(folder)
+    began, known = starting_model(campaign, folder, model_file, known)
+    effects = named_effects(names, known.effects)
+    for path, named in (
+        (folder, f"the model in {folder}"),
+        (json and json.parent, f"--json {json}"),
+        (out, f"--out {out}"),
+    ):
+        if path is not None:
+            usable(path, named)
+    progress = Progress(quiet)
+    with progress.stage(f"adding {', '.join(names)}") as stage:
+        found = add(campaign, began, effects, stage.say)
+        stage.note = f"{found.answer.evaluations} evaluations"
+    answer = found.answer.model_copy(update={"seed": seed})
+    save(folder / NAME, found, campaign, known)
+    if json is not None:
+        answer.write(json)
+    if out is not None:
+        answer.write(out / "answer.json")
+    following = [f"python -m pipeline compare {folder}"]
+    if answer.verdict != "within_noise":
+        following.append(f"python -m pipeline diagnose {folder}")
+    show(answer, str(folder / NAME), following, quiet)
+
+
+def starting_model(
+    campaign: Campaign, folder: Path, model_file: Path | None, known: Known
+) -> tuple[Model, Known]:
+    """The model to begin with, and all effects that are known then."""
+    path = model_file or folder / NAME
+    if model_file is None and not path.exists():
+        return Model(), known
+    saved = read_model_file(path, known, campaign.rig.kind)
+    return saved.model, known_effects(saved.effects_from, known)
+
+
+def save(path: Path, found: Added, campaign: Campaign, known: Known) -> None:
+    """Write the model with where it comes from."""
+    files = known.files_of(found.model.names)
+    it = ModelFile(found.model, found.uncertainty, files, campaign.name, commit(), versions())
+    write_model(path, it)

@@ -1,0 +1,1 @@
+"""Models beside measurements: how far off, where and how."""

@@ -1,0 +1,148 @@
+"""The base models and a saved one against a campaign, each with its failure if it has no prediction."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+from time import perf_counter
+
+import numpy as np
+
+from pipeline.campaign import Campaign
+from pipeline.compare.error import Discrepancy
+from pipeline.compare.failure import findings, groups
+from pipeline.compare.record import Comparison, ModelError
+from pipeline.inference.frame_prediction import predict_frame
+from pipeline.inference.linear_prediction import predict_linear
+from pipeline.inference.model import Model
+from pipeline.inference.prediction import Prediction, predict
+from pipeline.inference.program import Program, program
+from pipeline.inference.sigmas import completed
+from pipeline.provenance import commit, versions
+from vjm.effects.bar_geometric_nonlinearity import BarGeometricNonlinearity
+
+LEVEL = 0.01
+"""A p-value below which a residual is not taken for noise."""
+REACH = 2.0
+"""Lengths of a bar: no linkage has its platform farther from where it was without load."""
+FAR = "the platform would lie beyond the reach of the bars"
+TITLES = {
+    "lin": "LIN, constant stiffness",
+    "vjm": "VJM, lumped springs (Eq. 1)",
+    "saved": "VJM with",
+    "fea": "FEA, frame elements as drawn",
+}
+Say = Callable[[str], None]
+
+
+def compare_models(campaign: Campaign, saved: Model | None = None, say: Say = lambda _: None) -> Comparison:
+    """LIN, VJM, the saved model and FEA beside the measurements; nothing is fitted.
+
+    A model that cannot be solved at all has its reason in `failed`; rows that cannot, in `lost`. FEA is given the
+    tangent of virtual springs with refined bars, for the noise of its inputs. InputError for a sigma that is
+    missing and cannot be estimated.
+    """
+    start = perf_counter()
+    whole = completed(campaign)
+    cases = program(whole)
+    plans: dict[str, tuple[Model, Callable[[], Prediction]]] = {
+        "lin": (Model(), lambda: predict_linear(cases)),
+        "vjm": (Model(), lambda: predict(Model(), cases, slopes=False)),
+    }
+    if saved is not None:
+        plans["saved"] = (saved, lambda: predict(saved, cases, slopes=False))
+    plans["fea"] = (Model(), lambda: predict_frame(cases, _tangent(cases)))
+    found = []
+    for key, (model, solve) in plans.items():
+        say(TITLES[key])
+        found.append(_error(key, model, cases, solve))
+    return Comparison(
+        campaign=whole.name,
+        folder=str(whole.folder or ""),
+        kind=whole.rig.kind,
+        tests=len(whole.tests),
+        rows=len(cases.test),
+        readings=int(cases.predicted.sum()),
+        shown="vjm" if saved is None else "saved",
+        groups={
+            group.name: tuple(whole.tests[n].id for n in group.numbers)
+            for group in groups(whole.tests, whole.gauges)
+        },
+        remarks=whole.remarks,
+        models=tuple(found),
+        seconds=round(perf_counter() - start, 3),
+        versions=versions(),
+        commit=commit(),
+    )
+
+
+def _error(key: str, model: Model, cases: Program, solve: Callable[[], Prediction]) -> ModelError:
+    start = perf_counter()
+    title = f"{TITLES[key]} {', '.join(model.names) or 'no effect'}" if key == "saved" else TITLES[key]
+    names = model.names if key == "saved" else ()
+    try:
+        # Absurd numbers may overflow on their way to being lost; the rows are looked at, not the warnings.
+        with np.errstate(all="ignore"):
+            prediction = _credible(cases, solve())
+            discrepancy = Discrepancy(cases, prediction, len(model.free))
+            found = _judged(key, title, names, discrepancy)
+    except (ValueError, ArithmeticError, RuntimeError) as error:
+        said = str(error) or type(error).__name__
+        return ModelError(model=key, title=title, effects=names, failed=said)
+    return found.model_copy(update={"seconds": round(perf_counter() - start, 3)})
+
+
+def _judged(key: str, title: str, names: tuple[str, ...], discrepancy: Discrepancy) -> ModelError:
+    cases = discrepancy.program
+    size, order = discrepancy.size(), discrepancy.order()
+    flat = discrepancy.whitened[cases.fitted][cases.predicted[cases.fitted]]
+    fit = float(np.sqrt(flat @ flat / discrepancy.degrees)) if discrepancy.degrees > 0 else None
+    found, looks = findings(discrepancy)
+    checks = [check.p_value for check in (size, order) if check is not None]
+    return ModelError(
+        model=key,
+        title=title,
+        effects=names,
+        fit=fit,
+        holdout=discrepancy.rms(~cases.fitted),
+        degrees=max(discrepancy.degrees, 0),
+        chi_square_p=None if size is None else size.p_value,
+        lag_one_p=None if order is None else order.p_value,
+        within_noise=bool(checks) and min(checks) > LEVEL and not discrepancy.prediction.lost.any(),
+        lost=discrepancy.lost(),
+        tests=discrepancy.tests(),
+        channels=discrepancy.channels(cases.fitted),
+        holdout_channels=discrepancy.channels(~cases.fitted),
+        findings=found,
+        looks=looks,
+    )
+
+
+def _credible(cases: Program, prediction: Prediction) -> Prediction:
+    """Rows with numbers beyond all bounds are lost, and those where the platform lies beyond the bars' reach."""
+    parts = (prediction.values, prediction.by_inputs)
+    finite = np.all([np.isfinite(part.reshape(len(part), -1)).all(axis=1) for part in parts], axis=0)
+    reach = REACH * np.array([test.rig.length for test in cases.campaign.tests])[cases.test]
+    near = np.all(np.abs(np.nan_to_num(prediction.values[:, :3])) <= reach[:, None], axis=1)
+    good = finite & near
+    if good.all():
+        return prediction
+    said = {int(k): "the numbers overflow" if not finite[k] else FAR for k in np.flatnonzero(~good)}
+    return replace(
+        prediction,
+        values=np.where(good[:, None], prediction.values, 0.0),
+        by_inputs=np.where(good[:, None, None], prediction.by_inputs, 0.0),
+        lost=prediction.lost | ~good,
+        reasons=said | prediction.reasons,
+    )
+
+
+def _tangent(cases: Program) -> Prediction:
+    """Springs with refined bars; where they have no equilibrium, a constant stiffness."""
+    refined = predict(Model().with_effects([BarGeometricNonlinearity()]), cases, slopes=False)
+    if not refined.lost.any():
+        return refined
+    constant = predict_linear(cases)
+    return replace(
+        refined, by_inputs=np.where(refined.lost[:, None, None], constant.by_inputs, refined.by_inputs)
+    )

@@ -1,0 +1,213 @@
+"""The result of a validation run: one JSON file, written whole or not at all.
+
+Units N, mm, rad, MPa. 6x6 matrices map x y z rx ry rz to Fx Fy Fz Mx My Mz. In `curves` and `critical_N`
+compression is negative; in `buckling` and `critical` a compression load is positive and a tension load negative.
+"""
+
+import json
+from pathlib import Path
+from typing import Any
+
+from meshes.files import replacing
+from pipeline.record import Record
+
+Matrix = list[list[float]]
+
+
+class Entry(Record):
+    """One entry of a 6x6 (K11 .. K66): solid FE, its reference and the deviation (value / reference - 1)."""
+
+    entry: str
+    value: float
+    reference: float
+    deviation: float
+
+
+class Convergence(Record):
+    """K_b over nested meshes. `K22` and `observed_order` are those of `entries["K22"]`."""
+
+    dofs: list[int]
+    sizes_mm: list[float]
+    entries: dict[str, list[float]]
+    K22: list[float]
+    observed_order: float
+    orders: dict[str, float]
+    """0 where the values do not approach a limit from one side."""
+    extrapolated: Matrix
+    band: dict[str, float]
+    """Relative discretisation error of the working mesh, entry by entry."""
+
+
+class SecondRoute(Record):
+    """K_b by virtual experiments: loads on the tip, displacement field fitted to a rigid motion."""
+
+    stiffness: Matrix
+    entries: list[Entry]
+    leftover: dict[str, float]
+    """Under each unit wrench (Fx .. Mz), the part of the tip face's displacement that is no rigid motion (RMS)."""
+    explanation: str
+
+
+class Fit(Record):
+    """How the reference bar was found."""
+
+    start: dict[str, float]
+    found: dict[str, float]
+    entries: list[Entry]
+    rms: float
+    solves: int
+
+
+class Bar(Record):
+    """The bar: geometry, material, identified K_b and every check of it."""
+
+    section: dict[str, float | str]
+    length_mm: float
+    lug: dict[str, float] | None
+    material: dict[str, float | str]
+    constants: dict[str, float]
+    """area, Iy, Iz, J, Iw, shear areas of the section between the lugs; mm to the due power."""
+    stiffness: Matrix
+    paper: Matrix | None
+    worst_entry_error: float | None
+    entries: list[Entry]
+    oracle: Matrix
+    """Closed form: stepped Timoshenko beam with restrained warping."""
+    oracle_entries: list[Entry]
+    second_route: SecondRoute
+    fit: Fit | None
+    dofs: int
+    cells: int
+    cell_kind: str
+    quality: dict[str, float]
+    laws: dict[str, float]
+    """Relative asymmetry of K_b, largest force under a rigid motion, smallest eigenvalue ratio."""
+    convergence: Convergence
+
+
+class Buckling(Record):
+    """One critical load of a body. `load_N` is a compression load, positive."""
+
+    body: str
+    model: str
+    supports: str
+    plane: str
+    mode: int
+    load_N: float
+    formula_N: float | None = None
+    formula: str | None = None
+    deviation: float | None = None
+    picture: str | None = None
+
+
+class Parallelogram(Record):
+    """K_p at one angle by every model, in `frame`."""
+
+    q_deg: float
+    closed_form: Matrix
+    vjm: Matrix
+    fea: Matrix
+    paper: Matrix | None
+    doubled_bar: Matrix
+    rank: int
+    singular_values_fea: list[float]
+    frame: str
+    worst_fea_deviation: float
+
+
+class Critical(Record):
+    """One critical load of the parallelogram. `load_N` is positive in compression, negative in tension.
+
+    `load_N` None: none was found up to `searched_N`.
+    """
+
+    q_deg: float
+    held: list[str]
+    model: str
+    """solid | beam formula | vjm"""
+    spring_at: str | None
+    what: str
+    load_N: float | None
+    searched_N: float | None = None
+    closed_form_N: float | None = None
+    ratio_to_solid: float | None = None
+    why: str
+
+
+class Curve(Record):
+    """A force-deflection curve; compression negative."""
+
+    model: str
+    q_deg: float
+    held: list[str]
+    spring_at: str
+    branch: str
+    """"straight" or "buckled"."""
+    x_mm: list[float]
+    fx_N: list[float]
+    critical_N: list[float]
+    note: str
+
+
+class Validity(Record):
+    """Load (N, compression positive) at which `model` has left LIN by the relative `deviation`."""
+
+    model: str
+    q_deg: float
+    held: list[str]
+    deviation: float
+    load_N: float | None
+
+
+class Erratum(Record):
+    """A slip of the paper with the number that shows it."""
+
+    number: int
+    place: str
+    printed: str
+    correct: str
+    evidence: str
+    numbers: dict[str, float]
+
+
+class Result(Record):
+    """Everything a validation run has found."""
+
+    schema_version: int
+    case: str
+    title: str
+    detail: str
+    """coarse | default | fine"""
+    length_mm: float
+    width_mm: float
+    bar: Bar
+    buckling: list[Buckling]
+    parallelogram: list[Parallelogram]
+    critical: list[Critical]
+    curves: list[Curve]
+    validity: list[Validity]
+    orthoglide: list[dict[str, Any]]
+    errata: list[Erratum]
+    story: list[str]
+    """The findings in plain sentences, every number from this run."""
+    seconds: dict[str, float]
+    versions: dict[str, str]
+    commit: str
+    command: str
+    """What was typed to make it."""
+    seed: int
+    solver: str
+    sources: list[str]
+
+
+def write_text(path: Path, text: str) -> None:
+    """Write a file whole or not at all."""
+    with replacing(path) as part:
+        part.write_text(text, encoding="utf-8")
+
+
+def write_result(result: Result, folder: Path) -> Path:
+    """Write `result.json` into the folder; returns its path."""
+    path = folder / "result.json"
+    write_text(path, json.dumps(result.model_dump(), indent=1, allow_nan=False) + "\n")
+    return path

@@ -1,0 +1,191 @@
+"""The validation run: the stages in their order, and the result put together."""
+
+import shutil
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from pydantic import BaseModel
+
+from fem.solvers import has_pardiso
+from meshes.files import replacing
+from pipeline.progress import Progress, Stage
+from pipeline.provenance import commit, versions
+from pipeline.validation.case import Case
+from pipeline.validation.comparison import (
+    critical_records,
+    curve_records,
+    stiffness_records,
+    validity_records,
+)
+from pipeline.validation.detail import Detail
+from pipeline.validation.result import (
+    Bar,
+    Buckling,
+    Critical,
+    Curve,
+    Erratum,
+    Parallelogram,
+    Result,
+    Validity,
+)
+from pipeline.validation.stages.bar import Specimen, identify, specimen
+from pipeline.validation.stages.buckling import buckle_bar, mode_files
+from pipeline.validation.stages.linkage import (
+    HELD_SETS,
+    SolidBuckling,
+    SolidPath,
+    SolidStiffness,
+    solid_buckling,
+    solid_path,
+    solid_stiffness,
+)
+from pipeline.validation.story import tell
+from pipeline.validation.workshop import Workshop
+from vjm.paper_errata import errata
+
+SOURCES = (
+    "A. Pashkevich, A. Klimchik, S. Caro, D. Chablat, Stiffness modelling of parallelogram-based parallel "
+    "manipulators, New Trends in Mechanism Science (EUCOMES 2010), Springer",
+    "A. Pashkevich, A. Klimchik, D. Chablat, Ph. Wenger, Accuracy improvement for stiffness modeling of parallel "
+    "manipulators, 42nd CIRP Conference on Manufacturing Systems, 2009 (virtual experiments)",
+    "S. P. Timoshenko, J. M. Gere, Theory of Elastic Stability, 2nd ed., McGraw-Hill 1961 (critical loads)",
+    "W. D. Pilkey, Analysis and Design of Elastic Beams, Wiley 2002 (section constants)",
+    "I. B. Celik et al., J. Fluids Eng. 130 (2008) 078001 (discretisation error)",
+    "J. W. Bandler et al., IEEE Trans. Microwave Theory Tech. 52 (2004) 337-361 (space mapping)",
+    "scikit-fem, gmsh (OpenCASCADE), meshio, SciPy, pyvista: the libraries this run stands on",
+)
+# Nothing in the run is random but the start vector of the eigenvalue solver.
+SEED = 0
+
+
+class Springs(BaseModel):
+    """What the virtual springs and the comparison give."""
+
+    parallelogram: list[Parallelogram]
+    critical: list[Critical]
+    curves: list[Curve]
+    validity: list[Validity]
+    errata: list[Erratum]
+
+
+@dataclass(frozen=True)
+class Run:
+    """A case at a level of detail, with the workshop it is done in."""
+
+    case: Case
+    detail: Detail
+    workshop: Workshop
+
+    @property
+    def progress(self) -> Progress:
+        return self.workshop.progress
+
+    def inputs(self, s: Specimen) -> list[object]:
+        """What the stages of the linkage depend on."""
+        return [*s.inputs, self.case.model_dump(mode="json")]
+
+
+def run(case: Case, detail: Detail, workshop: Workshop, out: Path, typed: str) -> Result:
+    """Do all stages; the mode shapes are left in `out`/modes at the end. `typed` is the command line.
+
+    Raises InputError for dimensions that cannot be, SolveError or RuntimeError if the numerics fail.
+    """
+    job = Run(case, detail, workshop)
+    s, fit = specimen(case, detail, workshop)
+    with job.progress.stage("mesh") as stage:
+        mesh = s.mesh(detail.working)
+        stage.note = f"{len(mesh.cells)} {mesh.kind}, {mesh.dofs} unknowns"
+    bar = identify(case, s, fit)
+    buckling, shapes = buckled_bar(job, s)
+    solids = solid_stage(job, s)
+    springs = spring_stage(job, s, bar, *solids)
+    for path in shapes:
+        # Late, so that an interrupted run leaves no new shapes beside an old result.
+        with replacing(out / "modes" / path.name) as part:
+            shutil.copyfile(path, part)
+    return Result(
+        schema_version=1,
+        case=case.name,
+        title=case.title,
+        detail=detail.name,
+        length_mm=case.linkage.length_mm,
+        width_mm=case.linkage.width_mm,
+        bar=bar,
+        buckling=buckling,
+        parallelogram=springs.parallelogram,
+        critical=springs.critical,
+        curves=springs.curves,
+        validity=springs.validity,
+        orthoglide=[],
+        errata=springs.errata,
+        story=tell(bar, buckling, springs.parallelogram, springs.critical, springs.validity),
+        seconds=dict(job.progress.seconds),
+        versions=versions(),
+        commit=commit(),
+        command=typed,
+        seed=SEED,
+        solver="pardiso" if has_pardiso() else "SuperLU",
+        sources=list(SOURCES),
+    )
+
+
+def buckled_bar(job: Run, s: Specimen) -> tuple[list[Buckling], list[Path]]:
+    """Buckling of the bar, and the files with its mode shapes."""
+    folder = job.workshop.files("bar buckling", s.inputs)
+    records = job.workshop.reuse(
+        "bar buckling", s.inputs, list[Buckling], lambda stage: buckle_bar(s, folder, stage), mode_files()
+    )
+    return records, [folder / name for name in mode_files()]
+
+
+def solid_stage(job: Run, s: Specimen) -> tuple[list[SolidStiffness], list[SolidBuckling], list[SolidPath]]:
+    """The parallelogram as solid finite elements."""
+    inputs, keep = job.inputs(s), job.workshop.reuse
+    stiffness = keep(
+        "linkage stiffness", inputs, list[SolidStiffness], lambda _: solid_stiffness(job.case, s)
+    )
+    loads = keep(
+        "linkage buckling", inputs, list[SolidBuckling], lambda stage: solid_buckling(job.case, s, stage)
+    )
+
+    def paths(stage: Stage) -> list[SolidPath]:
+        angles = job.case.linkage.angles_deg[: job.detail.path_angles]
+        pairs = [(q, held) for q in angles for held in HELD_SETS[: job.detail.path_sets]]
+        return [solid_path(job.case, s, q, held, stage) for q, held in pairs]
+
+    return stiffness, loads, keep("linkage load paths", inputs, list[SolidPath], paths)
+
+
+def spring_stage(
+    job: Run,
+    s: Specimen,
+    bar: Bar,
+    stiffness: list[SolidStiffness],
+    loads: list[SolidBuckling],
+    paths: list[SolidPath],
+) -> Springs:
+    """The virtual springs beside the solid, and the paper's errata."""
+    k_b = np.array(bar.stiffness)
+
+    def compare(_: Stage) -> Springs:
+        curves = curve_records(job.case, k_b, paths)
+        return Springs(
+            parallelogram=stiffness_records(job.case, k_b, stiffness),
+            critical=critical_records(job.case, s, k_b, loads),
+            curves=curves,
+            validity=validity_records(curves, paths),
+            errata=[
+                Erratum(
+                    number=e.number,
+                    place=e.place,
+                    printed=e.printed,
+                    correct=e.correct,
+                    evidence="; ".join(f"{name}: {value:.5g}" for name, value in e.evidence.items()),
+                    numbers=dict(e.evidence),
+                )
+                for e in errata()
+            ],
+        )
+
+    return job.workshop.reuse("virtual springs", job.inputs(s), Springs, compare)

@@ -1,0 +1,125 @@
+"""The parallelogram as finite elements: stiffness, linear buckling and load paths for each way of holding it."""
+
+from collections.abc import Sequence
+from math import radians
+
+import numpy as np
+from pydantic import BaseModel
+
+from fem.buckling import Mode, buckling
+from fem.linear import LinearModel
+from fem.linkage import PLATFORM, parallelogram
+from fem.path import Equilibrium, follow, with_imperfection
+from fem.space import Space
+from pipeline.progress import Stage
+from pipeline.validation.case import Case
+from pipeline.validation.entries import rows
+from pipeline.validation.result import Matrix
+from pipeline.validation.stages.bar import Specimen
+
+HELD_SETS: tuple[tuple[str, ...], ...] = (
+    ("y", "z", "rx", "ry", "rz"),
+    ("z", "rx", "ry", "rz"),
+    ("z",),
+)
+# Enough for both planes: two equal bars give every mode of a bar twice, sideways modes come first.
+LOWEST = 5
+# Bow of both bars in the shape of the lowest mode: their length over this.
+LENGTH_TO_BOW = 30_000
+BOW = f"a bow of L/{LENGTH_TO_BOW}"
+
+
+class SolidBuckling(BaseModel):
+    """Linear buckling of the linkage at one angle and one way of holding it."""
+
+    q_deg: float
+    held: list[str]
+    loads: list[float]
+    planes: list[str]
+    travel: float
+
+
+class SolidPath(BaseModel):
+    """A load path of the linkage; `tangent` is the slope of the same mesh at no load, N/mm."""
+
+    q_deg: float
+    held: list[str]
+    x: list[float]
+    fx: list[float]
+    tangent: float
+    critical: float
+    failure: str
+
+
+class SolidStiffness(BaseModel):
+    """Cartesian stiffness at one angle, base frame."""
+
+    q_deg: float
+    matrix: Matrix
+
+
+def solid_linkage(case: Case, s: Specimen, space: Space, q_deg: float) -> LinearModel:
+    """The parallelogram of two solid bars at an angle."""
+    size = case.linkage
+    return LinearModel(parallelogram(space, size.length_mm, size.width_mm, radians(q_deg)), s.material)
+
+
+def solid_stiffness(case: Case, s: Specimen) -> list[SolidStiffness]:
+    """K_p of the solid linkage at every angle, base frame."""
+    found = []
+    for q in case.linkage.angles_deg:
+        model = solid_linkage(case, s, s.space, q)
+        found.append(SolidStiffness(q_deg=q, matrix=rows(model.stiffness)))
+    return found
+
+
+def solid_buckling(case: Case, s: Specimen, stage: Stage) -> list[SolidBuckling]:
+    """Lowest critical loads of the solid linkage, pushed along -x, for every angle and way of holding it."""
+    found = []
+    for q in case.linkage.angles_deg:
+        model = solid_linkage(case, s, s.space, q)
+        for held in HELD_SETS:
+            stage.say(f"q = {q:g}°, {' '.join(held)} held")
+            modes = buckling(model, held, LOWEST)
+            found.append(
+                SolidBuckling(
+                    q_deg=q,
+                    held=list(held),
+                    loads=[m.load for m in modes],
+                    planes=[m.plane for m in modes],
+                    travel=modes[0].load / slope(model, held),
+                )
+            )
+    return found
+
+
+def slope(model: LinearModel, held: Sequence[str]) -> float:
+    """dFx/dx at no load with `held` held and the rest free, N/mm."""
+    motion = model.motions(["x"], held)[:, 0]
+    row = int(model.reduction.platform(["x"])[0])
+    return float((model.reduced[[row]] @ motion)[0])
+
+
+def solid_path(case: Case, s: Specimen, q: float, held: tuple[str, ...], stage: Stage) -> SolidPath:
+    """The compression curve of slightly bowed solid bars, through the first critical load."""
+    straight = solid_linkage(case, s, s.path_space, q)
+    first: Mode = buckling(straight, held, 1)[0]
+    bowed = with_imperfection(straight.linkage, first.displacements, s.bar.length / LENGTH_TO_BOW)
+    model = LinearModel(bowed, s.material)
+    tangent = slope(model, held)
+    values = first.load / tangent * np.array(s.detail.travel)
+
+    def on_point(point: Equilibrium) -> None:
+        at = PLATFORM.index("x")
+        stage.say(f"q = {q:g}°, {' '.join(held)} held, x = {point.displacement[at]:.3f} mm")
+
+    path = follow(model, held, list(-values), on_point=on_point)
+    return SolidPath(
+        q_deg=q,
+        held=list(held),
+        x=[0.0, *path.column("displacement", "x")],
+        fx=[0.0, *path.column("wrench", "x")],
+        tangent=tangent,
+        critical=first.load,
+        failure=path.failure,
+    )
