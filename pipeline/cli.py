@@ -136,6 +136,22 @@ def add(
     guarded(lambda: add_effects(campaign, effects, model, effects_from or [], json, out, seed, quiet))
 
 
+@app.command()
+def diagnose(
+    campaign: CampaignFolder,
+    model: ModelFile = None,
+    effects_from: EffectsFrom = None,
+    json: Json = None,
+    out: Annotated[Path | None, typer.Option(help="Folder for answer.json.")] = None,
+    seed: Annotated[int | None, typer.Option(help="Kept with the answer; nothing here is random.")] = None,
+    quiet: Annotated[bool, typer.Option("--quiet", help="Only the verdict.")] = False,
+) -> None:
+    """Which physical effect the model lacks: one name, several, or none, and which test would tell."""
+    from pipeline.diagnose.command import diagnose_campaign
+
+    guarded(lambda: diagnose_campaign(campaign, model, effects_from or [], json, out, seed, quiet))
+
+
 def typed() -> str:
     """The command line that was given."""
     return shlex.join(["python", "-m", "pipeline", *sys.argv[1:]])

@@ -52,7 +52,8 @@ class Effect(ABC):
     parameters: none for an effect that is there or not. kinds: of rig that can have it. hinge: the one it needs
     of a single bar, "" for none; a parallelogram has all.
     smooth: False where the response has a kink or a dead zone in the parameters, so that a fit needs several
-    starts and a derivative at null says little. history: whether the order of load steps matters.
+    starts and a derivative at null says little. probes: values of the first parameter at which to look for such an
+    effect. history: whether the order of load steps matters.
     """
 
     name: ClassVar[str]
@@ -65,6 +66,7 @@ class Effect(ABC):
     kinds: ClassVar[tuple[str, ...]] = ("parallelogram", "bar")
     hinge: ClassVar[Literal["", "base", "any"]] = ""
     smooth: ClassVar[bool] = True
+    probes: ClassVar[tuple[float, ...]] = ()
     history: ClassVar[bool] = False
 
     @abstractmethod

@@ -25,6 +25,7 @@ class JointFriction(Effect):
     )
     hinge = "any"
     smooth = False
+    probes = (300.0,)
     history = True
 
     def absent(self, values: Values) -> bool:

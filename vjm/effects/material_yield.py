@@ -29,6 +29,7 @@ class MaterialYield(Effect):
     )
     parameters = (Parameter("strain", "1", 0.02, -0.017, 1e-4, 0.02, "strain at which a fibre yields"),)
     smooth = False
+    probes = (0.004, 0.002, 0.001)
     history = True
 
     def change(self, rig: Rig, values: Values) -> Rig:

@@ -1,0 +1,96 @@
+"""A fit in numbers for the answer: values with intervals, errors, what changed in every test."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from pipeline.answer import LEVEL, ModelError, TestChange, TestNoise, Value
+from pipeline.compare.error import Discrepancy
+from pipeline.inference.fit import Fit
+from pipeline.inference.intervals import intervals
+from pipeline.inference.landscape import Landscape
+from pipeline.inference.model import Model
+from pipeline.inference.program import Program
+from pipeline.noise import chi_square, lag_one
+
+
+def values_of(model: Model, land: Landscape) -> dict[str, Value]:
+    """Every number of the model, in order."""
+    found = {each.name: it for each, it in zip(model.free, intervals(land), strict=True)}
+    out = {}
+    for term in model.terms:
+        for p in term.effect.parameters:
+            name, value = f"{term.effect.name}.{p.name}", float(term.values[p.name])
+            it = found.get(name)
+            out[name] = Value(
+                value=value,
+                std=None if it is None or not np.isfinite(it.std) else it.std,
+                low95=None if it is None else it.low,
+                high95=None if it is None else it.high,
+                interval="fixed" if it is None else it.kind,
+                unit=p.unit,
+                meaning=p.meaning,
+            )
+    return out
+
+
+def error_of(found: Fit, cases: Program, parameters: int) -> ModelError:
+    """What a fit leaves, its numbers counted as fitted to these tests."""
+    gap = Discrepancy(cases, found.prediction, parameters)
+    size, order = gap.size(), gap.order()
+    return ModelError(
+        effects=found.model.names,
+        fit=float(np.sqrt(size.statistic / size.degrees)) if size is not None else found.rms,
+        holdout=gap.rms(~cases.fitted),
+        chi_square=None if size is None else size.statistic,
+        degrees=max(gap.degrees, 0),
+        chi_square_p=None if size is None else size.p_value,
+        lag_one_p=None if order is None else order.p_value,
+        lost=tuple(each.sentence for each in gap.lost()),
+    )
+
+
+def is_noise(error: ModelError) -> bool:
+    """Whether what is left passes for noise, and nothing was lost."""
+    checks = [p for p in (error.chi_square_p, error.lag_one_p) if p is not None]
+    return bool(checks) and min(checks) >= LEVEL and not error.lost
+
+
+def changes(before: Fit, after: Fit, cases: Program) -> tuple[TestChange, ...]:
+    """Every test before and after."""
+    gaps = [Discrepancy(cases, each.prediction) for each in (before, after)]
+    out = []
+    for number, test in enumerate(cases.campaign.tests):
+        rows = cases.test == number
+        was, now = (_in_test(gap, rows) for gap in gaps)
+        out.append(
+            TestChange(
+                test=test.id, q_deg=test.q_deg, role=test.role, rows=int(rows.sum()), before=was, after=now
+            )
+        )
+    return tuple(out)
+
+
+def _in_test(gap: Discrepancy, rows: np.ndarray) -> TestNoise:
+    mask = gap.program.predicted & rows[:, None]
+    series = [gap.whitened[own, channel] for own, channel in gap.series(mask)]
+    flat = np.concatenate(series) if series else np.zeros(0)
+    return TestNoise(
+        rms=gap.rms(rows),
+        chi_square_p=chi_square(flat).p_value if flat.size else None,
+        lag_one_p=lag_one(series).p_value if flat.size >= 3 and flat.any() else None,
+        lost=int(gap.prediction.lost[rows].sum()),
+    )
+
+
+def undetermined(values: dict[str, Value], together: list[list[str]]) -> tuple[tuple[str, ...], ...]:
+    """Sets that only show together, then the numbers that do not show at all."""
+    grouped = {name for group in together for name in group}
+    alone = [name for name, it in values.items() if it.interval == "undetermined" and name not in grouped]
+    return (*(tuple(group) for group in together), *((name,) for name in alone))
+
+
+def confusable(names: list[str], pairs: list[tuple[int, int, float]]) -> tuple[tuple[str, ...], ...]:
+    """Pairs of different effects with parameters that go together."""
+    effects = [name.partition(".")[0] for name in names]
+    return tuple(dict.fromkeys((effects[i], effects[j]) for i, j, _ in pairs if effects[i] != effects[j]))

@@ -1,0 +1,1 @@
+"""Which physical effect a model lacks: screened, fitted, chosen, told apart from its rivals, or refused."""

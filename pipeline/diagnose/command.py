@@ -1,0 +1,52 @@
+"""`diagnose` from the command line: campaign and model in; terminal and JSON out, nothing else is touched."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+
+from pipeline.add.command import starting_model
+from pipeline.answer import Answer
+from pipeline.campaign import read
+from pipeline.command import usable
+from pipeline.diagnose.diagnosis import answer_of, diagnose
+from pipeline.diagnose.table import show
+from pipeline.diagnose.words import sentences
+from pipeline.inference.suitable import known_effects
+from pipeline.progress import Progress
+
+
+def diagnose_campaign(
+    folder: Path,
+    model_file: Path | None = None,
+    effects_from: Sequence[Path] = (),
+    json: Path | None = None,
+    out: Path | None = None,
+    seed: int | None = None,
+    quiet: bool = False,
+) -> Answer:
+    """Diagnose and print. InputError for bad input."""
+    known = known_effects(effects_from)
+    campaign = read(folder)
+    began, known = starting_model(campaign, folder, model_file, known)
+    for path, named in ((json and json.parent, f"--json {json}"), (out, f"--out {out}")):
+        if path is not None:
+            usable(path, named)
+    progress = Progress(quiet)
+    with progress.stage("looking for what is missing") as stage:
+        found = diagnose(campaign, began, known.effects, stage.say)
+        stage.note = f"{len(found.shelf.fits)} models fitted"
+    with progress.stage("intervals"):
+        answer = answer_of(found, sentences(found)).model_copy(update={"seed": seed})
+    if json is not None:
+        answer.write(json)
+    if out is not None:
+        answer.write(out / "answer.json")
+    show(answer, _following(answer, folder), quiet)
+    return answer
+
+
+def _following(answer: Answer, folder: Path) -> list[str]:
+    if answer.verdict == "identified":
+        return [f"python -m pipeline add {folder} {' '.join(answer.added)}"]
+    return []

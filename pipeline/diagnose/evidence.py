@@ -1,0 +1,37 @@
+"""What an effect has to show before it is believed, and before it is told apart from another.
+
+Sigmas are known, so chi-square is the yardstick everywhere.
+"""
+
+from __future__ import annotations
+
+from functools import cache
+
+from scipy.stats import chi2
+
+from vjm.effects.base import Effect
+
+FALSE_ALARM = 0.005
+"""Chance that noise alone gets any of the candidates named."""
+APART = 4.0
+"""Chi-square by which a rival has to be worse, after one for each number that it has more, to be excluded. Of two
+effects of signature correlation rho and size mu the wrong one is then named with probability
+Phi(-(mu² (1 - rho²) + 4) / (2 mu sqrt(1 - rho²))): at most 0.3 %, whatever the size."""
+
+
+def numbers(effect: Effect) -> int:
+    """Degrees of freedom that an effect takes: one for an effect that is there or not."""
+    return max(1, len(effect.parameters))
+
+
+@cache
+def _threshold(degrees: int, looks: int) -> float:
+    return float(chi2.isf(FALSE_ALARM / looks, degrees))
+
+
+def entry(effect: Effect, candidates: int) -> float:
+    """Fall of chi-square below which an effect is not let in, when so many candidates were tried.
+
+    Bonferroni's bound. An effect with kinks had several looks, one at each probe.
+    """
+    return _threshold(numbers(effect), max(candidates, 1) * max(1, len(effect.probes)))

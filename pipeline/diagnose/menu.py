@@ -1,0 +1,155 @@
+"""Tests that could be done next on a rig: directions, what is held, angles, as far as the bench has gone."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pipeline.campaign import Campaign, Data, Rig, Test
+from pipeline.campaign.names import DISPLACEMENT, FORCE, SUPPORT
+
+Array = NDArray[np.float64]
+STEPS = 16
+WARMER = 10.0
+"""K, of a test that is repeated in a warmer hall."""
+_D, _F = DISPLACEMENT, FORCE
+_MODEST = np.array([0.0, 0.02, 0.05, 0.03, 0.03, 0.04])
+"""Travel where the campaign has none: lengths of the bar, and rad."""
+_SHARE = 0.2
+"""Of the load at which a bar that is guided sideways buckles: axial load where the campaign has none."""
+
+
+@dataclass(frozen=True)
+class Shape:
+    """A test in words, what it prescribes, and which coordinate is taken there and back, both ways.
+
+    push: axial force that stands meanwhile, as a share of the largest.
+    """
+
+    words: str
+    control: tuple[str, ...]
+    coordinate: int
+    push: float = 0.0
+
+
+PARALLELOGRAM = (
+    Shape("loaded along x with the platform held", (_F, _D, _D, _D, _D, _D), 0),
+    Shape("loaded along x with the platform free along y", (_F, _F, _D, _D, _D, _D), 0),
+    Shape("moved along y, held in rotation", (_F, _D, _D, _D, _D, _D), 1),
+    Shape("moved along y under compression, free to turn", (_F, _D, _D, _F, _F, _F), 1, -0.3),
+    Shape("moved along y under tension, free to turn", (_F, _D, _D, _F, _F, _F), 1, 0.5),
+    Shape("swung along z", (_F, _F, _D, _D, _D, _D), 2),
+    Shape("turned about x", (_F, _D, _D, _D, _F, _F), 3),
+    Shape("turned about z", (_F, _D, _D, _D, _F, _D), 5),
+)
+FREE_BAR = (
+    Shape("loaded along x", (_F,) * 6, 0),
+    Shape("moved along y", (_F, _D, _F, _F, _F, _F), 1),
+    Shape("moved along z", (_F, _F, _D, _F, _F, _F), 2),
+    Shape("moved along y under compression", (_F, _D, _F, _F, _F, _F), 1, -0.3),
+    Shape("moved along y under tension", (_F, _D, _F, _F, _F, _F), 1, 0.5),
+    Shape("turned about x", (_F, _F, _F, _D, _F, _F), 3),
+)
+HELD_BAR = (Shape("loaded along x", (_F,) + (SUPPORT,) * 5, 0),)
+
+
+@dataclass(frozen=True, eq=False)
+class Choice:
+    """A test that could be done: readings are zero where they are to come. limit: largest prescribed value."""
+
+    shape: Shape
+    test: Test
+    limit: float
+    warmer: bool = False
+
+
+def menu(campaign: Campaign) -> list[Choice]:
+    """Every shape at the campaign's angles and at 0, 15, 30 and -30 degrees, as far as it went; some also warmer."""
+    heat = any(t.data.temperature is not None for t in campaign.tests)
+    out: list[Choice] = []
+    for angle in _angles(campaign):
+        for shape in _shapes(campaign):
+            out.append(_choice(campaign, shape, angle, len(out), 0.0))
+    if heat:
+        out += [_choice(campaign, c.shape, c.test.q_deg, len(out) + k, WARMER) for k, c in enumerate(out[:2])]
+    return out
+
+
+def _angles(campaign: Campaign) -> list[float]:
+    mine = {t.q_deg for t in campaign.tests}
+    more = {0.0, 15.0, 30.0, -30.0} if campaign.rig.kind == "parallelogram" else set()
+    return sorted(mine | more, key=lambda q: (abs(q), -q))
+
+
+def _shapes(campaign: Campaign) -> tuple[Shape, ...]:
+    if campaign.rig.kind == "parallelogram":
+        return PARALLELOGRAM
+    if campaign.rig.tip == "free":
+        return FREE_BAR
+    control = next(t.control for t in campaign.tests)
+    return (replace(HELD_BAR[0], control=control),)
+
+
+def _choice(campaign: Campaign, shape: Shape, angle: float, number: int, warmer: float) -> Choice:
+    rig = campaign.rig
+    values = np.zeros((STEPS, 6))
+    limit = limits(campaign)[shape.coordinate]
+    values[:, shape.coordinate] = limit * _there_and_back(STEPS)
+    if shape.push:
+        values[:, 0] = shape.push * limits(campaign)[0] * np.minimum(1.0, np.arange(STEPS) / 3.0)
+    test = planned(campaign, f"next_{number}", angle, shape.control, values, rig, warmer)
+    return Choice(shape, test, float(limit), bool(warmer))
+
+
+def planned(
+    campaign: Campaign,
+    name: str,
+    angle: float,
+    control: tuple[str, ...],
+    values: Array,
+    rig: Rig,
+    warmer: float = 0.0,
+) -> Test:
+    """A test whose sensors all read, with zeros for what is to come; values (S, 6) of what `control` prescribes."""
+    forced = np.array([by == FORCE for by in control])
+    steps = len(values)
+    heat = None
+    if any(t.data.temperature is not None for t in campaign.tests):
+        heat = np.full(steps, (rig.reference_temperature or 20.0) + warmer)
+    data = Data(
+        np.arange(steps),
+        np.where(forced, 0.0, values),
+        np.where(forced, values, 0.0),
+        np.zeros((steps, len(campaign.gauges))),
+        heat,
+        np.zeros(steps, dtype=np.int64),
+    )
+    return Test(name, angle, "fit", control, "nominal", rig, data)
+
+
+def limits(campaign: Campaign) -> Array:
+    """(6,) largest force along x and travel along the others that the campaign has done; modest where it has none."""
+    rig = campaign.rig
+    rigidity = rig.stiffness[1, 1] * rig.length**3 / 12.0
+    bars = 2 if rig.kind == "parallelogram" else 1
+    out = _MODEST * np.array([0.0, rig.length, rig.length, 1.0, 1.0, 1.0])
+    out[0] = _SHARE * bars * np.pi**2 * rigidity / rig.length**2
+    for k in range(6):
+        done = max((_largest(t, k) for t in campaign.tests), default=0.0)
+        out[k] = done or out[k]
+    return out
+
+
+def _largest(test: Test, coordinate: int) -> float:
+    """Largest prescribed force along x, or travel along another coordinate."""
+    if (test.control[coordinate] == FORCE) != (coordinate == 0):
+        return 0.0
+    readings = test.data.wrench[:, 0] if coordinate == 0 else test.data.displacement[:, coordinate]
+    return float(np.nanmax(np.abs(readings), initial=0.0)) if np.ptp(readings) > 0 else 0.0
+
+
+def _there_and_back(steps: int) -> Array:
+    """(steps,) from zero to 1, -1 and back to zero."""
+    return np.interp(np.linspace(0.0, 4.0, steps), [0.0, 1.0, 3.0, 4.0], [0.0, 1.0, -1.0, 0.0])

@@ -1,0 +1,139 @@
+"""What a sensor may do wrong that no effect of a linkage explains: gains, growth, drift, lag, loops, cross-talk.
+
+Each is one column: what the readings would be off by. An error of a sensor that controls a coordinate acts through
+the mechanism. What is left after a fit must not follow any of them; they describe and are no physics.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from itertools import pairwise
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pipeline.inference.driving import column_name
+from pipeline.inference.fit import Fit
+from pipeline.inference.program import Program
+from pipeline.inference.residual import whitening
+
+Array = NDArray[np.float64]
+LAG = 0.7
+"""Of a reading that is still there a step later, in a sensor that follows slowly."""
+FLAT = 1e-3
+"""Part of a column that must be left when what the fit can move is taken out of it."""
+
+
+@dataclass(frozen=True)
+class Pattern:
+    """A pattern that the residual follows. score: in sigmas. amplitude: largest error of the reading, its unit."""
+
+    channel: int
+    words: str
+    score: float
+    amplitude: float
+
+
+def scores(found: Fit) -> list[Pattern]:
+    """How well the residual of the fitted tests follows each pattern, after the fit took its part; largest first."""
+    whole = found.residual.program
+    used = whole.predicted & whole.fitted[:, None]
+    weights = whitening(whole, found.prediction)
+    taken = _basis(np.hstack([found.jacobian, found.residual.flat(found.residual.offsets)]))
+    residual, readings = found.whitened, _expected(found)
+    out = []
+    for channel in range(whole.measured.shape[1]):
+        named = list(_errors(whole, readings, channel))
+        if not named:
+            continue
+        errors = np.stack([error for _, error in named], axis=-1)
+        columns = weights.apply(_acting(found, channel, errors))[used]
+        left = columns - taken @ (taken.T @ columns)
+        sizes, whole_sizes = np.linalg.norm(left, axis=0), np.linalg.norm(columns, axis=0)
+        seen = sizes > FLAT * np.maximum(whole_sizes, 1e-300)
+        for k in np.flatnonzero(seen):
+            score = float(left[:, k] @ residual / sizes[k])
+            largest = float(np.abs(errors[..., k]).max())
+            words = f"{column_name(channel, whole.campaign.gauges)} {named[k][0]}"
+            out.append(Pattern(channel, words, score, score / float(sizes[k]) * largest))
+    return sorted(out, key=lambda it: -abs(it.score))
+
+
+def _acting(found: Fit, channel: int, errors: Array) -> Array:
+    """(R, C, K) what errors (R, K) of a channel's readings do to the differences of readings and predictions."""
+    whole = found.residual.program
+    out = np.zeros((*whole.measured.shape, errors.shape[1]))
+    out[:, channel] = errors
+    controls = whole.channels == channel
+    rows = np.flatnonzero(controls.any(axis=1))
+    place = np.argmax(controls[rows], axis=1)
+    through = found.prediction.by_inputs[rows, :, place]
+    out[rows] = -through[..., None] * errors[rows][:, None, :]
+    return out
+
+
+def _expected(found: Fit) -> Array:
+    """(R, C) readings as they would be without noise: with it, a pattern would follow the noise of its own sensor."""
+    whole = found.residual.program
+    readings = found.prediction.values.copy()
+    given = np.take_along_axis(np.nan_to_num(whole.measured), whole.channels, axis=1)
+    np.put_along_axis(readings, whole.channels, given + found.residual.shift[:, :6], axis=1)
+    readings[found.prediction.lost] = 0.0
+    return readings
+
+
+def _errors(whole: Program, readings: Array, channel: int) -> Iterator[tuple[str, Array]]:
+    """(R,) errors of a channel's readings, largest about 1, with words for each."""
+    mine = readings[:, channel]
+    span = float(np.abs(mine).max(initial=0.0))
+    if span == 0.0:
+        return
+    m = mine / span
+    yield "reads too much or too little in proportion", m
+    yield "has a gain that grows with its reading", m * np.abs(m)
+    yield "has a gain that grows one way", m * m
+    yield "has an offset", np.ones_like(m)
+    yield "has a zero that moves during a test", _within(whole)
+    yield "has a zero that moves during the campaign", np.linspace(0.0, 1.0, m.size)
+    yield "follows slowly", _lagged(whole, m)
+    yield "depends on the direction of travel", _direction(whole, m)
+    for other in _neighbours(channel):
+        there = np.abs(readings[:, other]).max(initial=0.0)
+        if there > 0.0:
+            name = column_name(other, whole.campaign.gauges)
+            yield f"answers to {name}", readings[:, other] / there
+
+
+def _neighbours(channel: int) -> list[int]:
+    """Channels of the same instrument."""
+    if channel >= 12:
+        return []
+    first = 6 * (channel // 6)
+    return [k for k in range(first, first + 6) if k != channel]
+
+
+def _within(whole: Program) -> Array:
+    """Place of a row within its test, 0 to 1."""
+    first = whole.first
+    return np.concatenate([np.linspace(0.0, 1.0, int(b - a)) for a, b in pairwise(first)])
+
+
+def _lagged(whole: Program, m: Array) -> Array:
+    out = np.zeros_like(m)
+    for row in range(1, m.size):
+        if whole.test[row] == whole.test[row - 1]:
+            out[row] = LAG * out[row - 1] + (m[row] - m[row - 1])
+    return out
+
+
+def _direction(whole: Program, m: Array) -> Array:
+    steps = np.diff(m, prepend=0.0)
+    steps[whole.first[:-1]] = m[whole.first[:-1]]
+    return np.asarray(np.sign(np.where(np.abs(steps) > 0.01, steps, 0.0)))
+
+
+def _basis(columns: Array) -> Array:
+    sizes = np.maximum(np.linalg.norm(columns, axis=0), 1e-300)
+    left, values, _ = np.linalg.svd(columns / sizes, full_matrices=False)
+    return np.asarray(left[:, values > 1e-9])

@@ -1,0 +1,124 @@
+"""Chi-square of every set of candidates about a fit, to first order: linear algebra on their signatures."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+from itertools import product
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.optimize import lsq_linear
+
+from pipeline.diagnose.signatures import Look, Signature
+from pipeline.inference.fit import Fit
+
+Array = NDArray[np.float64]
+RANK = 1e-8
+
+
+@dataclass(frozen=True)
+class Gain:
+    """By how much chi-square falls; probes: of effects with kinks, those that did best."""
+
+    value: float
+    probes: dict[str, float]
+
+
+@dataclass(frozen=True, eq=False)
+class Picture:
+    """A fit and what could be added to it.
+
+    residual: (N,) whitened, of the rows that are looked at. base: (N, P) what the fit can move. tests: (N,) numbers.
+    share: of the fitted readings that are looked at.
+    """
+
+    fit: Fit
+    signatures: dict[str, Signature]
+    residual: Array
+    base: Array
+    tests: NDArray[np.int_]
+    share: float
+
+    def without(self, test: int) -> Picture:
+        """As if a test had not been done."""
+        kept = self.tests != test
+        some = {
+            name: replace(s, columns=tuple(c[kept] for c in s.columns)) for name, s in self.signatures.items()
+        }
+        return Picture(self.fit, some, self.residual[kept], self.base[kept], self.tests[kept], self.share)
+
+    @cached_property
+    def _small(self) -> tuple[Array, dict[str, list[Array]]]:
+        """Residual and columns, free of what the fit can move, in an orthonormal basis of all columns."""
+        free = _basis(self.base)
+        every = [c for s in self.signatures.values() for c in s.columns]
+        flat = np.hstack([np.zeros((self.residual.size, 0)), *every])
+        flat = flat - free @ (free.T @ flat)
+        basis, _ = np.linalg.qr(flat)
+        small = basis.T @ flat
+        place = 0
+        out: dict[str, list[Array]] = {}
+        for name, signature in self.signatures.items():
+            out[name] = []
+            for columns in signature.columns:
+                out[name].append(small[:, place : place + columns.shape[1]])
+                place += columns.shape[1]
+        rest = self.residual - free @ (free.T @ self.residual)
+        return basis.T @ rest, out
+
+    def gain(self, names: Sequence[str]) -> Gain:
+        """By how much chi-square of the whole campaign falls when these effects are added together."""
+        residual, columns = self._small
+        best = Gain(0.0, {})
+        for choice in product(*(range(len(columns[name])) for name in names)):
+            matrix = np.hstack([columns[name][k] for name, k in zip(names, choice, strict=True)])
+            low = np.concatenate([self.signatures[name].low for name in names])
+            value = _fall(matrix, residual, low) / self.share
+            if value > best.value:
+                best = Gain(value, self._probes(names, choice))
+        return best
+
+    def _probes(self, names: Sequence[str], choice: tuple[int, ...]) -> dict[str, float]:
+        every = {n: self.signatures[n].probes for n in names}
+        return {n: every[n][k] for n, k in zip(names, choice, strict=True) if every[n]}
+
+    def columns(self, name: str, probe: int = 0) -> Array:
+        """(k, p) of an effect in the basis of all, free of what the fit can move; of kinks those of one probe."""
+        return self._small[1][name][probe]
+
+
+def picture(found: Fit, every: Sequence[Signature], at: Look) -> Picture:
+    """Of a fit and the signatures about it."""
+    it = found.residual
+    used = it.program.predicted & it.program.fitted[:, None]
+    rows = at.rows
+    mask = used[rows]
+    base = np.hstack([it.slopes[rows][mask], it.offsets[rows][mask]])
+    tests = np.broadcast_to(it.program.test[rows][:, None], mask.shape)[mask]
+    share = float(mask.sum() / used.sum())
+    return Picture(found, {s.effect.name: s for s in every}, it.values[rows][mask], base, tests, share)
+
+
+def _basis(columns: Array) -> Array:
+    """(N, r) orthonormal basis of the span of columns."""
+    if not columns.shape[1]:
+        return columns
+    sizes = np.maximum(np.linalg.norm(columns, axis=0), 1e-300)
+    left, values, _ = np.linalg.svd(columns / sizes, full_matrices=False)
+    return np.asarray(left[:, values > RANK])
+
+
+def _fall(matrix: Array, residual: Array, low: Array) -> float:
+    """By how much the sum of squares falls when the columns may explain the residual."""
+    sizes = np.linalg.norm(matrix, axis=0)
+    seen = sizes > RANK * max(sizes.max(initial=0.0), 1e-300)
+    if not seen.any():
+        return 0.0
+    matrix, low = matrix[:, seen] / sizes[seen], low[seen]
+    if np.all(np.isinf(low)):
+        step = np.linalg.lstsq(matrix, residual, rcond=RANK)[0]
+    else:
+        step = lsq_linear(matrix, residual, bounds=(low - 1e-12, np.inf), method="bvls").x
+    return float(residual @ residual - np.sum((residual - matrix @ step) ** 2))

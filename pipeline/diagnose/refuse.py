@@ -1,0 +1,155 @@
+"""Whether what a model leaves is noise: in size, along the load paths, sensor by sensor, and in tests held out."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.stats import chi2, norm
+
+from pipeline.diagnose.patterns import scores
+from pipeline.inference.driving import column_name
+from pipeline.inference.fit import Fit
+from pipeline.noise import lag_one
+
+Array = NDArray[np.float64]
+LEVEL = 2e-3
+"""Chance, of each check, that noise fails it."""
+LARGER = 1.15
+"""Scatter up to so many times the sigmas, and without any order, is put down to the sigmas."""
+
+
+@dataclass(frozen=True)
+class Check:
+    """One look at a residual. p_value: chance that noise looks like this in any of the places looked at."""
+
+    name: str
+    p_value: float
+    words: str
+
+    @property
+    def passed(self) -> bool:
+        """Whether noise may have done it."""
+        return self.p_value >= LEVEL
+
+
+@dataclass(frozen=True)
+class Judgement:
+    """All checks. scatter: by which the sigmas seem too small, 1 if they do not."""
+
+    checks: tuple[Check, ...]
+    scatter: float
+
+    @property
+    def noise(self) -> bool:
+        """Whether what is left is noise."""
+        return all(check.passed for check in self.checks)
+
+
+def judge(found: Fit) -> Judgement:
+    """The residual of a fit, of the fitted tests and of those held out."""
+    size, order = _size(found), _order(found)
+    scatter = 1.0
+    if not size.passed and order.passed and found.rms <= LARGER:
+        scatter = found.rms
+        size = Check(size.name, 1.0, f"the scatter is {100 * (scatter - 1):.0f} % larger than the sigmas say")
+    out = [
+        _lost(found),
+        size,
+        order,
+        _series(found, scatter),
+        _patterns(found, scatter),
+        _held_out(found, scatter),
+    ]
+    return Judgement(tuple(check for check in out if check is not None), scatter)
+
+
+def _lost(found: Fit) -> Check | None:
+    lost = np.flatnonzero(found.prediction.lost)
+    if not lost.size:
+        return None
+    whole = found.residual.program
+    tests = dict.fromkeys(whole.campaign.tests[n].id for n in whole.test[lost])
+    reason = found.prediction.reasons.get(int(lost[0]), "no equilibrium")
+    words = f"the model has no stable state in {lost.size} rows ({', '.join(tests)}): {reason}"
+    return Check("states", 0.0, words)
+
+
+def _size(found: Fit) -> Check:
+    p = float(chi2.sf(found.chi_square, max(found.degrees, 1)))
+    return Check("size", p, f"what is left is {found.rms:.2f} sigma")
+
+
+def _order(found: Fit) -> Check:
+    try:
+        check = lag_one(list(_paths(found).values()))
+    except ValueError as error:
+        return Check("order", 1.0, f"order along the load paths cannot be judged: {error}")
+    words = f"neighbours along the load paths correlate by {check.statistic:.2f}"
+    return Check("order", check.p_value, words)
+
+
+def _paths(found: Fit) -> dict[tuple[int, int], Array]:
+    """Whitened residual of every fitted test and channel, by numbers of both."""
+    rows = found.residual.rows
+    tests = found.residual.program.test[rows[:, 0]]
+    out: dict[tuple[int, int], Array] = {}
+    for test, channel in np.unique(np.stack([tests, rows[:, 1]], axis=1), axis=0):
+        out[(int(test), int(channel))] = found.whitened[(tests == test) & (rows[:, 1] == channel)]
+    return out
+
+
+def _series(found: Fit, scatter: float) -> Check:
+    """The worst of all tests and channels."""
+    paths = _paths(found)
+    worst, p = max(
+        ((key, chi2.sf(np.sum(r**2) / scatter**2, r.size)) for key, r in paths.items()), key=lambda it: -it[1]
+    )
+    whole = found.residual.program
+    rms = float(np.sqrt(np.mean(paths[worst] ** 2)))
+    name = column_name(worst[1], whole.campaign.gauges)
+    words = f"{name} in test {whole.campaign.tests[worst[0]].id} is off by {rms:.1f} sigma"
+    return Check("series", float(min(1.0, p * len(paths))), words)
+
+
+def _patterns(found: Fit, scatter: float) -> Check:
+    """The worst of all sensors' patterns."""
+    every = scores(found)
+    if not every:
+        return Check("patterns", 1.0, "no pattern of a sensor can be seen")
+    p = 2.0 * float(norm.sf(abs(every[0].score) / scatter)) * len(every)
+    words = f"the rest looks as if {every[0].words} ({abs(every[0].score):.1f} sigma)"
+    return Check("patterns", min(1.0, p), words)
+
+
+def _held_out(found: Fit, scatter: float) -> Check | None:
+    """Tests that were never used, with the uncertainty that the fitted numbers leave them."""
+    whole = found.residual.program
+    used = whole.predicted & ~whole.fitted[:, None]
+    if not used.any():
+        return None
+    residual = found.residual.values[used]
+    # Unknown zeros of tests held out are theirs to fit.
+    zeros = found.residual.offsets[used]
+    slopes = found.residual.slopes[used]
+    covariance = np.where(np.isfinite(found.covariance), found.covariance, 0.0)
+    if zeros.any():
+        left, sizes, _ = np.linalg.svd(zeros, full_matrices=False)
+        basis = left[:, sizes > 1e-9 * sizes.max()]
+        residual, slopes = residual - basis @ (basis.T @ residual), slopes - basis @ (basis.T @ slopes)
+    total = float(residual @ residual)
+    if slopes.shape[1]:
+        root = _root(covariance)
+        wide = slopes @ root
+        inner = np.eye(wide.shape[1]) + wide.T @ wide
+        pull = wide.T @ residual
+        total -= float(pull @ np.linalg.solve(inner, pull))
+    p = float(chi2.sf(total / scatter**2, residual.size))
+    rms = float(np.sqrt(np.mean(residual**2)))
+    return Check("held out", p, f"tests that were held out are off by {rms:.2f} sigma")
+
+
+def _root(covariance: Array) -> Array:
+    values, vectors = np.linalg.eigh(covariance)
+    return np.asarray(vectors * np.sqrt(np.maximum(values, 0.0)))

@@ -1,0 +1,190 @@
+"""The sets of effects that explain a campaign: looked for to first order, fitted, grown and pruned.
+
+One effect at a time is misled where one alone makes things worse, so pairs are looked at from the start, and every
+set that competes is fitted with the full model.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from itertools import combinations
+
+import numpy as np
+
+from pipeline.diagnose.evidence import APART, entry, numbers
+from pipeline.diagnose.shelf import Names, Shelf
+
+WIDTH = 4
+"""Sets of one size that are fitted, at most, of those that compete."""
+MOST = 5
+"""Effects in a set."""
+LEADERS = 7
+"""Candidates of which pairs are looked at."""
+DOUBT = 0.15
+"""Part of what an effect explains by which its first-order estimate may be wrong."""
+
+
+HOPELESS = 300.0
+"""Times the least chi-square of the roots, beyond which a root is left out unseen."""
+
+
+@dataclass(frozen=True)
+class Estimate:
+    """A set that could be fitted: to first order its cost, and where effects with kinks begin."""
+
+    names: Names
+    cost: float
+    probes: dict[str, float]
+
+
+@dataclass(frozen=True, eq=False)
+class Found:
+    """What was found. best: the set of least cost. rivals: sets as simple that the data do not exclude."""
+
+    shelf: Shelf
+    best: Names
+    rivals: tuple[Names, ...]
+
+
+def cost(shelf: Shelf, names: Names) -> float:
+    """Chi-square of the fit, and what each effect has to show."""
+    return shelf.fit(names).chi_square + price(shelf, names)
+
+
+def price(shelf: Shelf, names: Iterable[str]) -> float:
+    """What the effects of a set have to show, in chi-square."""
+    return sum(entry(shelf.candidates[name], len(shelf.candidates)) for name in names)
+
+
+def search(shelf: Shelf) -> Found:
+    """The best set, and those that may as well be true."""
+    roots = _roots(shelf)
+    starts: list[Names] = list(roots)
+    for root in roots:
+        starts += [e.names for e in _competing(shelf, root, 1)]
+        # Where one effect leaves noise, a second is looked for about that fit: to first order about the root, the
+        # curvature of a large effect looks like another.
+        if not any(_is_noise(shelf, names) for names in starts):
+            starts += [e.names for e in _competing(shelf, root, 2)]
+    best = min(starts, key=lambda names: cost(shelf, names))
+    while True:
+        better = _pruned(shelf, _grown(shelf, best))
+        if cost(shelf, better) >= cost(shelf, best):
+            break
+        best = better
+    return with_rivals(shelf, best)
+
+
+def _is_noise(shelf: Shelf, names: Names) -> bool:
+    """Whether chi-square is no larger than noise makes it, within three of its standard deviations."""
+    found = shelf.fit(names)
+    return bool(found.chi_square < found.degrees + 3.0 * np.sqrt(2.0 * found.degrees))
+
+
+def _roots(shelf: Shelf) -> list[Names]:
+    """Sets of effects that are there or not, from which to look on; one that promises far less is left out."""
+    switches = [name for name, effect in shelf.candidates.items() if not effect.parameters]
+    roots = [frozenset(some) for k in range(len(switches) + 1) for some in combinations(switches, k)]
+    least = min(shelf.fit(root).chi_square for root in roots)
+    roots = [root for root in roots if shelf.fit(root).chi_square < HOPELESS * least]
+    if len(roots) == 1:
+        return roots
+    promise = {
+        root: min(cost(shelf, root), *(e.cost for e in _estimates(shelf, root, (1, 2)))) for root in roots
+    }
+    least = min(promise.values())
+    return [root for root in roots if promise[root] < least + max(100.0, 0.5 * abs(least))]
+
+
+def _estimates(shelf: Shelf, start: Names, counts: Iterable[int]) -> list[Estimate]:
+    """Sets with so many further effects, to first order, best first; always at least one."""
+    found = shelf.picture(start)
+    base = found.fit.chi_square + price(shelf, start)
+    single = {name: found.gain([name]) for name in found.signatures}
+    leaders = sorted(single, key=lambda name: -single[name].value)[:LEADERS]
+    out = [Estimate(start, base, {})]
+    for count in counts:
+        groups = [(n,) for n in single] if count == 1 else list(combinations(leaders, count))
+        for group in groups:
+            gain = single[group[0]] if count == 1 else found.gain(group)
+            out.append(Estimate(start | set(group), base - gain.value + price(shelf, group), gain.probes))
+    return sorted(out, key=lambda e: e.cost)
+
+
+def _competing(shelf: Shelf, start: Names, count: int) -> list[Estimate]:
+    """Those sets that may turn out best: fitted."""
+    here = cost(shelf, start)
+    every = [e for e in _estimates(shelf, start, (count,)) if e.names != start]
+    best = min([here, *(cost(shelf, n) for n in shelf.fits), *(e.cost for e in every)])
+    within = [e for e in every if e.cost < min(here, best + max(APART * 2, DOUBT * (here - best)))]
+    for e in within[:WIDTH]:
+        shelf.fit(e.names, e.probes)
+    return within[:WIDTH]
+
+
+def _grown(shelf: Shelf, start: Names) -> Names:
+    """The best set with one effect more, or two; the same if none is better."""
+    if len(start) >= MOST:
+        return start
+    more = [start, *(e.names for k in (1, 2) for e in _competing(shelf, start, k)[:2])]
+    return min(more, key=lambda names: cost(shelf, names))
+
+
+def _pruned(shelf: Shelf, names: Names) -> Names:
+    """The set without what is no longer needed."""
+    while names:
+        fewer = [names - {name} for name in names if _dispensable(shelf, names, name)]
+        best = min(fewer, key=lambda each: cost(shelf, each), default=names)
+        if not fewer or cost(shelf, best) > cost(shelf, names):
+            return names
+        names = best
+    return names
+
+
+def _dispensable(shelf: Shelf, names: Names, name: str) -> bool:
+    """Whether an effect, by its own numbers and their covariance, explains no more than a few times its price."""
+    found = shelf.fit(names)
+    mine = np.array([each.effect == name for each in found.model.free], dtype=bool)
+    if not mine.any() or not shelf.candidates[name].smooth:
+        return True
+    null = np.array([each.parameter.null for each in found.model.free])
+    away = (found.model.values - null)[mine]
+    covariance = found.covariance[np.ix_(mine, mine)]
+    known = np.isfinite(np.diag(covariance))
+    if not known.any():
+        return True
+    inner = covariance[np.ix_(known, known)]
+    return float(away[known] @ np.linalg.solve(inner, away[known])) < 4.0 * price(shelf, [name])
+
+
+def with_rivals(shelf: Shelf, best: Names) -> Found:
+    """Every effect of the set is exchanged for every other; those that do as well are rivals."""
+    for name in [n for n in best if shelf.candidates[n].parameters]:
+        start = best - {name}
+        gap = cost(shelf, start) - cost(shelf, best)
+        limit = cost(shelf, best) + max(25.0, DOUBT * gap)
+        near = [
+            e
+            for e in _estimates(shelf, start, (1,))
+            if e.names not in (start, best) and _raw(shelf, e) < limit
+        ]
+        for e in near[:WIDTH]:
+            shelf.fit(e.names, e.probes)
+    winner = min(shelf.fits, key=lambda names: cost(shelf, names))
+    if winner != best:
+        return with_rivals(shelf, winner)
+    rivals = [n for n in shelf.fits if len(n) <= len(best) and n != best and not excluded(shelf, n, best)]
+    minimal = [n for n in rivals if not any(other < n for other in rivals) and not n < best and not best < n]
+    return Found(shelf, best, tuple(sorted(minimal, key=lambda n: shelf.fit(n).chi_square)))
+
+
+def _raw(shelf: Shelf, e: Estimate) -> float:
+    """Cost without the advantage of having few numbers."""
+    return e.cost - price(shelf, e.names) + min(price(shelf, [n]) for n in e.names) * len(e.names)
+
+
+def excluded(shelf: Shelf, rival: Names, best: Names) -> bool:
+    """Whether the data speak against a rival."""
+    more = sum(numbers(shelf.candidates[n]) for n in rival) - sum(numbers(shelf.candidates[n]) for n in best)
+    return shelf.fit(rival).chi_square - shelf.fit(best).chi_square + more > APART

@@ -1,0 +1,101 @@
+"""Models of a campaign at their best fit, each fitted once."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from functools import cached_property
+
+import numpy as np
+
+from pipeline.diagnose.picture import Picture, picture
+from pipeline.diagnose.signatures import Look, Probe, Say, look, probed, probes, signatures
+from pipeline.inference.fit import Fit, fit
+from pipeline.inference.model import Model
+from pipeline.inference.prediction import predict
+from pipeline.inference.program import Program
+from pipeline.inference.residual import residual
+from pipeline.inference.starts import best_fit
+from vjm.effects.base import Effect
+
+Names = frozenset[str]
+SETTLED = 3.0
+"""Whitened RMS below which a misfit moves the inputs by no more than their noise."""
+
+
+@dataclass(eq=False)
+class Shelf:
+    """Fits of the base model with sets of added effects, and the pictures about them.
+
+    candidates: by name, in the order in which they enter a model.
+    """
+
+    whole: Program
+    base: Model
+    candidates: Mapping[str, Effect]
+    say: Say
+    fits: dict[Names, Fit] = field(default_factory=dict)
+    pictures: dict[Names, Picture] = field(default_factory=dict)
+    at: Look = field(init=False)
+
+    def __post_init__(self) -> None:
+        self.at = look(self.whole)
+
+    @property
+    def evaluations(self) -> int:
+        """Solutions of the campaign that all fits took."""
+        return sum(each.evaluations for each in self.fits.values())
+
+    def order(self, names: Names) -> tuple[str, ...]:
+        """Names in the order of the candidates."""
+        return tuple(name for name in self.candidates if name in names)
+
+    def fit(self, names: Names, begin: Mapping[str, float] | None = None) -> Fit:
+        """The base model with these effects at its best fit. begin: where those with kinks begin."""
+        if names not in self.fits:
+            self.say(" + ".join(self.order(names)) or "the model as it is")
+            self.fits[names] = self._fitted(names, begin or {})
+        return self.fits[names]
+
+    def picture(self, names: Names) -> Picture:
+        """What could be added to a fit."""
+        if names not in self.pictures:
+            found = self.fit(names)
+            every = signatures(found, list(self.candidates.values()), self._probes, self.at, self.say)
+            self.pictures[names] = picture(found, every, self.at)
+        return self.pictures[names]
+
+    @cached_property
+    def _probes(self) -> list[Probe]:
+        return probes(self.base, list(self.candidates.values()), self.whole, self.say)
+
+    def _fitted(self, names: Names, begin: Mapping[str, float]) -> Fit:
+        effects = [self.candidates[name] for name in self.order(names)]
+        model, start = self._begin(names), None
+        if not model.free:
+            return self._settled(fit(model, self.whole))
+        kinked = [e for e in effects if not e.smooth]
+        new = [e.name for e in effects]
+        if not kinked or not all(e.name in begin for e in kinked):
+            return best_fit(model, self.whole, new, start, None)
+        for effect in kinked:
+            model = probed(model, effect, begin[effect.name])
+        return fit(model, self.whole, start)
+
+    def _settled(self, found: Fit) -> Fit:
+        """Where nothing is fitted, the inputs still are: seen from the measured ones their noise is in the slopes."""
+        if found.rms > SETTLED:
+            return found
+        there = predict(found.model, self.whole, start=found.prediction, shift=found.residual.shift)
+        return Fit(found.model, there, residual(self.whole, there), found.evaluations + 1)
+
+    def _begin(self, names: Names) -> Model:
+        """The model with values of the largest set that was fitted already."""
+        model = self.base.with_effects([self.candidates[name] for name in self.order(names)])
+        inside = [each for each in self.fits if each < names]
+        if not inside:
+            return model
+        known = self.fits[max(inside, key=len)].model
+        old = {f.name: v for f, v in zip(known.free, known.values, strict=True)}
+        values = [old.get(f.name, v) for f, v in zip(model.free, model.values, strict=True)]
+        return model.at(np.array(values))

@@ -1,0 +1,154 @@
+"""What every candidate would do to the readings, in sigmas, about a fit: from derivatives, or probes without them.
+
+A smooth effect has the derivative at its null. One with kinks (play, friction, yield) has none that says anything:
+it is put in at the sizes that it names and the difference of the predictions is taken, on lumped bars, for a look is
+all that it serves.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pipeline.campaign import Campaign, Test
+from pipeline.inference.fit import Fit
+from pipeline.inference.model import Model
+from pipeline.inference.prediction import predict
+from pipeline.inference.program import Program, program
+from pipeline.inference.residual import residual, whitening
+from vjm.effects.base import Effect
+
+Array = NDArray[np.float64]
+Say = Callable[[str], None]
+ENOUGH = 200
+"""Rows that a look at smooth effects needs; of more, some are left out."""
+
+
+@dataclass(frozen=True, eq=False)
+class Signature:
+    """Whitened columns (N, p), one for each number of the effect, in typical sizes; for an effect with kinks one
+    column (N, 1) for each of `probes`. low: (p,) least multiple that has a meaning, 0 or -inf.
+    """
+
+    effect: Effect
+    columns: tuple[Array, ...]
+    low: Array
+    probes: tuple[float, ...] = ()
+
+
+@dataclass(frozen=True, eq=False)
+class Look:
+    """Rows that are looked at: numbers (r,) in the whole campaign, and those rows as a campaign of their own."""
+
+    rows: np.ndarray
+    program: Program
+
+
+def look(whole: Program, enough: int = ENOUGH) -> Look:
+    """At most about `enough` rows, equally spaced within each fitted test, with its first and last."""
+    share = min(1.0, enough / max(int(whole.fitted.sum()), 1))
+    kept, tests = [], []
+    for number, test in enumerate(whole.campaign.tests):
+        if test.role != "fit":
+            continue
+        count = test.data.steps.size
+        some = np.unique(np.linspace(0, count - 1, max(3, round(share * count))).round().astype(int))
+        kept.append(whole.first[number] + some)
+        tests.append(_thinned(test, some))
+    # One rig stays one object, so that its tests are solved together.
+    campaign: Campaign = replace(whole.campaign, tests=tuple(tests))
+    return Look(np.concatenate(kept), program(campaign))
+
+
+def _thinned(test: Test, some: np.ndarray) -> Test:
+    d = test.data
+    heat = None if d.temperature is None else d.temperature[some]
+    data = replace(
+        d,
+        steps=d.steps[some],
+        displacement=d.displacement[some],
+        wrench=d.wrench[some],
+        gauges=d.gauges[some],
+        temperature=heat,
+        lines=d.lines[some],
+    )
+    return replace(test, data=data)
+
+
+def smooth_signature(found: Fit, effect: Effect, at: Look) -> Signature:
+    """Derivatives beside the null of an effect, on the rows of a look.
+
+    At the inputs of the fit: the noise of the measured ones would be in the derivatives as it is in the residuals.
+    """
+    model = found.model.with_effects([effect])
+    predicted = predict(model, at.program, shift=found.prediction.shift[at.rows])
+    slopes = residual(at.program, predicted).slopes
+    free = model.free[len(found.model.free) :]
+    typical = np.array([each.parameter.typical for each in free])
+    low = np.array([0.0 if each.parameter.one_sided else -np.inf for each in free])
+    columns = slopes[..., len(found.model.free) :] * typical
+    used = at.program.predicted & at.program.fitted[:, None]
+    return Signature(effect, (columns[used],), low)
+
+
+@dataclass(frozen=True, eq=False)
+class Probe:
+    """Readings (R, C) with an effect of the first number at `value`, less those without; zero in lost rows."""
+
+    effect: Effect
+    value: float
+    change: Array
+
+
+def probes(base: Model, effects: Sequence[Effect], whole: Program, say: Say) -> list[Probe]:
+    """Of every effect with kinks, on the base model without what is there or not: lumped bars are quick."""
+    bare = Model(tuple(t for t in base.terms if t.effect.parameters), base.fixed)
+    kinked = [e for e in effects if not e.smooth]
+    if not kinked:
+        return []
+    without, out = predict(bare, whole, slopes=False), []
+    for effect in kinked:
+        for value in effect.probes:
+            say(f"{effect.name} at {value:g}")
+            there = predict(probed(bare.with_effects([effect]), effect, value), whole, slopes=False)
+            lost = (there.lost | without.lost)[:, None]
+            out.append(Probe(effect, value, np.where(lost, 0.0, there.values - without.values)))
+    return out
+
+
+def probed_signatures(found: Fit, looks: Sequence[Probe], at: Look) -> list[Signature]:
+    """The probes' changes, weighed as the fit's own residual is."""
+    whole = found.residual.program
+    weights = whitening(whole, found.prediction)
+    used = whole.predicted & whole.fitted[:, None]
+    out: dict[str, Signature] = {}
+    for it in looks:
+        column = weights.apply(np.where(used, it.change, 0.0))[at.rows][used[at.rows]][:, None]
+        old = out.get(it.effect.name, Signature(it.effect, (), np.zeros(1)))
+        out[it.effect.name] = replace(old, columns=(*old.columns, column), probes=(*old.probes, it.value))
+    return list(out.values())
+
+
+def probed(model: Model, effect: Effect, value: float) -> Model:
+    """The model with the first number of an effect at a value, within its bounds."""
+    values = model.values
+    for k, each in enumerate(model.free):
+        if each.effect == effect.name and each.parameter is effect.parameters[0]:
+            values[k] = float(np.clip(value, *each.bounds))
+    return model.at(values)
+
+
+def signatures(
+    found: Fit, candidates: Sequence[Effect], looks: Sequence[Probe], at: Look, say: Say
+) -> list[Signature]:
+    """Of every candidate that the fit does not have yet and that changes anything at all."""
+    out = []
+    for effect in candidates:
+        if effect.smooth and effect.parameters and effect.name not in found.model.names:
+            say(effect.name)
+            out.append(smooth_signature(found, effect, at))
+    out += [s for s in probed_signatures(found, looks, at) if s.effect.name not in found.model.names]
+    return [it for it in out if any(np.any(columns) for columns in it.columns)]

@@ -1,0 +1,122 @@
+"""A diagnosis as an engineer would say it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from pipeline.campaign.names import COORDINATES
+from pipeline.diagnose.diagnosis import Diagnosis, why
+from pipeline.diagnose.evidence import APART
+from pipeline.diagnose.refuse import judge
+from vjm.effects.base import Effect
+
+ENOUGH = 30.0
+"""Chi-square by which the next test is expected to part rivals, and is worth doing once."""
+
+
+def sentences(it: Diagnosis) -> tuple[str, ...]:
+    """All that is worth saying, the verdict first."""
+    return (
+        *_verdict(it),
+        *_evidence(it),
+        *_left(it),
+        *_rivals(it),
+        *_next(it),
+        *(f"{r}." for r in it.campaign.remarks),
+    )
+
+
+def _verdict(it: Diagnosis) -> Iterator[str]:
+    rms, before = it.fit.rms, it.shelf.fit(frozenset()).rms
+    fall = f"the error falls from {before:.3g} to {rms:.3g} sigma (1 is noise)"
+    if it.verdict == "within_noise":
+        yield f"within_noise: the model explains the measurements, {rms:.3g} sigma are left (1 is noise)."
+    elif it.verdict == "identified":
+        yield f"identified: {_and(it.sets[0])}; {fall}."
+    elif it.verdict == "ambiguous":
+        sets = " or ".join(_and(names) for names in it.sets)
+        yield f"ambiguous: {sets}; these tests cannot tell; {fall}."
+    elif it.sets[0]:
+        rest = "what is left is no noise and nothing known explains it"
+        yield f"unknown: {_and(it.sets[0])} help, {fall}, but {rest}."
+    else:
+        yield f"unknown: the misfit of {rms:.3g} sigma is no noise, and nothing known explains it."
+
+
+def _evidence(it: Diagnosis) -> Iterator[str]:
+    """Each effect: what it is, how much it explains, how it looks."""
+    for name in it.sets[0]:
+        effect = it.shelf.candidates[name]
+        size = next((a.size for a in it.alike if a.effect == name), None)
+        shows = "" if size is None else f" It shows by {size:.3g} sigma in these tests together."
+        share = it.agreement.get(name)
+        again = (
+            ""
+            if share is None
+            else f" With any one test left out it is chosen again in {100 * share:.0f} % of cases."
+        )
+        yield f"{name}: {effect.title}, {effect.equation}. In data: {effect.signature}.{shows}{again}{_values(it, effect)}"
+
+
+def _values(it: Diagnosis, effect: Effect) -> str:
+    found = it.fit
+    said = []
+    for free, value, std in zip(found.model.free, found.model.values, found.std, strict=True):
+        if free.effect == effect.name:
+            unit = "" if free.parameter.unit == "1" else f" {free.parameter.unit}"
+            said.append(f"{free.parameter.name} = {value:.4g} ± {std:.2g}{unit}")
+    return f" Fitted: {', '.join(said)}." if said else ""
+
+
+def _left(it: Diagnosis) -> Iterator[str]:
+    """What the checks say of the rest."""
+    failed = [check for check in it.judgement.checks if not check.passed]
+    for check in failed:
+        yield f"Not noise ({check.name}, p = {check.p_value:.1g}): {check.words}."
+    if it.judgement.scatter > 1.0:
+        size = next(check.words for check in it.judgement.checks if check.name == "size")
+        yield f"By its order along the load paths the rest is noise, but {size}."
+    if it.verdict == "unknown":
+        yield from _why_not(it)
+
+
+def _why_not(it: Diagnosis) -> Iterator[str]:
+    """The closest known explanations, and why each fails."""
+    shelf = it.shelf
+    near = sorted(shelf.fits, key=lambda names: shelf.fit(names).chi_square)
+    for names in [n for n in near if n and n != frozenset(it.sets[0])][:3]:
+        found = shelf.fit(names)
+        worst = min(judge(found).checks, key=lambda check: check.p_value)
+        yield f"{_and(shelf.order(names))} leaves {found.rms:.3g} sigma: {worst.words}."
+
+
+def _rivals(it: Diagnosis) -> Iterator[str]:
+    shelf = it.shelf
+    if it.verdict == "ambiguous":
+        least = min(shelf.fit(frozenset(names)).chi_square for names in it.sets)
+        for names in it.sets:
+            more = shelf.fit(frozenset(names)).chi_square - least
+            yield f"{_and(names)}: chi-square {more:.1f} above the best; {APART:g} would exclude it."
+    for a in it.alike:
+        if a.correlation > 0.9 and a.effect in it.sets[0]:
+            yield (
+                f"{a.rival} looks like {a.effect} here (correlation {a.correlation:.3f}): to tell them apart takes "
+                f"{a.needed:.3g} sigma, there are {a.size:.3g}."
+            )
+
+
+def _next(it: Diagnosis) -> Iterator[str]:
+    if it.verdict != "ambiguous":
+        return
+    if it.next_test is None or it.next_test.chi_square < APART:
+        yield "No test of these kinds tells them apart on this rig: measure the part itself."
+        return
+    test = it.next_test.choice.test
+    held = [c for c, by in zip(COORDINATES, test.control, strict=True) if by == "displacement"]
+    times = max(1, round(ENOUGH / it.next_test.chi_square))
+    again = "" if times == 1 else f", about {times} times"
+    yield f"Next test: {why(it.next_test)}. Prescribe the displacement of {', '.join(held)}, forces elsewhere{again}."
+
+
+def _and(names: tuple[str, ...]) -> str:
+    return " + ".join(names) or "no further effect"

@@ -1,0 +1,157 @@
+"""A manipulator at one posture as a frame of finite elements: nodes, beams and joints placed part by part.
+
+Nothing but the description and the joints' coordinates is shared with the virtual springs; that every leg ends at
+the platform is checked here again.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from math import cos, sin
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fem.frame.section import section_of
+from fem.frame.structure import ELEMENTS, FREE, RIGID, Beam, Joint, Structure, stiffness_at
+from vjm.manipulator.parts import (
+    Actuator,
+    ElasticLink,
+    Frame,
+    Leg,
+    Manipulator,
+    Parallelogram,
+    Part,
+    Passive,
+    Virtual,
+)
+
+Array = NDArray[np.float64]
+BASE, PLATFORM = 0, 1
+_GAP = 1e-6
+"""How far, mm, a leg may end from the platform point."""
+
+
+def frame_stiffness(
+    manipulator: Manipulator, pose: Array, coordinates: tuple[Array, ...], elements: int = ELEMENTS
+) -> Array:
+    """(6, 6) at the platform point by finite elements, base frame; pose (6,), per leg (m,) coordinates.
+
+    ValueError for a leg that does not end at the platform point, and `fem.frame.structure.NoStiffness`.
+    """
+    return np.asarray(stiffness_at(frame_of(manipulator, pose, coordinates), PLATFORM, elements))
+
+
+def frame_of(manipulator: Manipulator, pose: Array, coordinates: tuple[Array, ...]) -> Structure:
+    """The structure: node 0 is the base, node 1 the platform."""
+    build = _Builder([np.zeros(3), np.asarray(pose[:3], dtype=float)])
+    for leg, x in zip(manipulator.legs, coordinates, strict=True):
+        _leg(build, leg, [float(v) for v in x])
+    return Structure(np.array(build.positions), tuple(build.beams), tuple(build.joints), (BASE,))
+
+
+@dataclass
+class _Builder:
+    """The structure so far, and the end of the leg that is being placed: node, place, triad."""
+
+    positions: list[Array]
+    beams: list[Beam] = field(default_factory=list)
+    joints: list[Joint] = field(default_factory=list)
+    node: int = BASE
+    place: Array = field(default_factory=lambda: np.zeros(3))
+    triad: Array = field(default_factory=lambda: np.eye(3))
+
+    def new(self, place: Array) -> int:
+        self.positions.append(np.asarray(place, dtype=float))
+        return len(self.positions) - 1
+
+    def join(self, first: int, second: int, place: Array, triad: Array, compliance: list[float]) -> None:
+        a, b, c, d, e, f = compliance
+        self.joints.append(Joint(first, second, place, triad, (a, b, c, d, e, f)))
+
+    def step(self, compliance: list[float]) -> None:
+        """A joint at the end of the leg, and a new body behind it."""
+        body = self.new(self.place)
+        self.join(self.node, body, self.place, self.triad, compliance)
+        self.node = body
+
+    def move(self, shift: Array, turn: Array) -> None:
+        self.place = self.place + self.triad @ shift
+        self.triad = self.triad @ turn
+
+
+def _leg(build: _Builder, leg: Leg, coordinates: list[float]) -> None:
+    build.node, build.place, build.triad = BASE, np.zeros(3), np.eye(3)
+    left = list(coordinates)
+    for part in leg.parts:
+        _place(build, part, left)
+    gap = float(np.linalg.norm(build.place - build.positions[PLATFORM]))
+    if gap > _GAP:
+        raise ValueError(f"leg {leg.name} ends {gap:.3g} mm from the platform point")
+    build.join(build.node, PLATFORM, build.place, np.eye(3), [RIGID] * 6)
+
+
+def _place(build: _Builder, part: Part, left: list[float]) -> None:
+    match part:
+        case Frame():
+            build.move(part.translation, part.rotation)
+        case Actuator():
+            build.step(_along(part.kind, part.axis, 0.0 if part.stiffness is None else 1.0 / part.stiffness))
+            _moved(build, part.kind, part.axis, left.pop(0))
+        case Passive():
+            build.step(_along(part.kind, part.axis, FREE))
+            _moved(build, part.kind, part.axis, left.pop(0))
+        case Virtual():
+            build.step(_along(part.kind, part.axis, 1.0 / part.stiffness))
+        case ElasticLink():
+            _beam(build, part)
+        case Parallelogram():
+            _linkage(build, part, left.pop(0))
+
+
+def _along(kind: str, axis: tuple[float, float, float], compliance: float) -> list[float]:
+    """Compliances of a joint that gives along or about one axis of its frame."""
+    number = int(np.argmax(np.abs(axis)))
+    if abs(abs(axis[number]) - 1.0) > 1e-12:
+        raise ValueError(f"finite elements take joints along an axis of their frame, got {axis}")
+    out = [RIGID] * 6
+    out[number + (3 if kind == "rotation" else 0)] = compliance
+    return out
+
+
+def _moved(build: _Builder, kind: str, axis: tuple[float, float, float], value: float) -> None:
+    a = np.array(axis)
+    build.move(*((value * a, np.eye(3)) if kind == "translation" else (np.zeros(3), _turn(a, value))))
+
+
+def _turn(axis: Array, angle: float) -> Array:
+    x, y, z = axis
+    cross = np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
+    return np.asarray(np.eye(3) + sin(angle) * cross + (1.0 - cos(angle)) * cross @ cross)
+
+
+def _beam(build: _Builder, part: ElasticLink) -> None:
+    if part.length == 0.0:
+        raise ValueError("finite elements have no elastic link of length zero")
+    if not np.array_equal(build.positions[build.node], build.place):
+        build.step([RIGID] * 6)
+    tip = build.place + part.length * build.triad[:, 0]
+    node = build.new(tip)
+    build.beams.append(Beam(build.node, node, section_of(part.stiffness, part.length), build.triad))
+    build.node, build.place = node, tip
+
+
+def _linkage(build: _Builder, part: Parallelogram, q: float) -> None:
+    """Two beams between hinges; the leg goes on from a new body midway between their tips."""
+    turned = build.triad @ _turn(np.array([0.0, 1.0, 0.0]), q)
+    end = build.place + part.length * turned[:, 0]
+    body = build.new(end)
+    hinge = [part.radial, RIGID, part.radial, part.tilt, FREE, part.tilt]
+    section = section_of(part.bar_stiffness, part.length)
+    for side in (-0.5, 0.5):
+        arm = side * part.width * build.triad[:, 2]
+        base, tip = build.new(build.place + arm), build.new(end + arm)
+        build.beams.append(Beam(base, tip, section, turned))
+        build.join(build.node, base, build.place + arm, turned, hinge)
+        build.join(tip, body, end + arm, turned, hinge)
+    build.node, build.place = body, end

@@ -1,0 +1,162 @@
+"""Sweep over a grid of platform points: in chunks, by any executor, interrupted and resumed without a trace.
+
+Every chunk is one file, written whole or not at all. What is there is not computed again; when all are there they are
+joined to `sweep.npy`, (points, columns) in the order of the grid. Only the chunks under way are in memory.
+"""
+
+import hashlib
+import json
+import os
+from collections.abc import Callable, Iterator
+from concurrent.futures import FIRST_COMPLETED, Executor, Future, wait
+from dataclasses import asdict, dataclass
+from pathlib import Path
+
+import numpy as np
+
+from pipeline.errors import InputError
+from pipeline.manipulator.description import Description
+from pipeline.manipulator.grid import Grid
+from pipeline.manipulator.mapping import COLUMNS, Array, CriticalMap, chunk_of, coarse, critical_map, nodes_of
+
+CHUNK = 2000
+"""Points of a chunk: about 20 MB of work space."""
+HEAD, RESULT, CHUNKS, CRITICAL = "sweep.json", "sweep.npy", "chunks", "critical.npy"
+_AHEAD, _NODES = 2, 5
+
+
+@dataclass(frozen=True, eq=False)
+class Sweep:
+    """A finished sweep: its folder, its grid, and how many chunks were computed now and how many were there."""
+
+    folder: Path
+    grid: Grid
+    computed: int
+    found: int
+
+    @property
+    def values(self) -> Array:
+        """(points, columns) of `COLUMNS`, mapped from the file."""
+        return np.asarray(np.load(self.folder / RESULT, mmap_mode="r"))
+
+
+def sweep(
+    description: Description,
+    grid: Grid,
+    folder: Path,
+    executor: Executor,
+    workers: int = 1,
+    chunk: int = CHUNK,
+    progress: Callable[[int, int], None] = lambda done, all: None,
+) -> Sweep:
+    """Sweep into a folder, or go on with what is there; progress is told the finished chunks and all of them.
+
+    workers: calls that the executor runs at once. InputError for a folder that holds another sweep.
+    """
+    folder.mkdir(parents=True, exist_ok=True)
+    _claim(folder, description, grid, chunk)
+    total = -(-grid.size // chunk)
+    if not (folder / RESULT).exists():
+        (folder / CHUNKS).mkdir(exist_ok=True)
+    missing = [] if (folder / RESULT).exists() else [k for k in range(total) if not _file(folder, k).exists()]
+    progress(total - len(missing), total)
+    if missing:
+        critical = _critical(description, grid, folder, executor, _AHEAD * workers)
+        todo = ((k, k * chunk, min((k + 1) * chunk, grid.size)) for k in missing)
+        calls = ((chunk_of, (description.manipulator, critical, grid, *one)) for one in todo)
+        for done, (number, values) in enumerate(_bounded(executor, calls, _AHEAD * workers), start=1):
+            _write(_file(folder, number), values)
+            progress(total - len(missing) + done, total)
+    _join(folder, grid, total)
+    return Sweep(folder, grid, len(missing), total - len(missing))
+
+
+def _bounded(
+    executor: Executor,
+    calls: Iterator[tuple[Callable[..., tuple[int, Array]], tuple[object, ...]]],
+    ahead: int,
+) -> Iterator[tuple[int, Array]]:
+    """Results as they come, with never more than `ahead` calls under way."""
+    running: set[Future[tuple[int, Array]]] = set()
+    try:
+        for function, arguments in calls:
+            running.add(executor.submit(function, *arguments))
+            if len(running) >= ahead:
+                done, running = wait(running, return_when=FIRST_COMPLETED)
+                yield from (future.result() for future in done)
+        while running:
+            done, running = wait(running, return_when=FIRST_COMPLETED)
+            yield from (future.result() for future in done)
+    finally:
+        for future in running:
+            future.cancel()
+
+
+def _claim(folder: Path, description: Description, grid: Grid, chunk: int) -> None:
+    """Writes what the folder is for, or checks that it is for this."""
+    head = {
+        "manipulator": description.manipulator.name,
+        "digest": hashlib.sha256(description.text.encode()).hexdigest(),
+        "grid": asdict(grid),
+        "chunk": chunk,
+        "columns": COLUMNS,
+    }
+    text = json.dumps(head, indent=1) + "\n"
+    file = folder / HEAD
+    if not file.exists():
+        _replace(file, text.encode())
+    elif file.read_text(encoding="utf-8") != text:
+        raise InputError(
+            f"{file}: is of another sweep (manipulator, grid or chunk), allowed is a folder of its own"
+        )
+
+
+def _critical(
+    description: Description, grid: Grid, folder: Path, executor: Executor, ahead: int
+) -> CriticalMap:
+    """The legs' critical forces on coarse nodes, kept beside the chunks."""
+    nodes, file = coarse(grid), folder / CRITICAL
+    if not file.exists():
+        calls = (
+            (nodes_of, (description.manipulator, nodes, k, min(k + _NODES, nodes.size)))
+            for k in range(0, nodes.size, _NODES)
+        )
+        force = np.zeros((nodes.size, len(description.manipulator.legs)))
+        for start, part in _bounded(executor, calls, ahead):
+            force[start : start + len(part)] = part
+        _write(file, force)
+    return critical_map(nodes, np.load(file))
+
+
+def _file(folder: Path, number: int) -> Path:
+    return folder / CHUNKS / f"{number:07d}.npy"
+
+
+def _write(file: Path, values: Array) -> None:
+    part = file.with_suffix(f".{os.getpid()}.part")
+    with part.open("wb") as out:
+        np.save(out, values)
+    os.replace(part, file)
+
+
+def _replace(file: Path, content: bytes) -> None:
+    part = file.with_suffix(f".{os.getpid()}.part")
+    part.write_bytes(content)
+    os.replace(part, file)
+
+
+def _join(folder: Path, grid: Grid, total: int) -> None:
+    """One file from all chunks, which are then removed."""
+    file = folder / RESULT
+    if not file.exists():
+        part = file.with_suffix(f".{os.getpid()}.part")
+        head = {"descr": "<f8", "fortran_order": False, "shape": (grid.size, len(COLUMNS))}
+        with part.open("wb") as out:
+            np.lib.format.write_array_header_1_0(out, head)
+            for number in range(total):
+                out.write(np.load(_file(folder, number)).astype("<f8").tobytes())
+        os.replace(part, file)
+    for rest in (folder / CHUNKS).glob("*"):
+        rest.unlink()
+    if (folder / CHUNKS).exists():
+        (folder / CHUNKS).rmdir()

@@ -1,0 +1,62 @@
+"""An Orthoglide whose linkage, drive and foot the tests choose."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from vjm import paper
+from vjm.bars import X, Y, Z
+from vjm.frames import Array
+from vjm.manipulator.parts import (
+    Actuator,
+    ElasticLink,
+    Frame,
+    Leg,
+    Manipulator,
+    Parallelogram,
+    Part,
+    Passive,
+)
+
+LENGTH, WIDTH, FOOT = paper.LENGTH, paper.WIDTH, 100.0
+DRIVE, AXIAL, BENDING = 3500.0, 4.2e7, 4.5e8
+ABOUT_Y, ABOUT_Z = Passive("rotation", Y), Passive("rotation", Z)
+POINTS = np.array([[0, 0, 0], [50, -40, 60], [-60, 30, 80], [90, 90, -90], [-80, -80, -80]], dtype=float)
+
+
+def beam(axial: float, about_y: float, about_z: float, torsion: float, length: float) -> Array:
+    """(6, 6) of a slender uniform bar at its tip: EA, EI_y, EI_z, GJ."""
+    k = np.diag(
+        [axial, 12 * about_z / length**2, 12 * about_y / length**2, torsion, 4 * about_y, 4 * about_z]
+    )
+    k[1, 5] = k[5, 1] = -6 * about_z / length
+    k[2, 4] = k[4, 2] = 6 * about_y / length
+    return k / length
+
+
+def orthoglide(linkage: tuple[Part, ...], drive: float = DRIVE, bending: float = BENDING) -> Manipulator:
+    """Three legs along x, y and z, the isotropic posture at zero."""
+    foot = ElasticLink(FOOT, beam(AXIAL, bending, bending, bending / 1.3, FOOT))
+    legs = []
+    for k in range(3):
+        frame = np.roll(np.eye(3), k, axis=0)
+        start = Frame(-(FOOT + LENGTH) * frame[:, 0], frame)
+        parts = (start, Actuator("translation", X, drive), foot, *linkage, Frame(rotation=frame.T))
+        legs.append(Leg("xyz"[k], parts))
+    return Manipulator("orthoglide", tuple(legs), LENGTH)
+
+
+def pair(bar: Array = paper.BAR_STIFFNESS, **change: object) -> tuple[Part, ...]:
+    """Hinge, parallelogram, hinge."""
+    return ABOUT_Z, Parallelogram(LENGTH, WIDTH, bar, **change), ABOUT_Z  # type: ignore[arg-type]
+
+
+def universal(bar: Array) -> tuple[Part, ...]:
+    """One bar between universal joints."""
+    return ABOUT_Z, ABOUT_Y, ElasticLink(LENGTH, bar), ABOUT_Y, ABOUT_Z
+
+
+def relative(k: Array, reference: Array) -> float:
+    """Largest difference of two 6x6 in units of the reference's diagonal."""
+    root = np.sqrt(np.abs(np.diagonal(reference, axis1=-2, axis2=-1)))
+    return float(np.max(np.abs(k - reference) / (root[..., :, None] * root[..., None, :])))

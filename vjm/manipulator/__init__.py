@@ -1,0 +1,1 @@
+"""Whole manipulators: legs of actuated, passive and virtual joints, links and parallelograms, from base to platform."""

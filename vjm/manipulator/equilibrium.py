@@ -1,0 +1,159 @@
+"""Loaded equilibrium of a manipulator at many postures or under many loads at once."""
+
+from __future__ import annotations
+
+from collections.abc import Collection
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from vjm.frames import Array, moment
+from vjm.manipulator.lagrangian import System, gradient_and_hessian
+from vjm.newton import CONVERGED, Step, dense, newton
+from vjm.problem import held_mask
+
+TOLERANCE = 1e-12
+ITERATIONS = 40
+_HALVINGS = 7
+
+
+@dataclass(frozen=True, eq=False)
+class Loaded:
+    """Equilibria of a manipulator, one for each member (B,) of its system.
+
+    unknowns (B, size). iterations (B,). residual (B,), dimensionless. converged (B,) of bool; reason (B,) of
+    strings; where not converged the state is none of the equilibrium asked for.
+    """
+
+    system: System
+    unknowns: Array
+    iterations: np.ndarray
+    residual: Array
+    converged: np.ndarray
+    reason: np.ndarray
+
+    @property
+    def pose(self) -> Array:
+        """(B, 6) of the platform."""
+        return self.unknowns[:, self.system.platform]
+
+    @property
+    def loads(self) -> Array:
+        """(B, legs, 6) load that each leg takes, conjugate to (p, rotation vector)."""
+        legs = range(len(self.system.legs))
+        return np.stack([self.unknowns[:, self.system.multiplier(k)] for k in legs], axis=1)
+
+    @property
+    def wrench(self) -> Array:
+        """(B, 6) on the platform at its point, base frame; moments are true moments."""
+        load = self.loads.sum(1)
+        return np.concatenate([load[:, :3], moment(self.pose[:, 3:], load[:, 3:])], axis=-1)
+
+
+def equilibrium(
+    system: System,
+    targets: ArrayLike,
+    held: Collection[str] = (),
+    start: Loaded | None = None,
+    tolerance: float = TOLERANCE,
+    limit: int = ITERATIONS,
+    increments: bool = True,
+) -> Loaded:
+    """Newton's method on the stationarity of L.
+
+    targets: (6,) or (B, 6): pose of a held platform coordinate (mm, rad), load on a free one (N, N·mm, conjugate to
+    the rotation vector). held: names of the held ones. start: state to begin from, default unloaded.
+    increments: approach a target that is not met at once in up to 2^7 steps from the start. ValueError for targets
+    that are not finite or have another last axis.
+    """
+    wanted = np.asarray(targets, dtype=float)
+    if wanted.ndim == 0 or wanted.shape[-1] != 6 or not np.all(np.isfinite(wanted)):
+        raise ValueError(f"targets must be finite, six numbers on the last axis, got shape {wanted.shape}")
+    wanted = np.broadcast_to(wanted, (len(system.pose), 6))
+    mask = held_mask(held)
+    first = system.at_rest() if start is None else start.unknowns
+    end = _solve(system, wanted, mask, first, tolerance, limit)
+    for member in np.flatnonzero(~end.converged) if increments else ():
+        part = system.take(np.array([member]))
+        slow = _in_steps(part, wanted[[member]], mask, first[[member]], tolerance, limit)
+        for name in ("unknowns", "iterations", "residual", "converged", "reason"):
+            getattr(end, name)[member] = getattr(slow, name)[0]
+    return end
+
+
+def _in_steps(
+    of: System, wanted: Array, mask: np.ndarray, first: Array, tolerance: float, limit: int
+) -> Loaded:
+    before = _prescribed(of, first, mask)
+    found = _solve(of, wanted, mask, first, tolerance, limit)
+    for halving in range(1, _HALVINGS + 1):
+        u = first
+        for share in np.linspace(0.0, 1.0, 2**halving + 1)[1:]:
+            found = _solve(of, before + share * (wanted - before), mask, u, tolerance, limit)
+            if not found.converged[0]:
+                break
+            u = found.unknowns
+        if found.converged[0]:
+            break
+    return found
+
+
+def _prescribed(of: System, u: Array, mask: np.ndarray) -> Array:
+    load = sum(u[:, of.multiplier(k)] for k in range(len(of.legs)))
+    return np.asarray(np.where(mask, u[:, of.platform], load))
+
+
+def _solve(of: System, wanted: Array, mask: np.ndarray, first: Array, tolerance: float, limit: int) -> Loaded:
+    scale, energy, pose = of.scale, of.energy, of.platform
+    pose_scale = scale[pose]
+    unit = np.where(mask, 1.0 / pose_scale, pose_scale / energy)
+
+    def rows_and_step(u: Array, members: np.ndarray) -> tuple[Array, Step]:
+        part = of.take(members)
+        gradient, hessian = gradient_and_hessian(part, u)
+        gradient *= scale / energy
+        hessian *= (scale / energy)[:, None]
+        gradient[:, pose] = (_prescribed(part, u, mask) - wanted[members]) * unit
+        hessian[:, pose] = 0.0
+        hessian[:, pose, pose] = np.diag(np.where(mask, unit, 0.0))
+        for k in range(len(of.legs)):
+            hessian[:, pose, of.multiplier(k)] = np.diag(np.where(mask, 0.0, unit))
+        return gradient, dense(gradient, hessian, scale)
+
+    motion = np.flatnonzero(~of.multipliers)
+    end = newton(rows_and_step, first, scale, tolerance, limit, motion)
+    done = np.asarray(end.reason == CONVERGED)
+    return Loaded(of, end.unknowns, end.iterations, end.residual, done, end.reason)
+
+
+def bordered_tangent(state: Loaded, held: Collection[str] = ()) -> Array:
+    """Symmetric dimensionless Hessian (B, M, M) of L without the held platform coordinates."""
+    of = state.system
+    _, hessian = gradient_and_hessian(of, state.unknowns)
+    free = np.setdiff1d(np.arange(of.size), np.arange(of.size)[of.platform][held_mask(held)])
+    scaled = hessian * of.scale[:, None] * (of.scale / of.energy)
+    return np.asarray(scaled[:, free[:, None], free])
+
+
+def unstable_directions(state: Loaded, held: Collection[str] = ()) -> np.ndarray:
+    """Number (B,) of unstable directions: negative eigenvalues of the bordered tangent beyond one per closure."""
+    values = np.linalg.eigvalsh(bordered_tangent(state, held))
+    return np.asarray(np.sum(values < 0.0, axis=-1) - state.system.closures)
+
+
+def loaded_stiffness(state: Loaded) -> Array:
+    """(B, 6, 6) at the platform point, base frame, conjugate to the rotation vector (Eq. 10 with closed loops).
+
+    numpy.linalg.LinAlgError in a critical state with the platform held.
+    """
+    of = state.system
+    _, hessian = gradient_and_hessian(of, state.unknowns)
+    scaled = hessian * of.scale[:, None] * (of.scale / of.energy)
+    pose = np.arange(of.size)[of.platform]
+    inner = np.setdiff1d(np.arange(of.size), pose)
+    mixed = scaled[:, inner[:, None], pose]
+    # L is stationary in all but the pose, so its second derivative along the pose is the Schur complement.
+    k = -np.swapaxes(mixed, -1, -2) @ np.linalg.solve(scaled[:, inner[:, None], inner], mixed)
+    k = k * of.energy / of.scale[pose][:, None] / of.scale[pose]
+    return np.asarray(0.5 * (k + np.swapaxes(k, -1, -2)))

@@ -1,0 +1,101 @@
+"""Legs one by one: the force that each takes of a load on the platform, and the force at which it buckles.
+
+For sweeps over many postures. The critical force of a leg is that between its base and a held platform; how far the
+platform and the other legs give way under it is left out, which costs a few per cent (`vjm.manipulator.buckling`
+follows the whole).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from vjm.frames import POSE_NAMES, Array
+from vjm.manipulator.buckling import linear_factor, linear_path
+from vjm.manipulator.lagrangian import system
+from vjm.manipulator.parts import ElasticLink, Frame, Leg, Manipulator, Parallelogram, Passive
+from vjm.manipulator.posture import Postures
+from vjm.manipulator.rest import RestStiffness
+
+SEGMENTS = 4
+"""Segments that stand for a bar that buckles: its critical load is then good to 0.1 %."""
+
+
+@dataclass(frozen=True, eq=False)
+class Shares:
+    """How legs share a force on the platform, batched over leading axes.
+
+    direction: (..., legs, 3) unit vector of the force that each leg carries, from its base to the platform.
+    force: (..., legs, 3) a: pull along it = a · force on the platform, platform free to turn. regular: (...) of bool.
+    """
+
+    direction: Array
+    force: Array
+    regular: np.ndarray
+
+
+def shares(manipulator: Manipulator, at: Postures, stiffness: RestStiffness) -> Shares:
+    """Shares at postures; zeros where the stiffness is not found or singular.
+
+    A leg's direction is that of its largest translational stiffness.
+    """
+    by_leg, batch = stiffness.by_leg, stiffness.found.shape
+    total = stiffness.total
+    length = manipulator.length
+    scale = np.repeat([1.0, 1.0 / length], 3)
+    unit = total * scale[:, None] * scale
+    values = np.linalg.eigvalsh(unit)
+    regular = stiffness.found & (values[..., 0] > 1e-12 * values[..., -1])
+    safe = np.where(regular[..., None, None], unit, np.eye(6))
+    compliance = scale[:, None] * np.linalg.inv(safe) * scale
+    _, vectors = np.linalg.eigh(by_leg[..., :3, :3])
+    direction = vectors[..., -1]
+    ahead = at.pose[..., None, :3] - _bases(manipulator, batch)
+    sign = np.sign(np.sum(direction * ahead, axis=-1))
+    direction = direction * np.where(sign == 0.0, 1.0, sign)[..., None]
+    pull = np.einsum("...ni,...nij,...jk->...nk", direction, by_leg[..., :3, :], compliance[..., :3])
+    pull = np.where(regular[..., None, None], pull, 0.0)
+    return Shares(direction, pull, np.asarray(regular))
+
+
+def _bases(manipulator: Manipulator, batch: tuple[int, ...]) -> Array:
+    """(..., legs, 3) where each leg starts: the end of a rigid first part, else the base origin."""
+    points = []
+    for leg in manipulator.legs:
+        first = leg.parts[0] if leg.parts else None
+        points.append(first.translation if isinstance(first, Frame) else np.zeros(3))
+    return np.broadcast_to(np.stack(points), (*batch, len(points), 3))
+
+
+def segmented(leg: Leg, segments: int = SEGMENTS) -> Leg:
+    """The leg with geometric stiffness in what may buckle: parallelograms, and elastic links between passive joints."""
+    parts = list(leg.parts)
+    for k, part in enumerate(parts):
+        between = any(isinstance(p, Passive) for p in parts[:k]) and any(
+            isinstance(p, Passive) for p in parts[k:]
+        )
+        if isinstance(part, Parallelogram):
+            parts[k] = replace(part, bars="pair", segments=part.segments or segments)
+        elif isinstance(part, ElasticLink) and between and part.length:
+            parts[k] = replace(part, segments=part.segments or segments)
+    return replace(leg, parts=tuple(parts))
+
+
+def critical_forces(
+    manipulator: Manipulator, at: Postures, direction: Array, segments: int = SEGMENTS
+) -> Array:
+    """(B, legs) compression, N positive, at which each leg buckles at postures (B,) with the platform held.
+
+    direction: (B, legs, 3) of `Shares`. inf: does not buckle to first order; nan where the posture is not reached.
+    """
+    out = np.full((len(at.pose), len(manipulator.legs)), np.nan)
+    for number, leg in enumerate(manipulator.legs):
+        alone = Manipulator(leg.name, (segmented(leg, segments),), manipulator.length)
+        for member in np.flatnonzero(at.reached):
+            one = at.take(slice(member, member + 1))
+            of = system(alone, Postures(one.pose, (one.coordinates[number],), one.reached, one.reason))
+            push = np.concatenate([-direction[member, number], np.zeros(3)])
+            force = linear_path(of, push, np.ones(6, dtype=bool))[0, of.multiplier(0)][:3] @ push[:3]
+            out[member, number] = float(force) * linear_factor(of, push, POSE_NAMES)
+    return out

@@ -1,0 +1,171 @@
+"""A leg with every bar as a chain of its own: coordinates, springs, the path to the platform, and its closed loops.
+
+The second bar of a parallelogram starts and ends on the same two bodies as the first one, so a loop closes by the
+paper's T_1 = T_2, written between these bodies: both sides are short chains of the leg's own coordinates.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from functools import lru_cache
+
+import numpy as np
+
+from vjm.bars import BarModel
+from vjm.chain import Chain, Element, Fixed, Role
+from vjm.frames import Array
+from vjm.laws import Spring
+from vjm.link import Link
+from vjm.lumped import Lumped
+from vjm.manipulator.parts import MOVING, ElasticLink, Leg, Parallelogram, Part
+from vjm.manipulator.rest import elastic_elements
+from vjm.mechanisms.assembly import HINGE
+from vjm.refined import Refined
+
+
+@dataclass(frozen=True, eq=False)
+class Path:
+    """A chain and the numbers (n,) of its coordinates in the leg."""
+
+    chain: Chain
+    numbers: np.ndarray
+
+
+@dataclass(frozen=True, eq=False)
+class LoopedLeg:
+    """A leg of N coordinates.
+
+    main: from base to platform. loops: pairs of paths between the same two bodies. moving: (m,) numbers of the
+    coordinates that equilibrium decides. rest: (N,) unloaded coordinates apart from the posture. posture: (M, N)
+    how its coordinates move them. linear: (N, N) stiffness, zero for coordinates without a spring, that of an
+    equivalent bar left out. springs: further laws. equivalents: linkages as pseudo-rigid bars: part, number in the
+    posture, numbers (5,) of its springs.
+    """
+
+    leg: Leg
+    main: Path
+    loops: tuple[tuple[Path, Path], ...]
+    moving: np.ndarray
+    rest: Array
+    posture: Array
+    linear: Array
+    springs: tuple[Spring, ...]
+    equivalents: tuple[tuple[Parallelogram, int, np.ndarray], ...]
+    translations: np.ndarray
+
+    @property
+    def closures(self) -> int:
+        """Number of scalar equations of the inner loops."""
+        return 6 * len(self.loops)
+
+    def at(self, coordinates: Array) -> Array:
+        """(..., N) unloaded coordinates at the posture (..., M)."""
+        return np.asarray(self.rest + coordinates @ self.posture)
+
+
+@dataclass
+class _Builder:
+    """Collects a leg part by part."""
+
+    elements: list[Element] = field(default_factory=list)
+    size: int = 0
+    springs: list[Spring] = field(default_factory=list)
+    blocks: list[tuple[np.ndarray, Array]] = field(default_factory=list)
+    rest: dict[int, float] = field(default_factory=dict)
+    posture: list[dict[int, float]] = field(default_factory=list)
+    pending: list[tuple[Parallelogram, int, int]] = field(default_factory=list)
+    equivalents: list[tuple[Parallelogram, int, np.ndarray]] = field(default_factory=list)
+
+    def add(self, part: Part, tie: str) -> None:
+        first = self.size
+        if isinstance(part, MOVING):
+            self.posture.append({first: 1.0})
+        if isinstance(part, Parallelogram) and part.bars == "pair":
+            self.pending.append((part, len(self.posture) - 1, first))
+            last = self._bar(part, -0.5 * part.width, self.elements, first)
+            self.posture[-1][last] = -1.0
+        elif isinstance(part, ElasticLink) and part.segments:
+            self._limb(Refined(part.segments), Link(part.length, part.stiffness), self.elements, first)
+        else:
+            added, block = elastic_elements(part, tie)
+            self.elements += added
+            roles = Chain(added)
+            virtual = first + roles.indices(Role.VIRTUAL)
+            self.size = first + roles.size
+            if isinstance(part, Parallelogram):
+                self.equivalents.append((part, len(self.posture) - 1, virtual))
+            elif virtual.size:
+                self.blocks.append((virtual, block))
+
+    def _limb(self, model: BarModel, link: Link, elements: list[Element], first: int) -> None:
+        limb = model.limb(link)
+        elements += limb.elements
+        self.blocks.append((first + np.arange(limb.rest.size), limb.stiffness))
+        self.springs += limb.numbered_from(first)
+        self.rest |= {first + k: float(v) for k, v in enumerate(limb.rest) if v}
+        self.size = first + limb.rest.size
+
+    def _bar(self, part: Parallelogram, offset: float, elements: list[Element], first: int) -> int:
+        """One bar between its hinges, its coordinates numbered from `first`; the number of the tip hinge."""
+        elements += [Fixed(np.array([0.0, 0.0, offset])), HINGE]
+        model: BarModel = Refined(part.segments) if part.segments else Lumped("tip")
+        self._limb(model, part.link, elements, first + 1)
+        elements += [HINGE, Fixed(np.array([0.0, 0.0, -offset]))]
+        self.size += 1
+        return self.size - 1
+
+    def close(self) -> tuple[tuple[Path, Path], ...]:
+        """Second bars, numbered after all else, and the loops that they close."""
+        loops = []
+        for part, place, first in self.pending:
+            paths = []
+            own = self.size
+            for start, offset in ((first, -0.5 * part.width), (own, 0.5 * part.width)):
+                elements: list[Element] = []
+                if start == own:
+                    last = self._bar(part, offset, elements, own)
+                    self.posture[place] |= {own: 1.0, last: -1.0}
+                else:
+                    scratch = _Builder()
+                    scratch._bar(part, offset, elements, 0)
+                chain = Chain(tuple(elements))
+                paths.append(Path(chain, start + np.arange(chain.size)))
+            loops.append((paths[0], paths[1]))
+        return tuple(loops)
+
+
+@lru_cache(maxsize=256)
+def looped(leg: Leg) -> LoopedLeg:
+    """The leg with the bars of its pairs one by one."""
+    build = _Builder()
+    for number, part in enumerate(leg.parts):
+        build.add(part, f"q{number}")
+    main = Chain(tuple(build.elements))
+    loops = build.close()
+    size = build.size
+    rest, posture, linear = np.zeros(size), np.zeros((len(build.posture), size)), np.zeros((size, size))
+    for k, value in build.rest.items():
+        rest[k] = value
+    for row, shares in zip(posture, build.posture, strict=True):
+        for k, share in shares.items():
+            row[k] = share
+    for numbers, block in build.blocks:
+        linear[numbers[:, None], numbers] = block
+    paths = [Path(main, np.arange(main.size)), *(second for _, second in loops)]
+    fixed = [int(p.numbers[k]) for p in paths for k in p.chain.indices(Role.ACTUATED)]
+    kinds = np.zeros(size, dtype=bool)
+    for path in paths:
+        kinds[path.numbers] = [joint.kind == "translation" for joint in path.chain.joints]
+    moving = np.setdiff1d(np.arange(size), fixed)
+    return LoopedLeg(
+        leg,
+        paths[0],
+        loops,
+        moving,
+        rest,
+        posture,
+        linear,
+        tuple(build.springs),
+        tuple(build.equivalents),
+        kinds[moving],
+    )

@@ -1,0 +1,128 @@
+"""Inverse kinematics: the coordinates of every leg that bring the unloaded platform to given poses.
+
+Legs are followed one by one as rigid chains, by Newton's method in the least-squares sense from their home, for all
+poses at once; a parallelogram is a rotation of its bars that its end does not follow.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import lru_cache
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from vjm.bars import X, Y
+from vjm.chain import Chain, Element, Fixed, Joint, Role
+from vjm.frames import Array
+from vjm.manipulator.parts import Actuator, ElasticLink, Frame, Leg, Manipulator, Parallelogram, Part, Passive
+
+TOLERANCE = 1e-11
+"""Gap of a leg that counts as closed: over the manipulator's length, and rad."""
+ITERATIONS = 60
+# Relative to the largest stiffness of a step: coordinates that move nothing stay where they are.
+_DAMPING = 1e-13
+_LONGEST = 0.3
+
+
+@dataclass(frozen=True, eq=False)
+class Postures:
+    """Where the joints stand, batched over leading axes.
+
+    pose: (..., 6) of the platform. coordinates: per leg (..., m). reached: (...) of bool; reason: (...) of strings,
+    empty where reached. Where not reached the coordinates are none of that pose.
+    """
+
+    pose: Array
+    coordinates: tuple[Array, ...]
+    reached: np.ndarray
+    reason: np.ndarray
+
+    def take(self, members: np.ndarray | slice | int) -> Postures:
+        """Some members of the batch."""
+        parts = tuple(x[members] for x in self.coordinates)
+        reason = np.asarray(self.reason[members], dtype=object)
+        return Postures(self.pose[members], parts, np.asarray(self.reached[members]), reason)
+
+
+def postures(manipulator: Manipulator, poses: ArrayLike) -> Postures:
+    """The joints at platform poses (..., 6), or (..., 3) for points at the orientation of the base frame.
+
+    ValueError for another last axis or numbers that are not finite.
+    """
+    pose = np.asarray(poses, dtype=float)
+    if pose.ndim == 0 or pose.shape[-1] not in (3, 6) or not np.all(np.isfinite(pose)):
+        raise ValueError(
+            f"poses must be finite, three or six numbers on the last axis, got shape {pose.shape}"
+        )
+    if pose.shape[-1] == 3:
+        pose = np.concatenate([pose, np.zeros_like(pose)], axis=-1)
+    batch = pose.shape[:-1]
+    flat = pose.reshape(-1, 6)
+    reason = np.full(len(flat), "", dtype=object)
+    coordinates = []
+    for leg in manipulator.legs:
+        x, gap = _closed(leg, flat, manipulator.length)
+        reason[(reason == "") & ~(gap <= TOLERANCE)] = f"leg {leg.name} does not reach this pose"
+        for k in leg.actuators:
+            actuator = leg.moving[k]
+            assert isinstance(actuator, Actuator)
+            beyond = (x[:, k] < actuator.limits[0]) | (x[:, k] > actuator.limits[1])
+            reason[(reason == "") & beyond] = f"the actuator of leg {leg.name} is beyond its limits"
+        coordinates.append(x.reshape(*batch, x.shape[-1]))
+    said = np.reshape(reason, batch)
+    return Postures(pose, tuple(coordinates), np.asarray(said == ""), said)
+
+
+def _closed(leg: Leg, pose: Array, length: float) -> tuple[Array, Array]:
+    """Coordinates (B, m) of a leg and what is left of its gap (B,)."""
+    chain = rigid_chain(leg)
+    x = np.tile(leg.home, (len(pose), 1))
+    gap = np.full(len(pose), np.inf)
+    scale = np.repeat([1.0 / length, 1.0], 3)
+    turns = np.array(
+        [not (isinstance(p, Actuator | Passive) and p.kind == "translation") for p in leg.moving]
+    )
+    size = np.where(turns, 1.0, length)
+    active = np.arange(len(pose))
+    for _ in range(ITERATIONS):
+        here = chain.kinematics(x[active])
+        error = (pose[active] - here.pose) * scale
+        gap[active] = np.max(np.abs(error), axis=-1)
+        jacobian = here.jacobian * scale[:, None] * size
+        normal = np.swapaxes(jacobian, -1, -2) @ jacobian
+        largest = np.max(np.abs(normal), axis=(-2, -1), initial=1e-300)
+        normal += (_DAMPING * largest)[:, None, None] * np.eye(x.shape[-1])
+        step = np.linalg.solve(normal, np.swapaxes(jacobian, -1, -2) @ error[..., None])[..., 0]
+        longest = np.max(np.abs(step), axis=-1, initial=_LONGEST)
+        x[active] += step * size * (_LONGEST / longest)[:, None]
+        active = active[~(gap[active] <= TOLERANCE)]
+        if not active.size:
+            break
+    return x, gap
+
+
+@lru_cache(maxsize=256)
+def rigid_chain(leg: Leg) -> Chain:
+    """The leg without its elasticity: one coordinate for each moving part, in their order."""
+    elements: list[Element] = []
+    for number, part in enumerate(leg.parts):
+        elements += _rigid(part, f"q{number}")
+    return Chain(tuple(elements))
+
+
+def _rigid(part: Part, tie: str) -> tuple[Element, ...]:
+    match part:
+        case Frame():
+            return (Fixed(part.translation, part.rotation),)
+        case Actuator() | Passive():
+            return (Joint(part.kind, part.axis, Role.PASSIVE),)
+        case ElasticLink():
+            return (Fixed(part.length * np.array(X)),)
+        case Parallelogram():
+            return (
+                Joint("rotation", Y, Role.PASSIVE, tie),
+                Fixed(part.length * np.array(X)),
+                Joint("rotation", Y, Role.PASSIVE, tie, -1.0),
+            )
+    return ()
