@@ -39,11 +39,11 @@ def buckling(model: LinearModel, held: Sequence[str], count: int = 6, driven: st
     Raises SolveError if the unloaded linkage is not held, RuntimeError if fewer modes come out than asked for.
     """
     r = model.reduction
-    state = prestress(model, driven, held)
     free = r.others([driven, *held])
+    factor = model.factor(free)
+    state = prestress(model, driven, held, factor)
     k = submatrix(model.reduced, free)
     kg = submatrix(state.geometric, free)
-    factor = model.solver(k)
     inverse = LinearOperator(k.shape, matvec=factor, dtype=float)
     # Pushing reverses the sign of the unit state. Shift-invert about the unloaded state: the largest 1/λ
     # belong to the lowest loads; a random start could miss a symmetric mode only with probability zero.

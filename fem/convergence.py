@@ -57,3 +57,18 @@ def extrapolate(sizes: Sequence[float], values: Sequence[float]) -> Extrapolatio
         return unsettled
     order = float(brentq(mismatch, *ORDERS))
     return Extrapolation(v3 - fine * h3**order / (h2**order - h3**order), order, spread)
+
+
+def limit_of_two(sizes: tuple[float, float], values: tuple[float, float], order: float) -> Extrapolation:
+    """The limit of value(h) = limit + c h^order from two meshes whose order is known from elsewhere.
+
+    The order is that of a quantity of the same field and corners on the same meshes. Raises ValueError for equal sizes
+    or an order that is not positive.
+    """
+    (h1, h2), (v1, v2) = sizes, values
+    if h1 == h2 or not order > 0.0:
+        raise ValueError(
+            f"sizes {h1:g} and {h2:g} mm with order {order:g}, allowed are two sizes, order above 0"
+        )
+    limit = v1 - (v2 - v1) * h1**order / (h2**order - h1**order)
+    return Extrapolation(limit, order, abs(v1 - v2))

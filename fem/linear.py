@@ -44,10 +44,11 @@ class LinearModel:
         """Stiffness in the linkage's unknowns, sparse symmetric."""
         return self.reduction.reduce(self.matrices, self.reduction.rest)
 
-    def motions(self, driven: Sequence[str], held: Sequence[str]) -> Floats:
+    def motions(self, driven: Sequence[str], held: Sequence[str], factor: Factor | None = None) -> Floats:
         """Unknowns, (size, len(driven)), for a unit value of each driven coordinate with the `held` ones at zero.
 
-        All other unknowns are free of load. Units: mm for translations, rad for rotations.
+        All other unknowns are free of load; `factor` is that of their stiffness, made here if it is not given.
+        Units: mm for translations, rad for rotations.
         """
         r = self.reduction
         free = r.others([*driven, *held])
@@ -55,7 +56,7 @@ class LinearModel:
         motion = np.zeros((r.size, len(driven)))
         motion[columns, np.arange(len(driven))] = 1.0
         coupling = self.reduced[columns][:, free].toarray().T
-        motion[free] = self.factor(free)(-coupling)
+        motion[free] = (factor or self.factor(free))(-coupling)
         return motion
 
     def factor(self, free: Ints) -> Factor:

@@ -234,9 +234,8 @@ def residual_and_tangent(model: LinearModel, state: State) -> tuple[Floats, sp.c
         force_and_tangent(m.space, model.material, u) for m, u in zip(r.linkage.members, fields, strict=True)
     ]
     forces = [f for f, _ in evaluated]
-    residual = r.loads(forces, state.at)
-    tangent = r.reduce([k for _, k in evaluated], state.at) + r.curvature(forces, state.at)
-    return residual, tangent.tocsr()
+    tangent = r.reduce([k for _, k in evaluated], state.at, r.curvature(forces, state.at))
+    return r.loads(forces, state.at), tangent
 
 
 def with_imperfection(linkage: Linkage, displacements: Sequence[Floats], amplitude: float) -> Linkage:

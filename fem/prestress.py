@@ -9,6 +9,7 @@ import scipy.sparse as sp
 from fem.elasticity import geometric_stiffness_matrix, internal_forces, stress
 from fem.linear import LinearModel
 from fem.linkage import PLATFORM
+from fem.solvers import Factor
 from meshes.solid import Floats
 
 
@@ -26,9 +27,14 @@ class Prestress:
     geometric: sp.csr_matrix
 
 
-def prestress(model: LinearModel, driven: str, held: Sequence[str]) -> Prestress:
-    """Drive one platform coordinate by a unit, mm or rad, with the `held` ones at zero and the rest free of load."""
-    return stressed(model, model.motions([driven], held)[:, 0])
+def prestress(
+    model: LinearModel, driven: str, held: Sequence[str], factor: Factor | None = None
+) -> Prestress:
+    """Drive one platform coordinate by a unit, mm or rad, with the `held` ones at zero and the rest free of load.
+
+    `factor` as in `LinearModel.motions`.
+    """
+    return stressed(model, model.motions([driven], held, factor)[:, 0])
 
 
 def stressed(model: LinearModel, motion: Floats) -> Prestress:
@@ -38,6 +44,6 @@ def stressed(model: LinearModel, motion: Floats) -> Prestress:
     sigmas = [stress(m.space, model.material, u) for m, u in zip(model.linkage.members, fields, strict=True)]
     kg = [geometric_stiffness_matrix(m.space, s) for m, s in zip(model.linkage.members, sigmas, strict=True)]
     nodal = [internal_forces(m.space, s) for m, s in zip(model.linkage.members, sigmas, strict=True)]
-    geometric = r.reduce(kg, r.rest) + r.curvature(nodal, r.rest)
+    geometric = r.reduce(kg, r.rest, r.curvature(nodal, r.rest))
     wrench = np.asarray(model.reduced @ motion)[r.platform(PLATFORM)]
-    return Prestress(fields, wrench, geometric.tocsr())
+    return Prestress(fields, wrench, geometric)

@@ -97,7 +97,7 @@ def panel(q_deg: float, held: tuple[str, ...], curves: Sequence[Json]) -> Panel:
     levels: dict[tuple[str, str], Level] = {}
     for curve in curves:
         label = model_label(curve)
-        dash = "dot" if label == "LIN" else "dash" if label.startswith("VJM") else "solid"
+        dash = "solid" if label == "solid FE" else "dash" if label.startswith("VJM") else "dot"
         named = all(line.label != label for line in lines)
         x, y = [-v for v in curve["x_mm"]], [-v / 1e3 for v in curve["fx_N"]]
         lines.append(Line(label, colour_of(label), dash, named, x, y))

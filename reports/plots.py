@@ -132,7 +132,7 @@ def critical(result: Json) -> go.Figure:
 
 
 def force_deflection(result: Json, q_deg: float) -> go.Figure:
-    """Fig. 3 at one angle: VJM, FEA and LIN, a drop-down for what is held."""
+    """Fig. 3 at one angle: VJM, solid, frame and LIN, a drop-down for what is held."""
     found = [panel for panel in panels(result) if panel.q_deg == q_deg]
     figure = go.Figure()
     owners: list[int] = []

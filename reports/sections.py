@@ -50,10 +50,14 @@ def bar(result: Json, drawings: Mapping[str, Drawing]) -> Section:
     blocks: list[Block] = [drawn("bar", "The bar and its section, each to scale.", drawings)]
     blocks.append(tables_bar.stiffness(part))
     blocks.append(Text(part["second_route"]["explanation"]))
+    if part.get("axial"):
+        blocks += [tables_bar.axial(part), Bullets(part["axial"]["explanation"])]
     small: list[Table] = [tables_bar.geometry(part), tables_bar.material(part), tables_bar.constants(part)]
     if part["fit"] is not None:
         small.append(tables_bar.fit(part))
     small += [tables_bar.laws(part), tables_bar.quality(part), tables_bar.leftover(part)]
+    if part.get("solve"):
+        small.append(tables_bar.solve(part))
     return Section("bar", "The bar and its stiffness (Eq. 12)", [*blocks, Tables(small)])
 
 
@@ -64,7 +68,10 @@ def convergence(result: Json, drawings: Mapping[str, Drawing]) -> Section:
         "freedom, with the observed order in the element size; the dashed line is the working mesh."
     )
     figure = drawn("convergence", caption, drawings, plots.convergence(result))
-    return Section("convergence", "Convergence", [figure, tables_bar.convergence(result["bar"])])
+    blocks: list[Block] = [figure, tables_bar.convergence(result["bar"])]
+    if result.get("refinement"):
+        blocks.append(tables_linkage.refinement(result))
+    return Section("convergence", "Convergence", blocks)
 
 
 def buckling(result: Json, drawings: Mapping[str, Drawing], shapes: Any) -> Section:
@@ -136,6 +143,12 @@ def force_deflection(result: Json, drawings: Mapping[str, Drawing]) -> Section:
         plot = plots.force_deflection(result, q)
         name = "force_deflection" if index == 0 else f"force_deflection_{index + 1}"
         blocks.append(drawn(name, caption, drawings if index == 0 else {}, plot))
+    if "agreement" in drawings:
+        caption = (
+            "Solid, frame, refined springs and LIN under the same conditions at one angle, tension to the left; below, "
+            "the difference of each to the solid. The grey band is the mesh error of the solid past its critical load."
+        )
+        blocks += [drawn("agreement", caption, drawings), Bullets(result["agreement"])]
     notes = list(dict.fromkeys(curve["note"] for curve in result["curves"] if curve["note"]))
     if notes:
         blocks.append(Bullets(notes))
@@ -150,8 +163,8 @@ def errata(result: Json) -> Section:
 
 READING: Sequence[str] = (
     "Units are N, mm, rad and MPa; a 6x6 maps x y z rx ry rz to Fx Fy Fz Mx My Mz.",
-    "FEA and solid FE are the finite-element solid; VJM is the virtual-joint model of Eq. 1; LIN is the "
-    "straight line of Eq. 11.",
+    "Solid FE is the finite-element solid; the frame is made of beam elements with the rigidities of its K_b; VJM is "
+    "the virtual-joint model of Eq. 1; LIN is the straight line of Eq. 11.",
     "Stiffness is that of the unloaded linkage; at a critical load the loaded tangent becomes singular.",
     "Held coordinates keep their unloaded value, the others are free of load.",
     "Every number is from result.json beside this page; this page computes nothing but ratios.",

@@ -15,8 +15,8 @@ CYCLE = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000
 MODEL_COLOURS: Mapping[str, str] = MappingProxyType(
     {
         "LIN": "#000000",
-        "FEA": "#D55E00",
         "solid FE": "#D55E00",
+        "frame": "#7B3294",
         "beam formula": "#E69F00",
         "VJM, spring at tip": "#0072B2",
         "VJM, spring at middle": "#56B4E9",
@@ -42,4 +42,4 @@ def model_label(item: Mapping[str, Any]) -> str:
         if spring in ("tip", "middle", "base"):
             return f"VJM, spring at {spring}"
         return f"VJM, {spring}" if spring else "VJM"
-    return {"fea": "FEA", "lin": "LIN", "solid": "solid FE"}.get(model, model)
+    return {"fea": "solid FE", "lin": "LIN", "solid": "solid FE"}.get(model, model)

@@ -5,7 +5,7 @@ from itertools import zip_longest
 from typing import Any
 
 from reports.blocks import Cell, Column, Table, table
-from reports.formats import DASH, entry_of, entry_unit, fixed, held_label, number, percent, symbol
+from reports.formats import DASH, count, entry_of, entry_unit, fixed, held_label, number, percent, symbol
 from reports.load import Json
 from reports.style import model_label
 
@@ -54,6 +54,7 @@ def stiffness(item: Json) -> Table:
             number(closed / 2),
             small(entry_of(item["vjm"], entry) / 2, item, entry),
             small(fea / 2, item, entry),
+            band_cell(item, entry),
             percent(fea / closed - 1.0) if closed else DASH,
             paper,
             small(entry_of(item["doubled_bar"], entry) / 2, item, entry),
@@ -65,18 +66,27 @@ def stiffness(item: Json) -> Table:
         Column("Eq. 11"),
         Column("VJM, Eq. 10"),
         Column("solid FE"),
+        Column("its mesh error", "±%"),
         Column("FE / Eq. 11 − 1", "%"),
         Column("paper, Eq. 13"),
         Column("K_b, reference"),
     ]
     columns = [column for column, keep in zip(columns, kept(printed), strict=True) if keep]
     caption = f"K_p / 2 at q = {item['q_deg']:g}°, {item['frame']} frame"
-    return table(caption, columns, rows, f"{DASH}: Eq. 11 has a zero there.")
+    note = "Eq. 11 has the K_b of the same mesh, so its difference to the solid holds no mesh error; the paper's does."
+    return table(caption, columns, rows, f"{DASH}: Eq. 11 has a zero there.", note)
+
+
+def band_cell(item: Json, entry: str) -> str:
+    """Mesh error of an entry of the solid, where the run has it and the entry is not zero."""
+    if not item.get("band") or not entry_of(item["closed_form"], entry):
+        return DASH
+    return percent(entry_of(item["band"], entry)).removeprefix("+")
 
 
 def kept(printed: Any) -> list[bool]:
     """The paper's column is dropped where the paper prints nothing."""
-    return [True] * 6 + [printed is not None, True]
+    return [True] * 7 + [printed is not None, True]
 
 
 def small(value: float, item: Json, entry: str) -> str:
@@ -117,13 +127,15 @@ def groups(items: Sequence[Json]) -> dict[tuple[float, tuple[str, ...]], dict[st
 
 
 def load_cell(item: Json | None) -> Cell:
-    """A critical load in kN; tension is marked, and a search without a find says how far it went."""
+    """A critical load in kN, marked with tension or its mesh error; a search without a find says how far it went."""
     if item is None:
         return Cell("")
     if item["load_N"] is None:
         searched = item.get("searched_N")
         return Cell(DASH, "none found" if searched is None else f"none up to {number(searched / 1e3, 3)} kN")
-    return Cell(number(item["load_N"] / 1e3, 4), "tension" if item["load_N"] < 0 else "")
+    band = item.get("band")
+    mark = "tension" if item["load_N"] < 0 else "" if band is None else f"±{fixed(100 * band, 2)} %"
+    return Cell(number(item["load_N"] / 1e3, 4), mark)
 
 
 def critical(result: Json) -> Table:
@@ -151,7 +163,8 @@ def critical(result: Json) -> Table:
         columns,
         rows,
         "Compression positive, tension negative; both bars together, platform driven along x.",
-        "Ratio: to solid FE.",
+        "Ratio: to solid FE. ±: mesh error, that of one bar's load in the same supports and plane. VJM and formulas "
+        "have the K_b of the same mesh, so a ratio holds less of it than the load.",
         "VJM tip, middle, base: where the bar's lumped spring sits; VJM distributed: with geometric stiffness.",
     )
 
@@ -193,6 +206,9 @@ def reasons(result: Json) -> list[str]:
     return sentences
 
 
+MODEL_NAMES = {"frame": "Frame"}
+
+
 def validity(result: Json) -> Table:
     """Load up to which LIN is good enough, one column for each deviation."""
     items = result["validity"]
@@ -208,9 +224,49 @@ def validity(result: Json) -> Table:
     columns = [Column("LIN against", numeric=False), Column("q", "°"), Column("held", numeric=False)]
     columns += [Column(f"within {100 * deviation:g} %, up to", "kN") for deviation in deviations]
     notes = ["Compression positive."]
+    bands = [c["band"] for c in result["curves"] if c["model"] == "fea" and c.get("band") is not None]
+    if bands:
+        notes.append(
+            f"Solid FE: loads of the path's mesh, whose critical loads are known to {fixed(100 * min(bands), 1)} to "
+            f"{fixed(100 * max(bands), 1)} %."
+        )
     if any(item["load_N"] is None for item in items):
         notes.append(f"{DASH}: the curve ends before it deviates so much.")
     return table("Load up to which the linear model holds", columns, rows, *notes)
+
+
+def refinement(result: Json) -> Table:
+    """One number of each load path, coarse to fine."""
+    rows = []
+    for item in result["refinement"]:
+        sizes, values = item["sizes"], [number(v, 6) for v in item["values"]]
+        rows.append(
+            [
+                MODEL_NAMES.get(item["model"], item["model"]),
+                f"{item['quantity']}, q = {item['q_deg']:g}°, held {held_label(item['held'])}",
+                f"{item['refined']}: {', '.join(count(n) for n in sizes)}",
+                *[""] * (4 - len(values)),
+                *values,
+                number(item["limit"], 6),
+                f"{count(item['used'])}",
+                number(100 * item["band"], 2),
+            ]
+        )
+    columns = [
+        Column("model", numeric=False),
+        Column("quantity", numeric=False),
+        Column("refined", numeric=False),
+        *(Column(title, "N") for title in ("coarsest", "", "", "finest", "limit")),
+        Column("the run's"),
+        Column("band", "%"),
+    ]
+    return table(
+        "Load paths refined",
+        columns,
+        rows,
+        "Limit: extrapolated; of steps, the finest. Band: error of the value that the run uses; of steps, what all "
+        "differ by: equilibria of an elastic linkage do not depend on the steps that lead to them.",
+    )
 
 
 def kilo(load: float | None) -> str:

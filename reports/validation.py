@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-from reports import bar_drawing, charts, linkage_drawing, markdown, page, shapes, turntable
+from reports import agreement, bar_drawing, charts, linkage_drawing, markdown, page, shapes, turntable
 from reports.errors import ReportError
 from reports.files import write_bytes
 from reports.load import Json, load
@@ -35,6 +35,8 @@ def write(folder: Path, result: Json) -> list[Path]:
         "convergence": ("", charts.convergence(result)),
         "force_deflection": ("", charts.force_deflection(result)),
     }
+    if result.get("agreement"):
+        drawings["agreement"] = ("", agreement.draw(result))
     drawings |= {f"modes_{item.supports}": ("", shapes.picture(item)) for item in found}
     fresh = list(drawings)
     drawings |= kept(folder, result, fresh)

@@ -11,12 +11,13 @@ import numpy as np
 from pipeline.add.summary import changes, confusable, error_of, undetermined, values_of
 from pipeline.answer import Answer, Candidate, Correlation, Verdict
 from pipeline.campaign import Campaign
+from pipeline.campaign.names import COORDINATES
 from pipeline.diagnose.apart import Likeness, likenesses
-from pipeline.diagnose.evidence import numbers
 from pipeline.diagnose.folds import agreement, crossvalidated, crossvalidated_with
+from pipeline.diagnose.menu import Choice
 from pipeline.diagnose.next_test import NextTest, best_next_test
 from pipeline.diagnose.refuse import Judgement, judge
-from pipeline.diagnose.search import Found, search
+from pipeline.diagnose.search import Found, search, taken
 from pipeline.diagnose.shelf import Names, Shelf
 from pipeline.diagnose.signatures import Say
 from pipeline.errors import InputError
@@ -127,8 +128,7 @@ def _verdict(found: Found, judgement: Judgement) -> Verdict:
 
 
 def _simplicity(shelf: Shelf, names: Names) -> tuple[int, int, float]:
-    taken = sum(numbers(shelf.candidates[name]) for name in names)
-    return len(names), taken, shelf.fit(names).chi_square
+    return len(names), taken(shelf, names), shelf.fit(names).chi_square
 
 
 def answer_of(it: Diagnosis, sentences: tuple[str, ...] = ()) -> Answer:
@@ -153,7 +153,7 @@ def answer_of(it: Diagnosis, sentences: tuple[str, ...] = ()) -> Answer:
         correlations=tuple(Correlation(first=names[i], second=names[j], value=r) for i, j, r in pairs),
         undetermined=undetermined(values, [[names[k] for k in group] for group in only_together(land)]),
         confusable=confusable(names, pairs) + _alike(it),
-        next_test=next_test_record(it.next_test),
+        next_test=next_test_record(it.next_test, it.sets),
         sentences=sentences,
         evaluations=shelf.evaluations + land.evaluations,
         seconds=it.seconds,
@@ -211,30 +211,34 @@ def candidates_of(it: Diagnosis) -> tuple[Candidate, ...]:
 
 def _bic(shelf: Shelf, names: Names) -> float:
     found = shelf.fit(names)
-    taken = sum(numbers(shelf.candidates[name]) for name in names)
-    return found.chi_square + taken * float(np.log(max(found.whitened.size, 2)))
+    return found.chi_square + taken(shelf, names) * float(np.log(max(found.whitened.size, 2)))
 
 
-def next_test_record(it: NextTest | None) -> dict[str, object] | None:
-    """The next test as JSON."""
-    if it is None:
+def next_test_record(it: NextTest | None, sets: tuple[tuple[str, ...], ...]) -> dict[str, object] | None:
+    """The next test as JSON, what it would tell apart, and a second one where only both together tell."""
+    if it is None or not it.apart:
         return None
-    test = it.choice.test
+    first, *others = [_test_record(choice) for choice in it.choices]
     return {
-        "q_deg": test.q_deg,
-        "control": dict(zip(("x", "y", "z", "rx", "ry", "rz"), test.control, strict=True)),
-        "driven": ("x", "y", "z", "rx", "ry", "rz")[it.choice.shape.coordinate],
-        "largest": it.choice.limit,
-        "expected_chi_square": it.chi_square,
-        "why": why(it),
+        **first,
+        "tells_apart": [[list(sets[a]), list(sets[b])] for a, b in it.apart],
+        "expected_chi_square": [it.parted[pair] for pair in it.apart],
+        "together_with": others,
     }
 
 
-def why(it: NextTest) -> str:
-    """The test in words."""
-    unit = ("N", "mm", "mm", "rad", "rad", "rad")[it.choice.shape.coordinate]
-    warm = ", 10 K warmer" if it.choice.warmer else ""
-    return (
-        f"at q = {it.choice.test.q_deg:g}°, {it.choice.shape.words}, there and back to ±{it.choice.limit:.3g} {unit}"
-        f"{warm}: there the candidates differ by {np.sqrt(it.chi_square):.3g} sigma after refitting"
-    )
+def _test_record(choice: Choice) -> dict[str, object]:
+    return {
+        "q_deg": choice.test.q_deg,
+        "control": dict(zip(COORDINATES, choice.test.control, strict=True)),
+        "driven": COORDINATES[choice.shape.coordinate],
+        "largest": choice.limit,
+        "why": in_words(choice),
+    }
+
+
+def in_words(choice: Choice) -> str:
+    """A test of the menu."""
+    unit = ("N", "mm", "mm", "rad", "rad", "rad")[choice.shape.coordinate]
+    warm = ", 10 K warmer" if choice.warmer else ""
+    return f"q = {choice.test.q_deg:g}°, {choice.shape.words}, there and back to ±{choice.limit:.3g} {unit}{warm}"

@@ -13,10 +13,12 @@ from vjm.effects.base import Effect
 
 FALSE_ALARM = 0.005
 """Chance that noise alone gets any of the candidates named."""
-APART = 4.0
+APART = 5.0
 """Chi-square by which a rival has to be worse, after one for each number that it has more, to be excluded. Of two
 effects of signature correlation rho and size mu the wrong one is then named with probability
-Phi(-(mu² (1 - rho²) + 4) / (2 mu sqrt(1 - rho²))): at most 0.3 %, whatever the size."""
+Phi(-(mu² (1 - rho²) + 5) / (2 mu sqrt(1 - rho²))): at most 1.3 %, where the data are least decisive."""
+RAW = 2.0
+"""Chi-square by which it has to be worse in any case: a rival of many numbers that fits as well is none to exclude."""
 
 
 def numbers(effect: Effect) -> int:

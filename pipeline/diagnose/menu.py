@@ -15,6 +15,8 @@ STEPS = 16
 WARMER = 10.0
 """K, of a test that is repeated in a warmer hall."""
 _D, _F = DISPLACEMENT, FORCE
+DONE = 20.0
+"""Sigmas from which a prescribed quantity was driven, and not held."""
 _MODEST = np.array([0.0, 0.02, 0.05, 0.03, 0.03, 0.04])
 """Travel where the campaign has none: lengths of the bar, and rad."""
 _SHARE = 0.2
@@ -136,18 +138,19 @@ def limits(campaign: Campaign) -> Array:
     bars = 2 if rig.kind == "parallelogram" else 1
     out = _MODEST * np.array([0.0, rig.length, rig.length, 1.0, 1.0, 1.0])
     out[0] = _SHARE * bars * np.pi**2 * rigidity / rig.length**2
+    sigma = np.append(campaign.noise.wrench[:1], campaign.noise.displacement[1:])
     for k in range(6):
         done = max((_largest(t, k) for t in campaign.tests), default=0.0)
-        out[k] = done or out[k]
+        out[k] = done if done > DONE * np.nan_to_num(sigma[k]) else out[k]
     return out
 
 
 def _largest(test: Test, coordinate: int) -> float:
     """Largest prescribed force along x, or travel along another coordinate."""
-    if (test.control[coordinate] == FORCE) != (coordinate == 0):
+    if test.control[coordinate] != (FORCE if coordinate == 0 else DISPLACEMENT):
         return 0.0
     readings = test.data.wrench[:, 0] if coordinate == 0 else test.data.displacement[:, coordinate]
-    return float(np.nanmax(np.abs(readings), initial=0.0)) if np.ptp(readings) > 0 else 0.0
+    return float(np.nanmax(np.abs(readings), initial=0.0))
 
 
 def _there_and_back(steps: int) -> Array:

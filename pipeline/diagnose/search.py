@@ -12,7 +12,7 @@ from itertools import combinations
 
 import numpy as np
 
-from pipeline.diagnose.evidence import APART, entry, numbers
+from pipeline.diagnose.evidence import APART, RAW, entry, numbers
 from pipeline.diagnose.shelf import Names, Shelf
 
 WIDTH = 4
@@ -100,8 +100,9 @@ def _roots(shelf: Shelf) -> list[Names]:
 def _estimates(shelf: Shelf, start: Names, counts: Iterable[int]) -> list[Estimate]:
     """Sets with so many further effects, to first order, best first; always at least one."""
     found = shelf.picture(start)
+    every = [name for name in found.signatures if start >= set(shelf.candidates[name].includes)]
     base = found.fit.chi_square + price(shelf, start)
-    single = {name: found.gain([name]) for name in found.signatures}
+    single = {name: found.gain([name]) for name in every}
     leaders = sorted(single, key=lambda name: -single[name].value)[:LEADERS]
     out = [Estimate(start, base, {})]
     for count in counts:
@@ -186,5 +187,10 @@ def _raw(shelf: Shelf, e: Estimate) -> float:
 
 def excluded(shelf: Shelf, rival: Names, best: Names) -> bool:
     """Whether the data speak against a rival."""
-    more = sum(numbers(shelf.candidates[n]) for n in rival) - sum(numbers(shelf.candidates[n]) for n in best)
-    return shelf.fit(rival).chi_square - shelf.fit(best).chi_square + more > APART
+    worse = shelf.fit(rival).chi_square - shelf.fit(best).chi_square
+    return worse > RAW and worse + taken(shelf, rival) - taken(shelf, best) > APART
+
+
+def taken(shelf: Shelf, names: Iterable[str]) -> int:
+    """Degrees of freedom that a set takes."""
+    return sum(numbers(shelf.candidates[name]) for name in names)

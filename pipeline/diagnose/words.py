@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+import numpy as np
+
 from pipeline.campaign.names import COORDINATES
-from pipeline.diagnose.diagnosis import Diagnosis, why
+from pipeline.diagnose.diagnosis import Diagnosis, in_words
 from pipeline.diagnose.evidence import APART
+from pipeline.diagnose.menu import Choice
 from pipeline.diagnose.refuse import judge
 from vjm.effects.base import Effect
-
-ENOUGH = 30.0
-"""Chi-square by which the next test is expected to part rivals, and is worth doing once."""
 
 
 def sentences(it: Diagnosis) -> tuple[str, ...]:
@@ -53,9 +53,10 @@ def _evidence(it: Diagnosis) -> Iterator[str]:
         again = (
             ""
             if share is None
-            else f" With any one test left out it is chosen again in {100 * share:.0f} % of cases."
+            else f" With one test left out it is chosen again in {100 * share:.0f} % of cases."
         )
-        yield f"{name}: {effect.title}, {effect.equation}. In data: {effect.signature}.{shows}{again}{_values(it, effect)}"
+        what = f"{name}: {effect.title}, {effect.equation}. In data: {effect.signature}."
+        yield f"{what}{shows}{again}{_values(it, effect)}"
 
 
 def _values(it: Diagnosis, effect: Effect) -> str:
@@ -98,7 +99,7 @@ def _rivals(it: Diagnosis) -> Iterator[str]:
             more = shelf.fit(frozenset(names)).chi_square - least
             yield f"{_and(names)}: chi-square {more:.1f} above the best; {APART:g} would exclude it."
     for a in it.alike:
-        if a.correlation > 0.9 and a.effect in it.sets[0]:
+        if a.correlation > 0.9 and a.effect in it.sets[0] and a.size < a.needed:
             yield (
                 f"{a.rival} looks like {a.effect} here (correlation {a.correlation:.3f}): to tell them apart takes "
                 f"{a.needed:.3g} sigma, there are {a.size:.3g}."
@@ -108,14 +109,25 @@ def _rivals(it: Diagnosis) -> Iterator[str]:
 def _next(it: Diagnosis) -> Iterator[str]:
     if it.verdict != "ambiguous":
         return
-    if it.next_test is None or it.next_test.chi_square < APART:
+    if it.next_test is None or not it.next_test.apart:
         yield "No test of these kinds tells them apart on this rig: measure the part itself."
         return
-    test = it.next_test.choice.test
-    held = [c for c, by in zip(COORDINATES, test.control, strict=True) if by == "displacement"]
-    times = max(1, round(ENOUGH / it.next_test.chi_square))
-    again = "" if times == 1 else f", about {times} times"
-    yield f"Next test: {why(it.next_test)}. Prescribe the displacement of {', '.join(held)}, forces elsewhere{again}."
+    first, *others = it.next_test.choices
+    yield f"Next test: {in_words(first)}. {_how(first)}"
+    for other in others:
+        yield f"Only together with: {in_words(other)}. {_how(other)}"
+    for a, b in it.next_test.apart:
+        sigma = np.sqrt(it.next_test.parted[(a, b)])
+        yield f"That tells {_and(it.sets[a])} from {_and(it.sets[b])}: they would differ by {sigma:.3g} sigma."
+
+
+def _how(choice: Choice) -> str:
+    held = [c for c, by in zip(COORDINATES, choice.test.control, strict=True) if by == "displacement"]
+    return (
+        f"Prescribe the displacement of {', '.join(held)} and forces elsewhere."
+        if held
+        else "Prescribe forces."
+    )
 
 
 def _and(names: tuple[str, ...]) -> str:

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 class Detail:
     """Mesh levels: `working` of K_b and linear buckling, `study` of the convergence study, `path` of load paths.
 
+    `steps` in which one path of the solid is followed anew, to see that they make no difference.
     The paths are sampled at `travel`, at the first `path_angles` angles of the case and the first `path_sets` ways of
     holding the platform (None: all of them).
     """
@@ -16,8 +17,14 @@ class Detail:
     study: tuple[int, ...]
     path: int
     travel: tuple[float, ...]
+    steps: tuple[int, ...] = (10, 20)
     path_angles: int | None = None
     path_sets: int | None = None
+
+    @property
+    def companion(self) -> int:
+        """Mesh level beside the working one, for the error of critical loads."""
+        return self.working - 1 if self.working > 1 else self.working + 1
 
 
 # Travel of a load path in units of that at the linear critical load: close-set where the branches part.
@@ -28,4 +35,4 @@ MANY = tuple(
 )
 COARSE = Detail("coarse", working=1, study=(1, 2, 3), path=1, travel=FEW, path_angles=1, path_sets=2)
 DEFAULT = Detail("default", working=2, study=(1, 2, 3, 4), path=1, travel=SOME)
-FINE = Detail("fine", working=3, study=(1, 2, 3, 4, 5), path=2, travel=MANY)
+FINE = Detail("fine", working=3, study=(1, 2, 3, 4, 5), path=2, travel=MANY, steps=(10, 20, 40))

@@ -8,6 +8,8 @@ import json
 from pathlib import Path
 from typing import Any
 
+from pydantic import Field
+
 from meshes.files import replacing
 from pipeline.record import Record
 
@@ -36,6 +38,33 @@ class Convergence(Record):
     extrapolated: Matrix
     band: dict[str, float]
     """Relative discretisation error of the working mesh, entry by entry."""
+
+
+class Axial(Record):
+    """Derivative of the bar's 6x6 by its axial force at no load, tension positive: entries per N of those of K_b."""
+
+    solid: Matrix
+    """Identified: K_g of the prestressed solid, condensed to the tip."""
+    formula: Matrix
+    """Of a uniform beam with the section between the lugs and both ends plane."""
+    vjm: Matrix
+    """Of the virtual-joint model's refined bar with the same K_b, by central differences of its loaded stiffness."""
+    band: dict[str, float]
+    """Relative discretisation error of the solid, entry by entry."""
+    explanation: list[str]
+
+
+class Solve(Record):
+    """How K_b's six right-hand sides were solved on the working mesh; `residual` is relative to the largest load."""
+
+    solver: str
+    unknowns: int
+    nonzeros: int
+    setup_seconds: float
+    solve_seconds: float
+    right_hand_sides: int
+    iterations: int
+    residual: float
 
 
 class SecondRoute(Record):
@@ -83,6 +112,8 @@ class Bar(Record):
     laws: dict[str, float]
     """Relative asymmetry of K_b, largest force under a rigid motion, smallest eigenvalue ratio."""
     convergence: Convergence
+    axial: Axial | None = None
+    solve: Solve | None = None
 
 
 class Buckling(Record):
@@ -98,6 +129,10 @@ class Buckling(Record):
     formula: str | None = None
     deviation: float | None = None
     picture: str | None = None
+    limit_N: float | None = None
+    """Extrapolated to a mesh without error."""
+    band: float | None = None
+    """Relative discretisation error of `load_N`."""
 
 
 class Parallelogram(Record):
@@ -113,6 +148,8 @@ class Parallelogram(Record):
     singular_values_fea: list[float]
     frame: str
     worst_fea_deviation: float
+    band: Matrix | None = None
+    """Relative discretisation error of `fea`, entry by entry, 0 where the entry is."""
 
 
 class Critical(Record):
@@ -132,12 +169,15 @@ class Critical(Record):
     closed_form_N: float | None = None
     ratio_to_solid: float | None = None
     why: str
+    band: float | None = None
+    """Relative discretisation error of a solid's `load_N`."""
 
 
 class Curve(Record):
     """A force-deflection curve; compression negative."""
 
     model: str
+    """vjm | fea (solid bars) | frame (beams) | lin"""
     q_deg: float
     held: list[str]
     spring_at: str
@@ -147,6 +187,8 @@ class Curve(Record):
     fx_N: list[float]
     critical_N: list[float]
     note: str
+    band: float | None = None
+    """Relative discretisation error of `fx_N` past the critical load, of a finite-element curve."""
 
 
 class Validity(Record):
@@ -157,6 +199,24 @@ class Validity(Record):
     held: list[str]
     deviation: float
     load_N: float | None
+
+
+class Refinement(Record):
+    """One number of a load path at several refinements, coarse to fine."""
+
+    model: str
+    quantity: str
+    q_deg: float
+    held: list[str]
+    refined: str
+    """What is made finer: unknowns, steps, elements a bar, segments a bar."""
+    sizes: list[int]
+    values: list[float]
+    limit: float
+    band: float
+    """Relative error of the value that the run uses."""
+    used: int
+    """The size that the run uses."""
 
 
 class Erratum(Record):
@@ -186,6 +246,9 @@ class Result(Record):
     critical: list[Critical]
     curves: list[Curve]
     validity: list[Validity]
+    refinement: list[Refinement] = Field(default_factory=list)
+    agreement: list[str] = Field(default_factory=list)
+    """Why the curves of solid, frame, refined springs and LIN differ, a sentence each."""
     orthoglide: list[dict[str, Any]]
     errata: list[Erratum]
     story: list[str]

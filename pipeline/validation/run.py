@@ -11,13 +11,11 @@ from fem.solvers import has_pardiso
 from meshes.files import replacing
 from pipeline.progress import Progress, Stage
 from pipeline.provenance import commit, versions
+from pipeline.validation.agreement import agreement_sentences
 from pipeline.validation.case import Case
-from pipeline.validation.comparison import (
-    critical_records,
-    curve_records,
-    stiffness_records,
-    validity_records,
-)
+from pipeline.validation.comparison import stiffness_records
+from pipeline.validation.critical import bar_mode, critical_records
+from pipeline.validation.curves import curve_records, validity_records
 from pipeline.validation.detail import Detail
 from pipeline.validation.result import (
     Bar,
@@ -26,10 +24,11 @@ from pipeline.validation.result import (
     Curve,
     Erratum,
     Parallelogram,
+    Refinement,
     Result,
     Validity,
 )
-from pipeline.validation.stages.bar import Specimen, identify, specimen
+from pipeline.validation.stages.bar import identify
 from pipeline.validation.stages.buckling import buckle_bar, mode_files
 from pipeline.validation.stages.linkage import (
     HELD_SETS,
@@ -40,6 +39,9 @@ from pipeline.validation.stages.linkage import (
     solid_path,
     solid_stiffness,
 )
+from pipeline.validation.stages.refinement import refinements, solid_steps
+from pipeline.validation.stages.specimen import Specimen, specimen
+from pipeline.validation.stages.springs import spring_set
 from pipeline.validation.story import tell
 from pipeline.validation.workshop import Workshop
 from vjm.paper_errata import errata
@@ -66,7 +68,19 @@ class Springs(BaseModel):
     critical: list[Critical]
     curves: list[Curve]
     validity: list[Validity]
+    refinement: list[Refinement]
+    agreement: list[str]
     errata: list[Erratum]
+
+
+@dataclass(frozen=True)
+class Solids:
+    """What the solid linkage gives."""
+
+    stiffness: list[SolidStiffness]
+    loads: list[SolidBuckling]
+    paths: list[SolidPath]
+    steps: Refinement
 
 
 @dataclass(frozen=True)
@@ -97,9 +111,8 @@ def run(case: Case, detail: Detail, workshop: Workshop, out: Path, typed: str) -
         mesh = s.mesh(detail.working)
         stage.note = f"{len(mesh.cells)} {mesh.kind}, {mesh.dofs} unknowns"
     bar = identify(case, s, fit)
-    buckling, shapes = buckled_bar(job, s)
-    solids = solid_stage(job, s)
-    springs = spring_stage(job, s, bar, *solids)
+    buckling, shapes = buckled_bar(job, s, bar)
+    springs = spring_stage(job, s, bar, buckling, solid_stage(job, s))
     for path in shapes:
         # Late, so that an interrupted run leaves no new shapes beside an old result.
         with replacing(out / "modes" / path.name) as part:
@@ -117,6 +130,8 @@ def run(case: Case, detail: Detail, workshop: Workshop, out: Path, typed: str) -
         critical=springs.critical,
         curves=springs.curves,
         validity=springs.validity,
+        refinement=springs.refinement,
+        agreement=springs.agreement,
         orthoglide=[],
         errata=springs.errata,
         story=tell(bar, buckling, springs.parallelogram, springs.critical, springs.validity),
@@ -130,16 +145,20 @@ def run(case: Case, detail: Detail, workshop: Workshop, out: Path, typed: str) -
     )
 
 
-def buckled_bar(job: Run, s: Specimen) -> tuple[list[Buckling], list[Path]]:
+def buckled_bar(job: Run, s: Specimen, bar: Bar) -> tuple[list[Buckling], list[Path]]:
     """Buckling of the bar, and the files with its mode shapes."""
     folder = job.workshop.files("bar buckling", s.inputs)
     records = job.workshop.reuse(
-        "bar buckling", s.inputs, list[Buckling], lambda stage: buckle_bar(s, folder, stage), mode_files()
+        "bar buckling",
+        s.inputs,
+        list[Buckling],
+        lambda stage: buckle_bar(s, bar.convergence, folder, stage),
+        mode_files(),
     )
     return records, [folder / name for name in mode_files()]
 
 
-def solid_stage(job: Run, s: Specimen) -> tuple[list[SolidStiffness], list[SolidBuckling], list[SolidPath]]:
+def solid_stage(job: Run, s: Specimen) -> Solids:
     """The parallelogram as solid finite elements."""
     inputs, keep = job.inputs(s), job.workshop.reuse
     stiffness = keep(
@@ -154,38 +173,46 @@ def solid_stage(job: Run, s: Specimen) -> tuple[list[SolidStiffness], list[Solid
         pairs = [(q, held) for q in angles for held in HELD_SETS[: job.detail.path_sets]]
         return [solid_path(job.case, s, q, held, stage) for q, held in pairs]
 
-    return stiffness, loads, keep("linkage load paths", inputs, list[SolidPath], paths)
+    followed = keep("linkage load paths", inputs, list[SolidPath], paths)
+    steps = keep("step study", inputs, Refinement, lambda stage: solid_steps(job.case, s, stage))
+    return Solids(stiffness, loads, followed, steps)
 
 
-def spring_stage(
-    job: Run,
-    s: Specimen,
-    bar: Bar,
-    stiffness: list[SolidStiffness],
-    loads: list[SolidBuckling],
-    paths: list[SolidPath],
-) -> Springs:
-    """The virtual springs beside the solid, and the paper's errata."""
-    k_b = np.array(bar.stiffness)
+def spring_stage(job: Run, s: Specimen, bar: Bar, buckled: list[Buckling], solids: Solids) -> Springs:
+    """Virtual springs and frame beside the solid, and the paper's errata."""
+    k_b, case = np.array(bar.stiffness), job.case
 
     def compare(_: Stage) -> Springs:
-        curves = curve_records(job.case, k_b, paths)
+        springs, body = spring_set(case, k_b), s.segments[len(s.segments) // 2]
+        curves = curve_records(case, s, k_b, springs, solids.paths, solids.loads, buckled)
+        first = {(b.q_deg, *b.held): b.planes[0] for b in solids.loads}
+        pairs = [(p, bar_mode(buckled, p.held, first[p.q_deg, *p.held])) for p in solids.paths]
+        studies = refinements(case, s, k_b, solids.loads, pairs, solids.steps)
         return Springs(
-            parallelogram=stiffness_records(job.case, k_b, stiffness),
-            critical=critical_records(job.case, s, k_b, loads),
+            parallelogram=stiffness_records(case, bar, solids.stiffness),
+            critical=critical_records(s, k_b, springs, solids.loads, buckled),
             curves=curves,
-            validity=validity_records(curves, paths),
-            errata=[
-                Erratum(
-                    number=e.number,
-                    place=e.place,
-                    printed=e.printed,
-                    correct=e.correct,
-                    evidence="; ".join(f"{name}: {value:.5g}" for name, value in e.evidence.items()),
-                    numbers=dict(e.evidence),
-                )
-                for e in errata()
-            ],
+            validity=validity_records(curves, solids.paths),
+            refinement=studies,
+            agreement=agreement_sentences(
+                curves, solids.paths, solids.loads, studies, body, case.linkage.length_mm
+            ),
+            errata=printed_errata(),
         )
 
     return job.workshop.reuse("virtual springs", job.inputs(s), Springs, compare)
+
+
+def printed_errata() -> list[Erratum]:
+    """The slips of the paper with their evidence in words."""
+    return [
+        Erratum(
+            number=e.number,
+            place=e.place,
+            printed=e.printed,
+            correct=e.correct,
+            evidence="; ".join(f"{name}: {value:.5g}" for name, value in e.evidence.items()),
+            numbers=dict(e.evidence),
+        )
+        for e in errata()
+    ]

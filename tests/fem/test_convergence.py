@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from fem.convergence import extrapolate
+from fem.convergence import extrapolate, limit_of_two
 
 
 @settings(max_examples=40, derandomize=True, deadline=None, database=None)
@@ -69,3 +69,18 @@ def test_bad_studies(sizes: tuple[float, ...], values: tuple[float, ...], senten
     with pytest.raises(ValueError) as caught:
         extrapolate(sizes, values)
     assert str(caught.value) == sentence
+
+
+@pytest.mark.parametrize("sizes", [(2.0, 1.0), (1.0, 2.0)])
+def test_limit_of_two_meshes(sizes: tuple[float, float]) -> None:
+    """Whichever of the two is finer; the band of a value is 1.25 times its distance to the limit."""
+    values = (7.0 + 0.3 * sizes[0] ** 1.6, 7.0 + 0.3 * sizes[1] ** 1.6)
+    found = limit_of_two(sizes, values, 1.6)
+    assert found.limit == pytest.approx(7.0, rel=1e-12)
+    assert found.band(values[0]) == pytest.approx(1.25 * 0.3 * sizes[0] ** 1.6 / 7.0, rel=1e-9)
+
+
+@pytest.mark.parametrize(("sizes", "order"), [((1.0, 1.0), 2.0), ((2.0, 1.0), 0.0)])
+def test_limit_of_two_needs_two_sizes_and_an_order(sizes: tuple[float, float], order: float) -> None:
+    with pytest.raises(ValueError, match="allowed are two sizes, order above 0"):
+        limit_of_two(sizes, (1.0, 2.0), order)

@@ -12,7 +12,7 @@ import pytest
 
 from fem import path
 from fem.buckling import Mode, buckling
-from fem.linear import LinearModel
+from fem.linear import LinearModel, submatrix
 from fem.path import Path, State, follow, residual_and_tangent, with_imperfection
 from fem.solvers import SolveError
 from tests.fem import bar_p
@@ -115,6 +115,33 @@ def test_tangents_of_earlier_points_change_nothing(
     for quantity in ("displacement", "wrench"):
         mine = [getattr(p, quantity) for p in found.points]
         np.testing.assert_allclose(mine, [getattr(p, quantity) for p in pushed.points], rtol=1e-6, atol=1e-5)
+
+
+def test_tension_stiffens_without_buckling(bowed: LinearModel, straight: LinearModel) -> None:
+    """To twice the critical travel: F = EA e (1 + 3 e / 2 + e² / 2) of Saint Venant-Kirchhoff bars, e = x / L."""
+    pull = np.array([0.2, 0.45])
+    found = follow(bowed, bar_p.GUIDED, pull)
+    assert found.failure == "" and [p.unstable for p in found.points] == [0, 0]
+    strain = pull / bar_p.LENGTH
+    # The bow, straightened, takes 1e-4 of the initial slope.
+    law = straight.stiffness[0, 0] * pull * (1 + 1.5 * strain + 0.5 * strain**2)
+    np.testing.assert_allclose(found.column("wrench", "x"), law, rtol=2e-4)
+    # The difference to the straight line is seen, not lost in the tolerance.
+    assert law[1] / (straight.stiffness[0, 0] * pull[1]) - 1 > 2e-3
+
+
+def test_tangents_keep_their_pattern(bowed: LinearModel) -> None:
+    """At rest, where symmetry makes entries vanish, and bent: the order of elimination found once serves all."""
+    r = bowed.reduction
+    rest = State(np.zeros(r.starts[-1]), r.rest)
+    bent = rest.moved(0.01 * np.random.default_rng(3).standard_normal(r.size))
+    one, two = (residual_and_tangent(bowed, state)[1] for state in (rest, bent))
+    for part in ("indptr", "indices"):
+        np.testing.assert_array_equal(getattr(one, part), getattr(two, part))
+    free = r.others(["x", *bar_p.GUIDED])
+    factor = bowed.solver(submatrix(one, free))
+    if factor.name == "pardiso":
+        assert factor.renewed(submatrix(two, free)) is factor
 
 
 @pytest.mark.parametrize("degrees", [0.0, 30.0])

@@ -85,6 +85,7 @@ def test_all_files_are_drawn(drawn: tuple[Path, list[Path]]) -> None:
         "bar",
         "convergence",
         "force_deflection",
+        "agreement",
         *(f"modes_{s}" for s in example.SUPPORTS),
     ]
     expected = {f"pictures/{name}.png" for name in pictures} | {"index.html", "report.md"}
@@ -146,11 +147,30 @@ def test_numbers_of_the_result_are_on_the_page(text: str) -> None:
         assert shown in plain
 
 
+def test_every_number_of_the_solid_has_its_error(text: str) -> None:
+    """K_b and its derivative, buckling, critical loads, paths: a column or a note in each table."""
+    plain = re.sub(r"<[^>]+>", "", text[text.index("</script>") :])
+    assert plain.count("mesh error ±%") == 5 and plain.count("±0.70 %") == 6
+    assert "known to 1.2 to 1.2 %" in plain and "−39\u202f375.0" in plain
+    assert "K_g, what 1 N of axial force adds" in plain and "elements a bar: 8, 16, 32" in plain
+
+
+def test_a_result_of_an_earlier_version_is_drawn(tmp_path: Path) -> None:
+    """One without axial stiffness, refinement and agreement."""
+    data = example.result()
+    for key in ("axial", "solve"):
+        del data["bar"][key]
+    del data["refinement"], data["agreement"]
+    draw(example.write(tmp_path, data))
+    text = (tmp_path / "report.md").read_text(encoding="utf-8")
+    assert "K_g" not in text and "agreement.png" not in text
+
+
 def test_markdown_pictures_exist_and_tables_are_rectangular(drawn: tuple[Path, list[Path]]) -> None:
     folder, _ = drawn
     markdown = (folder / "report.md").read_text(encoding="utf-8")
     links = re.findall(r"!\[[^\]]*\]\(([^)]+)\)", markdown)
-    assert len(links) == 6 and all((folder / link).is_file() for link in links)
+    assert len(links) == 7 and all((folder / link).is_file() for link in links)
     for block in re.findall(r"(?:^\|.*\n)+", markdown, re.MULTILINE):
         widths = {len(re.findall(r"(?<!\\)\|", line)) for line in block.splitlines()}
         assert len(widths) == 1

@@ -53,7 +53,7 @@ class Effect(ABC):
     of a single bar, "" for none; a parallelogram has all.
     smooth: False where the response has a kink or a dead zone in the parameters, so that a fit needs several
     starts and a derivative at null says little. probes: values of the first parameter at which to look for such an
-    effect. history: whether the order of load steps matters.
+    effect. history: whether the order of load steps matters. includes: effects that it cannot be without.
     """
 
     name: ClassVar[str]
@@ -68,6 +68,7 @@ class Effect(ABC):
     smooth: ClassVar[bool] = True
     probes: ClassVar[tuple[float, ...]] = ()
     history: ClassVar[bool] = False
+    includes: ClassVar[tuple[str, ...]] = ()
 
     @abstractmethod
     def change(self, rig: Rig, values: Values) -> Rig:

@@ -18,10 +18,9 @@ class DimensionError(Effect):
     title = "dimensions differ from the drawing"
     equation = "L -> L + length, d -> d + width; a uniform bar's 6x6 follows its length"
     signature = "a constant x offset (length); rotational stiffness changes with the square of the width"
-    limits = "the same error in both bars and in both widths; a bar has no width to be wrong"
+    limits = "the same error in both bars and in both widths; a single bar has no width: no test of it says anything"
     source = "geometry; Eq. 11 of the paper for the width"
     parameters = (_LENGTH, _WIDTH)
-    kinds = ("parallelogram",)
 
     def change(self, rig: Rig, values: Values) -> Rig:
         longer = for_bars(rig, lambda link: link.lengthened(values["length_mm"]))

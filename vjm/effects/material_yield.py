@@ -31,6 +31,8 @@ class MaterialYield(Effect):
     smooth = False
     probes = (0.004, 0.002, 0.001)
     history = True
+    # Where fibres yield is found along a refined bar, which has its geometric stiffness.
+    includes = ("bar_geometric_nonlinearity",)
 
     def change(self, rig: Rig, values: Values) -> Rig:
         """ValueError where the rig's fibres are not known, or lie within its radii of gyration."""

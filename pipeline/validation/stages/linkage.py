@@ -1,6 +1,7 @@
 """The parallelogram as finite elements: stiffness, linear buckling and load paths for each way of holding it."""
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 from math import radians
 
 import numpy as np
@@ -15,7 +16,7 @@ from pipeline.progress import Stage
 from pipeline.validation.case import Case
 from pipeline.validation.entries import rows
 from pipeline.validation.result import Matrix
-from pipeline.validation.stages.bar import Specimen
+from pipeline.validation.stages.specimen import Specimen
 
 HELD_SETS: tuple[tuple[str, ...], ...] = (
     ("y", "z", "rx", "ry", "rz"),
@@ -27,6 +28,9 @@ LOWEST = 5
 # Bow of both bars in the shape of the lowest mode: their length over this.
 LENGTH_TO_BOW = 30_000
 BOW = f"a bow of L/{LENGTH_TO_BOW}"
+# Travel to the tension side in units of that at the critical load in compression: past where springs at the bars' tips
+# turn unstable, fully held.
+TENSION = (0.2, 0.4)
 
 
 class SolidBuckling(BaseModel):
@@ -40,7 +44,10 @@ class SolidBuckling(BaseModel):
 
 
 class SolidPath(BaseModel):
-    """A load path of the linkage; `tangent` is the slope of the same mesh at no load, N/mm."""
+    """A load path of the linkage, compression from no load on, and the tension side from no load on.
+
+    `tangent` is the slope of the same mesh at no load, N/mm; `critical` the linear critical load of that mesh, N.
+    """
 
     q_deg: float
     held: list[str]
@@ -49,6 +56,8 @@ class SolidPath(BaseModel):
     tangent: float
     critical: float
     failure: str
+    tension_x: list[float]
+    tension_fx: list[float]
 
 
 class SolidStiffness(BaseModel):
@@ -100,26 +109,48 @@ def slope(model: LinearModel, held: Sequence[str]) -> float:
     return float((model.reduced[[row]] @ motion)[0])
 
 
-def solid_path(case: Case, s: Specimen, q: float, held: tuple[str, ...], stage: Stage) -> SolidPath:
-    """The compression curve of slightly bowed solid bars, through the first critical load."""
+@dataclass(frozen=True)
+class Bowed:
+    """The linkage of slightly bowed bars on the mesh of load paths: critical load N, slope N/mm without load."""
+
+    model: LinearModel
+    held: tuple[str, ...]
+    critical: float
+    tangent: float
+
+    @property
+    def travel(self) -> float:
+        """Travel of the platform at the linear critical load, mm."""
+        return self.critical / self.tangent
+
+
+def bowed_linkage(case: Case, s: Specimen, q: float, held: tuple[str, ...]) -> Bowed:
+    """Both bars with the bow, in the shape of the lowest mode."""
     straight = solid_linkage(case, s, s.path_space, q)
     first: Mode = buckling(straight, held, 1)[0]
-    bowed = with_imperfection(straight.linkage, first.displacements, s.bar.length / LENGTH_TO_BOW)
-    model = LinearModel(bowed, s.material)
-    tangent = slope(model, held)
-    values = first.load / tangent * np.array(s.detail.travel)
+    bent = with_imperfection(straight.linkage, first.displacements, s.bar.length / LENGTH_TO_BOW)
+    model = LinearModel(bent, s.material)
+    return Bowed(model, held, first.load, slope(model, held))
+
+
+def solid_path(case: Case, s: Specimen, q: float, held: tuple[str, ...], stage: Stage) -> SolidPath:
+    """Compression, through the first critical load, and tension."""
+    bowed = bowed_linkage(case, s, q, held)
 
     def on_point(point: Equilibrium) -> None:
         at = PLATFORM.index("x")
         stage.say(f"q = {q:g}°, {' '.join(held)} held, x = {point.displacement[at]:.3f} mm")
 
-    path = follow(model, held, list(-values), on_point=on_point)
+    path = follow(bowed.model, held, list(-bowed.travel * np.array(s.detail.travel)), on_point=on_point)
+    pulled = follow(bowed.model, held, list(bowed.travel * np.array(TENSION)), on_point=on_point)
     return SolidPath(
         q_deg=q,
         held=list(held),
         x=[0.0, *path.column("displacement", "x")],
         fx=[0.0, *path.column("wrench", "x")],
-        tangent=tangent,
-        critical=first.load,
-        failure=path.failure,
+        tangent=bowed.tangent,
+        critical=bowed.critical,
+        failure=path.failure or pulled.failure,
+        tension_x=[0.0, *pulled.column("displacement", "x")],
+        tension_fx=[0.0, *pulled.column("wrench", "x")],
     )

@@ -21,7 +21,7 @@ LUMPED: tuple[Literal["tip", "middle", "base"], ...] = ("tip", "middle", "base")
 PLACES: tuple[Place, ...] = (*LUMPED, "distributed")
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class SpringLinkage:
     """The parallelogram of a case: springs of the bars lumped at one place, or distributed with geometric stiffness."""
 
@@ -51,9 +51,16 @@ class SpringLinkage:
     def rank(self) -> int:
         return int(rank(self.eliminated, self.case.linkage.length_mm))
 
+    @cached_property
+    def _searched(self) -> dict[tuple[tuple[str, ...], bool], CriticalLoad]:
+        return {}
+
     def critical(self, held: Sequence[str], sign: int) -> CriticalLoad:
-        """First loss of stability, driven along x."""
-        return critical_load(self.mechanism, held, -1 if sign < 0 else 1)
+        """First loss of stability, driven along x; searched for once."""
+        key = (tuple(held), sign < 0)
+        if key not in self._searched:
+            self._searched[key] = critical_load(self.mechanism, held, -1 if sign < 0 else 1)
+        return self._searched[key]
 
     def formula(self, held: Sequence[str], sign: int) -> float | None:
         """The closed form of that critical load where there is one; compression negative."""
@@ -78,6 +85,18 @@ class SpringLinkage:
         states = buckled_path(critical, list(x))
         good = np.asarray(states.converged)
         return x[good], np.asarray(states.load)[good, 0]
+
+
+SpringSet = dict[tuple[float, Place], SpringLinkage]
+
+
+def spring_set(case: Case, stiffness: Floats) -> SpringSet:
+    """Springs at every place, for every angle of the case; what they search for they keep."""
+    return {
+        (q, place): SpringLinkage(case, stiffness, q, place)
+        for q in case.linkage.angles_deg
+        for place in PLACES
+    }
 
 
 def linear_slope(stiffness: Floats, q_deg: float, held: Sequence[str]) -> float:

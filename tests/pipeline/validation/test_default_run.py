@@ -53,7 +53,7 @@ def test_result_has_what_others_build_on(raw: dict[str, Any]) -> None:
         assert keys <= set(part), name
     assert {"dofs", "K22", "observed_order", "extrapolated"} <= set(raw["bar"]["convergence"])
     assert {"orthoglide", "errata", "seconds", "versions", "sources"} <= set(raw)
-    assert {c["model"] for c in raw["curves"]} == {"vjm", "fea", "lin"}
+    assert {c["model"] for c in raw["curves"]} == {"vjm", "fea", "frame", "lin"}
     assert {c["spring_at"] for c in raw["curves"]} >= {"tip", "middle", "base", "distributed"}
     assert raw["commit"] and raw["versions"]["scikit-fem"] and raw["seed"] == 0
 
@@ -131,19 +131,98 @@ def test_linkage_stiffness_agrees(result: Result) -> None:
 
 def test_compression_curve_starts_on_the_linear_one(result: Result) -> None:
     lin = {(c.q_deg, *c.held): c for c in result.curves if c.model == "lin"}
-    for curve in (c for c in result.curves if c.model == "fea"):
+    for curve in (c for c in result.curves if c.model in ("fea", "frame")):
         line = lin[(curve.q_deg, *curve.held)]
         slope = curve.fx_N[1] / curve.x_mm[1]
         assert slope == pytest.approx(line.fx_N[-1] / line.x_mm[-1], rel=0.01)
 
 
 def test_solid_curve_passes_its_critical_load(result: Result) -> None:
-    for curve in (c for c in result.curves if c.model == "fea"):
+    for curve in (c for c in result.curves if c.model == "fea" and c.branch == "buckled"):
         critical = curve.critical_N[0]
         assert critical < 0.0
         reached = min(curve.fx_N) / critical
         assert 0.99 < reached < 1.01, "past the critical load the solid gives way"
         assert min(curve.x_mm) < 1.4 * critical / (curve.fx_N[1] / curve.x_mm[1])
+
+
+def test_axial_stiffness_is_identified(result: Result) -> None:
+    """The rigid turn of a stressed symmetric bar, 1 = L K_g22 + 2 K_g26, ties every digit of it to the force.
+
+    The uniform beam stays within 8 %, without lugs and rigid faces. Springs with nothing but K_b given stay within
+    1.5 % of the solid once both mean the same: theirs counts the stretch of the bar, n K_b / EA, and no work of it.
+    """
+    axial = result.bar.axial
+    assert axial is not None
+    solid, length = np.array(axial.solid), result.length_mm
+    assert length * solid[1, 1] + 2 * solid[1, 5] == pytest.approx(1.0, abs=1e-7)
+    assert length * solid[2, 2] - 2 * solid[2, 4] == pytest.approx(1.0, abs=1e-7)
+    assert max(axial.band.values()) < 0.01
+    powers = np.array([0, 3, 2, 3, 2, 0, 1, 1])
+    k_b = eight_entries(np.array(result.bar.stiffness))
+    identified = eight_entries(solid)
+    stretched = identified - (1 + powers) * k_b / (k_b[0] * length)
+    vjm, formula = (eight_entries(np.array(m)) for m in (axial.vjm, axial.formula))
+    assert np.abs(vjm / stretched - 1.0)[powers > 0].max() < 0.015
+    assert np.abs(formula / identified - 1.0)[powers > 0].max() < 0.08
+    assert len(axial.explanation) == 4
+
+
+def test_every_load_of_the_solid_has_its_error(result: Result) -> None:
+    solid = [b for b in result.buckling if b.model == "solid"]
+    # The first modes decide the linkage, the sixth has the shortest waves: a third of theirs.
+    assert all(b.band is not None and b.band < (0.02 if b.mode == 1 else 0.1) for b in solid)
+    assert all(c.band is not None for c in result.critical if c.model == "solid")
+    assert all(p.band is not None for p in result.parallelogram)
+    assert all(c.band is not None for c in result.curves if c.model == "fea" and c.branch == "buckled")
+
+
+def test_models_agree_on_the_path(result: Result) -> None:
+    """Frame and refined springs beside the solid where all three are bent, within its mesh error and 1 % more."""
+    solids = [c for c in result.curves if c.model == "fea" and c.branch == "buckled"]
+    assert len(solids) == 6
+    for solid in solids:
+        assert solid.band is not None and solid.band < 0.05
+        for model in ("frame", "vjm"):
+            (other,) = [
+                c
+                for c in result.curves
+                if (c.model, c.spring_at, c.branch, c.q_deg, c.held)
+                == (model, "distributed", "buckled", solid.q_deg, solid.held)
+            ]
+            assert other.x_mm[-1] == pytest.approx(solid.x_mm[-1], abs=1e-6)
+            # Springs know no shear, 1.1 % of the fully held load.
+            assert other.fx_N[-1] == pytest.approx(solid.fx_N[-1], rel=solid.band + 0.012)
+
+
+def test_tension_side(result: Result) -> None:
+    """The solid stays on its straight line past the load that upsets springs at the tips, fully held."""
+    pulled = [c for c in result.curves if c.model == "fea" and c.x_mm[-1] > 0.0]
+    assert len(pulled) == 6 and all(c.branch == "straight" for c in pulled)
+    slope = {(c.q_deg, *c.held): c.fx_N[-1] / c.x_mm[-1] for c in result.curves if c.model == "lin"}
+    for c in pulled:
+        assert c.fx_N[-1] / c.x_mm[-1] == pytest.approx(slope[c.q_deg, *c.held], rel=0.01)
+    (tip,) = [
+        c
+        for c in result.curves
+        if c.spring_at == "tip" and c.model == "vjm" and c.x_mm[-1] > 0.0 and len(c.held) == 5 and not c.q_deg
+    ]
+    (solid,) = [c for c in pulled if len(c.held) == 5 and not c.q_deg]
+    assert tip.critical_N and tip.fx_N[-1] == pytest.approx(tip.critical_N[0], rel=1e-6)
+    assert solid.fx_N[-1] > tip.critical_N[0] > 0.0
+
+
+def test_refinement_studies(result: Result) -> None:
+    studies = {(r.model, r.refined): r for r in result.refinement}
+    for model in ("solid FE", "frame"):
+        # Equilibria of an elastic linkage; the residual is 1e-10 of the load, its effect past the bend a thousandfold.
+        assert studies[model, "steps"].sizes[:2] == [10, 20] and studies[model, "steps"].band < 1e-6
+    assert studies["frame", "elements a bar"].sizes == [4, 8, 16, 32]
+    frames = [r for r in result.refinement if r.refined == "elements a bar"]
+    assert len(frames) == 3 and all(r.band < 5e-4 for r in frames)
+    meshes = [r for r in result.refinement if r.refined == "unknowns a bar"]
+    assert len(meshes) == 3 and all(r.values[0] > r.values[1] > r.limit for r in meshes)
+    assert len(result.agreement) == 9
 
 
 def test_spring_placement_decides_the_critical_load(result: Result) -> None:
