@@ -2,7 +2,7 @@ VENV := .venv
 PYTHON := $(VENV)/bin/python
 STAMP := $(VENV)/.ready
 
-.PHONY: setup run test proofs check example clean
+.PHONY: setup run test proofs coverage check example clean
 
 setup: $(STAMP)
 	@$(PYTHON) -m pipeline.system
@@ -26,6 +26,10 @@ test: setup check
 
 proofs: $(STAMP)
 	$(PYTHON) -m pytest -n 2 -m long
+
+# Many benches for every effect: hours; what was finished is kept, so that it may be stopped and started again.
+coverage: $(STAMP)
+	$(PYTHON) -m pipeline.coverage
 
 # The shipped campaign, measured again on the virtual bench; what it hides stands here and in its sealed answer.
 example: $(STAMP)

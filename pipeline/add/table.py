@@ -14,6 +14,8 @@ from pipeline.answer import LEVEL, Answer, TestChange, TestNoise, Value
 
 WIDTH, BAR = 100, 24
 EIGHTHS = " ▏▎▍▌▋▊▉█"
+WIDE = 20.0
+"""From so many sigmas on, bars are logarithmic: beside hundreds of sigmas ten would not be seen."""
 
 
 def show(
@@ -46,10 +48,9 @@ def error_table(answer: Answer) -> Table:
     table.add_column("test", no_wrap=True, max_width=30)
     for name in ("rows", "before", "after"):
         table.add_column(name, justify="right", no_wrap=True)
-    table.add_column("left of it", no_wrap=True, width=BAR)
+    top = max([1.0, *(each.rms or 0.0 for t in answer.tests for each in (t.before, t.after))])
+    table.add_column("left of it" if top < WIDE else "left of it, log scale", no_wrap=True, width=BAR)
     table.add_column("noise?", no_wrap=True)
-    top = max((t.before.rms or 0.0) for t in answer.tests) if answer.tests else 1.0
-    top = max(top, *((t.after.rms or 0.0) for t in answer.tests), 1.0) if answer.tests else 1.0
     # So many tests are looked at: together they are held to one level.
     level = LEVEL / max(2 * len(answer.tests), 1)
     for role in ("fit", "holdout"):
@@ -88,9 +89,11 @@ def _judged(it: TestNoise, level: float) -> str:
 
 
 def bar(before: float | None, after: float | None, top: float, width: int = BAR) -> Text:
-    """Solid to what is left, light to what there was; in eighths of a character."""
+    """Solid to what is left, light to what there was; in eighths of a character; logarithmic from 0.1 if wide."""
     if before is None or after is None:
         return Text("")
+    if top >= WIDE:
+        before, after, top = (max(log10(10.0 * max(it, 0.1)), 0.0) for it in (before, after, top))
     solid = 8.0 * width * min(after / top, 1.0)
     whole, part = divmod(round(solid), 8)
     text = "█" * whole + (EIGHTHS[part] if part else "")

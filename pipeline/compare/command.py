@@ -51,6 +51,8 @@ def compare(
         print(sentence(result))
     else:
         show(result)
+        if not result.model_of(result.shown).within_noise:
+            print(f"next: python -m pipeline diagnose {folder}")
     return result
 
 

@@ -21,6 +21,11 @@ RAW = 2.0
 """Chi-square by which it has to be worse in any case: a rival of many numbers that fits as well is none to exclude."""
 
 
+PLAUSIBLE = 20.0
+"""Typical sizes of a number that count as one sigma before anything was measured: a tilt by 15 degrees explains a
+heavy ruler as well as its weight does, and is not what is meant by a tilt."""
+
+
 def numbers(effect: Effect) -> int:
     """Degrees of freedom that an effect takes: one for an effect that is there or not."""
     return max(1, len(effect.parameters))

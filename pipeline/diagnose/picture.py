@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from itertools import product
 
@@ -31,7 +31,8 @@ class Picture:
     """A fit and what could be added to it.
 
     residual: (N,) whitened, of the rows that are looked at. base: (N, P) what the fit can move. tests: (N,) numbers.
-    share: of the fitted readings that are looked at.
+    share: of the fitted readings that are looked at. rescues: chi-square with an effect at its typical size, where
+    that was looked at.
     """
 
     fit: Fit
@@ -40,6 +41,7 @@ class Picture:
     base: Array
     tests: NDArray[np.int_]
     share: float
+    rescues: Mapping[str, float] = field(default_factory=dict)
 
     def without(self, test: int) -> Picture:
         """As if a test had not been done."""
@@ -71,7 +73,7 @@ class Picture:
     def gain(self, names: Sequence[str]) -> Gain:
         """By how much chi-square of the whole campaign falls when these effects are added together."""
         residual, columns = self._small
-        best = Gain(0.0, {})
+        best = Gain(self._rescued(names), {})
         for choice in product(*(range(len(columns[name])) for name in names)):
             matrix = np.hstack([columns[name][k] for name, k in zip(names, choice, strict=True)])
             low = np.concatenate([self.signatures[name].low for name in names])
@@ -79,6 +81,11 @@ class Picture:
             if value > best.value:
                 best = Gain(value, self._probes(names, choice))
         return best
+
+    def _rescued(self, names: Sequence[str]) -> float:
+        """Fall of chi-square by the best of them alone, at its typical size; 0 where none was looked at."""
+        least = min((self.rescues[n] for n in names if n in self.rescues), default=self.fit.chi_square)
+        return max(0.0, self.fit.chi_square - least)
 
     def _probes(self, names: Sequence[str], choice: tuple[int, ...]) -> dict[str, float]:
         every = {n: self.signatures[n].probes for n in names}
@@ -89,7 +96,7 @@ class Picture:
         return self._small[1][name][probe]
 
 
-def picture(found: Fit, every: Sequence[Signature], at: Look) -> Picture:
+def picture(found: Fit, every: Sequence[Signature], at: Look, rescues: Mapping[str, float]) -> Picture:
     """Of a fit and the signatures about it."""
     it = found.residual
     used = it.program.predicted & it.program.fitted[:, None]
@@ -98,7 +105,9 @@ def picture(found: Fit, every: Sequence[Signature], at: Look) -> Picture:
     base = np.hstack([it.slopes[rows][mask], it.offsets[rows][mask]])
     tests = np.broadcast_to(it.program.test[rows][:, None], mask.shape)[mask]
     share = float(mask.sum() / used.sum())
-    return Picture(found, {s.effect.name: s for s in every}, it.values[rows][mask], base, tests, share)
+    return Picture(
+        found, {s.effect.name: s for s in every}, it.values[rows][mask], base, tests, share, rescues
+    )
 
 
 def _basis(columns: Array) -> Array:

@@ -12,8 +12,9 @@ from itertools import combinations
 
 import numpy as np
 
-from pipeline.diagnose.evidence import APART, RAW, entry, numbers
+from pipeline.diagnose.evidence import APART, PLAUSIBLE, RAW, entry, numbers
 from pipeline.diagnose.shelf import Names, Shelf
+from pipeline.inference.fit import Fit
 
 WIDTH = 4
 """Sets of one size that are fitted, at most, of those that compete."""
@@ -48,8 +49,24 @@ class Found:
 
 
 def cost(shelf: Shelf, names: Names) -> float:
-    """Chi-square of the fit, and what each effect has to show."""
-    return shelf.fit(names).chi_square + price(shelf, names)
+    """Chi-square of the fit, how far its numbers are from plausible ones, and what each effect has to show."""
+    return badness(shelf, names) + price(shelf, names)
+
+
+def badness(shelf: Shelf, names: Names) -> float:
+    """Chi-square of the fit and of its numbers, each `PLAUSIBLE` typical sizes a sigma."""
+    found = shelf.fit(names)
+    return found.chi_square + implausibility(found)
+
+
+def implausibility(found: Fit) -> float:
+    """Chi-square of the numbers alone."""
+    return float(
+        sum(
+            ((value - f.parameter.null) / (PLAUSIBLE * f.parameter.typical)) ** 2
+            for f, value in zip(found.model.free, found.model.values, strict=True)
+        )
+    )
 
 
 def price(shelf: Shelf, names: Iterable[str]) -> float:
@@ -79,7 +96,7 @@ def search(shelf: Shelf) -> Found:
 def _is_noise(shelf: Shelf, names: Names) -> bool:
     """Whether chi-square is no larger than noise makes it, within three of its standard deviations."""
     found = shelf.fit(names)
-    return bool(found.chi_square < found.degrees + 3.0 * np.sqrt(2.0 * found.degrees))
+    return bool(found.chi_square < found.degrees + 3.0 * np.sqrt(2.0 * max(found.degrees, 1)))
 
 
 def _roots(shelf: Shelf) -> list[Names]:
@@ -177,7 +194,7 @@ def with_rivals(shelf: Shelf, best: Names) -> Found:
         return with_rivals(shelf, winner)
     rivals = [n for n in shelf.fits if len(n) <= len(best) and n != best and not excluded(shelf, n, best)]
     minimal = [n for n in rivals if not any(other < n for other in rivals) and not n < best and not best < n]
-    return Found(shelf, best, tuple(sorted(minimal, key=lambda n: shelf.fit(n).chi_square)))
+    return Found(shelf, best, tuple(sorted(minimal, key=lambda n: badness(shelf, n))))
 
 
 def _raw(shelf: Shelf, e: Estimate) -> float:
@@ -187,7 +204,7 @@ def _raw(shelf: Shelf, e: Estimate) -> float:
 
 def excluded(shelf: Shelf, rival: Names, best: Names) -> bool:
     """Whether the data speak against a rival."""
-    worse = shelf.fit(rival).chi_square - shelf.fit(best).chi_square
+    worse = badness(shelf, rival) - badness(shelf, best)
     return worse > RAW and worse + taken(shelf, rival) - taken(shelf, best) > APART
 
 

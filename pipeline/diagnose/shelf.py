@@ -8,11 +8,12 @@ from functools import cached_property
 
 import numpy as np
 
+from pipeline.diagnose.evidence import PLAUSIBLE
 from pipeline.diagnose.picture import Picture, picture
 from pipeline.diagnose.signatures import Look, Probe, Say, look, probed, probes, signatures
 from pipeline.inference.fit import Fit, fit
-from pipeline.inference.model import Model
-from pipeline.inference.prediction import predict
+from pipeline.inference.model import Model, Term
+from pipeline.inference.prediction import Prediction, predict
 from pipeline.inference.program import Program
 from pipeline.inference.residual import residual
 from pipeline.inference.starts import best_fit
@@ -62,8 +63,21 @@ class Shelf:
         if names not in self.pictures:
             found = self.fit(names)
             every = signatures(found, list(self.candidates.values()), self._probes, self.at, self.say)
-            self.pictures[names] = picture(found, every, self.at)
+            self.pictures[names] = picture(found, every, self.at, self._rescues(found))
         return self.pictures[names]
+
+    def _rescues(self, found: Fit) -> dict[str, float]:
+        """Chi-square with each further effect at its typical size, where the fit has lost rows: they have no slope."""
+        if not found.prediction.lost[self.whole.fitted].any():
+            return {}
+        out = {}
+        for effect in self.candidates.values():
+            if effect.parameters and effect.name not in found.model.names:
+                self.say(f"{effect.name} at its typical size")
+                model = Model((*found.model.terms, Term(effect, effect.typicals)), found.model.fixed)
+                there = predict(model, self.whole, slopes=False)
+                out[effect.name] = Fit(model, there, residual(self.whole, there), 1).chi_square
+        return out
 
     @cached_property
     def _probes(self) -> list[Probe]:
@@ -71,16 +85,16 @@ class Shelf:
 
     def _fitted(self, names: Names, begin: Mapping[str, float]) -> Fit:
         effects = [self.candidates[name] for name in self.order(names)]
-        model, start = self._begin(names), None
+        model, start = self._begin(names)
         if not model.free:
             return self._settled(fit(model, self.whole))
         kinked = [e for e in effects if not e.smooth]
         new = [e.name for e in effects]
         if not kinked or not all(e.name in begin for e in kinked):
-            return best_fit(model, self.whole, new, start, None)
+            return best_fit(model, self.whole, new, start, None, PLAUSIBLE)
         for effect in kinked:
             model = probed(model, effect, begin[effect.name])
-        return fit(model, self.whole, start)
+        return fit(model, self.whole, start, None, PLAUSIBLE)
 
     def _settled(self, found: Fit) -> Fit:
         """Where nothing is fitted, the inputs still are: seen from the measured ones their noise is in the slopes."""
@@ -89,13 +103,13 @@ class Shelf:
         there = predict(found.model, self.whole, start=found.prediction, shift=found.residual.shift)
         return Fit(found.model, there, residual(self.whole, there), found.evaluations + 1)
 
-    def _begin(self, names: Names) -> Model:
-        """The model with values of the largest set that was fitted already."""
+    def _begin(self, names: Names) -> tuple[Model, Prediction | None]:
+        """The model with values of the largest set that was fitted already, and where that one stood."""
         model = self.base.with_effects([self.candidates[name] for name in self.order(names)])
         inside = [each for each in self.fits if each < names]
         if not inside:
-            return model
-        known = self.fits[max(inside, key=len)].model
-        old = {f.name: v for f, v in zip(known.free, known.values, strict=True)}
+            return model, None
+        known = self.fits[max(inside, key=len)]
+        old = {f.name: v for f, v in zip(known.model.free, known.model.values, strict=True)}
         values = [old.get(f.name, v) for f, v in zip(model.free, model.values, strict=True)]
-        return model.at(np.array(values))
+        return model.at(np.array(values)), known.prediction

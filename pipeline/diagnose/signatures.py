@@ -151,4 +151,5 @@ def signatures(
             say(effect.name)
             out.append(smooth_signature(found, effect, at))
     out += [s for s in probed_signatures(found, looks, at) if s.effect.name not in found.model.names]
-    return [it for it in out if any(np.any(columns) for columns in it.columns)]
+    shown = [it for it in out if any(np.any(columns) for columns in it.columns)]
+    return out if found.prediction.lost.any() else shown

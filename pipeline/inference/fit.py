@@ -10,15 +10,22 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import lsq_linear
 
+from pipeline.inference.inputs import linearised
 from pipeline.inference.model import Model
-from pipeline.inference.prediction import Prediction, predict
+from pipeline.inference.prediction import Prediction
 from pipeline.inference.program import Program
-from pipeline.inference.residual import Residual, residual
+from pipeline.inference.residual import Residual
 
 Array = NDArray[np.float64]
 STEPS = 40
 PROMISE = 1e-3
 """Of chi-square, of which noise makes one for every number: a step of 0.03 standard errors."""
+VAIN = 0.05
+"""Of chi-square, a fifth of a standard error: a smaller promise that is not kept is left, as happens at kinks."""
+NEAR = 0.1
+"""Of their sigmas: so near to the inputs that fit best a fit must have been linearised to end there."""
+SETTLE = 3
+"""Times that a fit is linearised anew before it ends."""
 TINY = 1e-12
 
 
@@ -98,15 +105,29 @@ class Objective:
         key = np.asarray(values).tobytes()
         if self._known is None or self._known[0] != key:
             shift = None if self._known is None else self._known[2].shift
-            self.last = predict(self.model.at(values), self.program, start=self.last, shift=shift)
+            found = linearised(self.model.at(values), self.program, start=self.last, shift=shift)
+            self.last = found[0]
             self.count += 1
-            self._known = (key, self.last, residual(self.program, self.last))
+            self._known = (key, *found)
         return self._known[1], self._known[2]
 
     def residuals(self, values: Array) -> Array:
         """(N,)"""
         it = self.at(values)[1]
         return _free_of(it.flat(it.offsets), it.flat(it.values))
+
+    def again(self, values: Array) -> Array:
+        """(N,) linearised anew, at the inputs that fit best by what is known."""
+        it = self.at(values)[1]
+        self._known = (b"", self._known[1], it) if self._known is not None else None
+        return self.residuals(values)
+
+    def unsettled(self, values: Array) -> float:
+        """By how many of its sigmas an input that fits best is off the one near which the model was linearised."""
+        prediction, it = self.at(values)
+        sigma = self.program.input_sigma
+        off = np.abs(it.shift - prediction.shift)[sigma > 0.0] / sigma[sigma > 0.0]
+        return float(off.max(initial=0.0))
 
     def jacobian(self, values: Array) -> Array:
         """(N, P)"""
@@ -119,46 +140,66 @@ def fit(
     program: Program,
     start: Prediction | None = None,
     watch: Callable[[str], None] | None = None,
+    plausible: float = np.inf,
 ) -> Fit:
-    """The best fit that is found from the model's own values."""
+    """The best fit that is found from the model's own values.
+
+    plausible: typical sizes from null that stand for one sigma of a weak pull towards null: numbers that the data
+    say nothing about stay there. Chi-square is that of the data alone.
+    """
     aim = Objective(model, program, start)
     values = model.values
     if model.free:
-        values = _descend(aim, watch)
+        values = _descend(aim, watch, plausible)
     prediction, there = aim.at(values)
     return Fit(model.at(values), prediction, there, aim.count)
 
 
-def _descend(aim: Objective, watch: Callable[[str], None] | None) -> Array:
+def _descend(aim: Objective, watch: Callable[[str], None] | None, plausible: float) -> Array:
     """Values (P,) of least chi-square near those of the model: Levenberg-Marquardt in a box.
 
     Each step solves the linear problem within the bounds exactly (P. B. Stark, R. L. Parker, Computational
     Statistics 10, 1995), so that effects leave the bound where they begin at once. With residuals in sigmas the
-    stop has a meaning: no step promises more than `PROMISE` of chi-square.
+    stop has a meaning: no step promises more than `PROMISE` of chi-square, linearised near the inputs that fit best;
+    near the measured ones slopes would be too small by what their noise adds to their spread.
     """
     free = aim.model.free
     bounds = np.array([each.bounds for each in free]).T
     scale = np.array([abs(each.parameter.typical) for each in free])
+    null = np.array([each.parameter.null for each in free])
+    pull = np.eye(len(free)) / plausible
+
+    def residuals(values: Array) -> Array:
+        return np.concatenate([aim.residuals(values), pull @ ((values - null) / scale)])
+
+    def jacobian(values: Array) -> Array:
+        return np.vstack([aim.jacobian(values) * scale, pull])
+
     values = np.clip(aim.model.values, *bounds)
-    damping = 0.0
-    here = aim.residuals(values)
-    slopes = aim.jacobian(values) * scale
+    damping, settled = 0.0, 0
+    here = residuals(values)
+    slopes = jacobian(values)
     for _ in range(STEPS):
         step = _step(slopes, here, (bounds - values) / scale, damping)
         promise = here @ here - np.sum((here + slopes @ step) ** 2)
         if not promise > PROMISE:
-            break
+            if settled == SETTLE or aim.unsettled(values) <= NEAR:
+                break
+            settled += 1
+            aim.again(values)
+            here, slopes = residuals(values), jacobian(values)
+            continue
         tried = np.clip(values + scale * step, *bounds)
-        there = aim.residuals(tried)
+        there = residuals(tried)
         gain = here @ here - there @ there
         if watch is not None:
             watch(f"{aim.count} evaluations, chi-square {min(here @ here, there @ there):.5g}")
         if gain > 0.1 * promise:
-            values, here, slopes = tried, there, aim.jacobian(tried) * scale
+            values, here, slopes = tried, there, jacobian(tried)
             damping = damping / 10.0 if damping > 1e-3 else 0.0
         else:
             damping = max(10.0 * damping, 1e-2)
-        if damping > 1e6:
+        if damping > 1e6 or (gain <= 0.0 and promise < VAIN):
             break
     return values
 

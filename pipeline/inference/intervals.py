@@ -17,11 +17,10 @@ from numpy.typing import NDArray
 from scipy.stats import norm
 
 from pipeline.inference.fit import Fit
+from pipeline.inference.inputs import linearised
 from pipeline.inference.landscape import BLIND, CLOSE, NEARLY, RISE, STEPS, Landscape, Range
 from pipeline.inference.model import Free
-from pipeline.inference.prediction import predict
 from pipeline.inference.program import Program
-from pipeline.inference.residual import residual
 
 Array = NDArray[np.float64]
 Z = float(norm.ppf(0.975))
@@ -62,8 +61,7 @@ class _Near:
     def _at(self, values: Array, slopes: bool) -> Fit:
         model = self.best.model.at(values)
         near = self.best.prediction
-        found = predict(model, self.program, slopes, start=near, shift=near.shift)
-        return Fit(model, found, residual(self.program, found), 1)
+        return Fit(model, *linearised(model, self.program, slopes, near, near.shift), 1)
 
     def residuals(self, values: Array) -> Array:
         """(N,)"""

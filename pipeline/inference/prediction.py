@@ -20,6 +20,8 @@ from vjm.sensitivity import TARGETS, AnyDirection, Direction, DriveDirection, by
 
 Array = NDArray[np.float64]
 _KELVIN = 1.0
+NEAR_KINKS = 1e-3
+"""Of its typical size, over which a number with kinks is differentiated."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -155,6 +157,9 @@ def _direction(model: Model, number: int, group: Group, program: Program) -> Dir
     # Differences stay on the same side of a bound as the value.
     room = min(value - parameter.low, parameter.high - value)
     size = min(abs(parameter.typical), room / 3e-3)
+    # Differences that reach across a kink are no derivative of either side: few states are so near to one.
+    smooth = next(t.effect.smooth for t in model.terms if t.effect.name == model.free[number].effect)
+    size *= 1.0 if smooth else NEAR_KINKS
 
     @cache
     def moved(other: float) -> Rig:

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
 
-from pipeline.campaign import Campaign
+from pipeline.campaign import Campaign, Test
 from pipeline.campaign import Rig as Described
 from pipeline.campaign.names import DISPLACEMENT, FORCE, SUPPORT
 from pipeline.inference.rigs import nominal_pose
@@ -81,6 +81,23 @@ class Program:
         """Rows of the real steps of a group, test by test."""
         return np.concatenate([np.arange(self.first[n], self.first[n + 1]) for n in group.numbers])
 
+    @cached_property
+    def by_displacement(self) -> Program | None:
+        """With every displacement prescribed that was read beside the force that is; None where there is none."""
+        tests = tuple(_by_displacement(test) for test in self.campaign.tests)
+        same = all(
+            one.control == other.control for one, other in zip(tests, self.campaign.tests, strict=True)
+        )
+        return None if same else program(replace(self.campaign, tests=tests))
+
+    def only(self, rows: NDArray[np.int64]) -> Program:
+        """The program of these rows (N,) alone, in order; tests without any are left out."""
+        tests = [_rows_of(test, rows[self.test[rows] == k] - self.first[k]) for k, test in self._tests(rows)]
+        return program(replace(self.campaign, tests=tuple(tests)))
+
+    def _tests(self, rows: NDArray[np.int64]) -> list[tuple[int, Test]]:
+        return [(int(k), self.campaign.tests[k]) for k in np.unique(self.test[rows])]
+
 
 def program(campaign: Campaign) -> Program:
     """The load cases of a campaign. Sigmas that it does not say must have been filled in before."""
@@ -133,6 +150,29 @@ def _group(campaign: Campaign, numbers: np.ndarray) -> Group:
             warm = np.nan_to_num(test.data.temperature - reference)
             rise[k] = warm[np.minimum(np.arange(longest), lengths[k] - 1)]
     return Group(rig, numbers, lengths, targets, channels, q, rise)
+
+
+def _by_displacement(test: Test) -> Test:
+    both = np.isfinite(np.concatenate([test.data.displacement, test.data.wrench])).all(axis=0)
+    control = [
+        DISPLACEMENT if by == FORCE and read else by
+        for by, read in zip(test.control, both.tolist(), strict=True)
+    ]
+    return replace(test, control=tuple(control))
+
+
+def _rows_of(test: Test, rows: NDArray[np.int64]) -> Test:
+    data = test.data
+    part = replace(
+        data,
+        steps=data.steps[rows],
+        displacement=data.displacement[rows],
+        wrench=data.wrench[rows],
+        gauges=data.gauges[rows],
+        temperature=None if data.temperature is None else data.temperature[rows],
+        lines=data.lines[rows],
+    )
+    return replace(test, data=part)
 
 
 def _channels(control: tuple[str, ...], gauges: list[str]) -> list[int]:

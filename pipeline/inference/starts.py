@@ -10,10 +10,10 @@ from numpy.typing import NDArray
 from scipy.optimize import lsq_linear
 
 from pipeline.inference.fit import Fit, fit
+from pipeline.inference.inputs import linearised
 from pipeline.inference.model import Free, Model
-from pipeline.inference.prediction import Prediction, predict
+from pipeline.inference.prediction import Prediction
 from pipeline.inference.program import Program
-from pipeline.inference.residual import residual
 from vjm.effects.base import Effect
 
 Array = NDArray[np.float64]
@@ -21,6 +21,8 @@ Watch = Callable[[str], None]
 SIZES = tuple(10.0 ** np.linspace(-1.0, 1.0, 5))
 """In typical sizes of the effect, a factor of three apart."""
 LARGEST = 1e3
+HOPELESS = 4.0
+"""A ladder ends where chi-square is so many times that of its best rung, and grows."""
 WORTH = 1.0
 """Fall of chi-square that is worth another fit, in the mean square of what the first one leaves."""
 MINIMA = 2
@@ -33,6 +35,7 @@ def best_fit(
     new: Collection[str] = (),
     start: Prediction | None = None,
     watch: Watch | None = None,
+    plausible: float = np.inf,
 ) -> Fit:
     """The best of several fits by chi-square; `evaluations` counts those of all, in solutions of the campaign.
 
@@ -40,6 +43,7 @@ def best_fit(
     of a ladder of sizes of its one-sided numbers, 0.1 to 10 times typical and on while that helps. If all are smooth
     the fit begins at null, and again at typical sizes if it ends at a bound, with lost rows, or where it says nothing
     about one of their numbers, and a look from there promises more. start: a prediction of a like model.
+    plausible: see `fit`.
     """
     begins, spent = [model], 0
     kinked = [t.effect for t in model.terms if t.effect.name in new and not t.effect.smooth]
@@ -47,13 +51,13 @@ def best_fit(
         ladders = [_ladder(begin, effect, program, start, watch) for begin in begins]
         begins = [each for found, _ in ladders for each in found][:MINIMA]
         spent += sum(count for _, count in ladders)
-    fits = [fit(begin, program, start, watch) for begin in begins]
+    fits = [fit(begin, program, start, watch, plausible) for begin in begins]
     if not kinked and _doubtful(fits[0], program, new):
         there = _typical(fits[0].model, new)
         spent += 1
         # Where the linear step from there promises no more there is nothing to find.
         if _height(there, program, start) < fits[0].chi_square - WORTH * max(fits[0].rms, 1.0) ** 2:
-            fits.append(fit(there, program, start, watch))
+            fits.append(fit(there, program, start, watch, plausible))
     best = min(fits, key=lambda each: each.chi_square)
     return replace(best, evaluations=spent + sum(each.evaluations for each in fits))
 
@@ -72,19 +76,29 @@ def _ladder(
         return [model], 0
     heights: list[float] = []
     rungs: list[Model] = []
+    at = {s.name: s.parameter.null for s in sizes}
     for size in _rungs(heights):
-        at = {s.name: float(np.clip(s.parameter.null + size * s.parameter.typical, *s.bounds)) for s in sizes}
+        at = {s.name: _rung(s, size, at[s.name]) for s in sizes}
         values = [at.get(each.name, value) for each, value in zip(model.free, model.values, strict=True)]
         rungs.append(model.at(np.array(values)))
         heights.append(_height(rungs[-1], program, start))
         if watch is not None:
             watch(f"{effect.name} at {size:.3g} times its typical size")
-        if all(at[s.name] == s.bounds[1] for s in sizes):
+        if heights[-1] > HOPELESS * min(heights) and heights[-1] == max(heights[-2:]):
             break
     padded = [np.inf, *heights, np.inf]
     valleys = [k for k, h in enumerate(heights) if h <= padded[k] and h < padded[k + 2]]
     valleys.sort(key=lambda k: heights[k])
     return [rungs[k] for k in valleys[:MINIMA]], len(rungs)
+
+
+def _rung(each: Free, size: float, before: float) -> float:
+    """The number at so many typical sizes; where that is out of bounds half way from the last rung to the bound."""
+    low, high = each.bounds
+    wanted = each.parameter.null + size * each.parameter.typical
+    far = high if each.parameter.typical > 0.0 else low
+    beyond = (wanted - far) * each.parameter.typical > 0.0
+    return float(np.clip(0.5 * (before + far) if beyond else wanted, low, high))
 
 
 def _rungs(heights: list[float]) -> Iterator[float]:
@@ -100,8 +114,7 @@ def _height(model: Model, program: Program, start: Prediction | None) -> float:
     """Chi-square after one linear step of what is smooth in the model: a rung is judged with the rest fitted."""
     kinked = {t.effect.name for t in model.terms if not t.effect.smooth}
     model = replace(model, fixed=model.fixed | {f.name for f in model.free if f.effect in kinked})
-    found = predict(model, program, slopes=bool(model.free), start=start)
-    here = Fit(model, found, residual(program, found), 1)
+    here = Fit(model, *linearised(model, program, slopes=bool(model.free), start=start), 1)
     if not model.free:
         return here.chi_square
     scale = np.array([abs(each.parameter.typical) for each in model.free])

@@ -30,16 +30,15 @@ from pipeline.validation.result import (
 )
 from pipeline.validation.stages.bar import identify
 from pipeline.validation.stages.buckling import buckle_bar, mode_files
+from pipeline.validation.stages.followed import solid_paths, solid_study
 from pipeline.validation.stages.linkage import (
-    HELD_SETS,
     SolidBuckling,
     SolidPath,
     SolidStiffness,
     solid_buckling,
-    solid_path,
     solid_stiffness,
 )
-from pipeline.validation.stages.refinement import refinements, solid_steps
+from pipeline.validation.stages.refinement import refinements
 from pipeline.validation.stages.specimen import Specimen, specimen
 from pipeline.validation.stages.springs import spring_set
 from pipeline.validation.story import tell
@@ -168,13 +167,10 @@ def solid_stage(job: Run, s: Specimen) -> Solids:
         "linkage buckling", inputs, list[SolidBuckling], lambda stage: solid_buckling(job.case, s, stage)
     )
 
-    def paths(stage: Stage) -> list[SolidPath]:
-        angles = job.case.linkage.angles_deg[: job.detail.path_angles]
-        pairs = [(q, held) for q in angles for held in HELD_SETS[: job.detail.path_sets]]
-        return [solid_path(job.case, s, q, held, stage) for q, held in pairs]
-
-    followed = keep("linkage load paths", inputs, list[SolidPath], paths)
-    steps = keep("step study", inputs, Refinement, lambda stage: solid_steps(job.case, s, stage))
+    followed = keep(
+        "linkage load paths", inputs, list[SolidPath], lambda stage: solid_paths(job.case, s, stage)
+    )
+    steps = keep("step study", inputs, Refinement, lambda stage: solid_study(job.case, s, stage))
     return Solids(stiffness, loads, followed, steps)
 
 

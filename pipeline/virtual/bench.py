@@ -33,9 +33,16 @@ def measure(
     """A campaign as a bench with these hidden errors ("effect.parameter": value) would have measured it.
 
     The prescribed quantities are reached exactly and read with noise, as all others; displays show decimals down
-    to a twentieth of a sigma or less. InputError for errors that the
-    truth cannot have, RuntimeError where it finds no equilibrium.
+    to a twentieth of a sigma or less. InputError for errors that the truth cannot have, RuntimeError where it finds
+    no stable equilibrium.
     """
+    return read_out(name, rig, plan, noise, seed, true_readings(rig, plan, hidden, gauges), gauges)
+
+
+def true_readings(
+    rig: Rig, plan: Sequence[PlannedTest], hidden: Mapping[str, float], gauges: tuple[Gauge, ...] = ()
+) -> list[bench.Readings]:
+    """What sensors without noise would read in each test; errors as in `measure`."""
     try:
         errors = Errors.of(as_frame(hidden, rig))
         trials = [bench.Trial(np.radians(t.q_deg), t.control, t.values, t.temperature) for t in plan]
@@ -43,8 +50,6 @@ def measure(
         found = bench.run(frame_rig(rig), errors, trials, sights)
     except ValueError as error:
         raise InputError(str(error)) from error
-    generator = np.random.default_rng(seed)
-    tests = []
     for planned, readings in zip(plan, found, strict=True):
         if not readings.converged.all():
             step = int(np.argmin(readings.converged))
@@ -54,7 +59,21 @@ def measure(
         if (readings.negative > 0).any():
             step = int(np.argmax(readings.negative > 0))
             raise RuntimeError(f"the bench has buckled: test {planned.id}, step {step}")
-        tests.append(_test(planned, rig, readings, noise, generator))
+    return found
+
+
+def read_out(
+    name: str,
+    rig: Rig,
+    plan: Sequence[PlannedTest],
+    noise: Noise,
+    seed: int | None,
+    found: Sequence[bench.Readings],
+    gauges: tuple[Gauge, ...] = (),
+) -> Campaign:
+    """The campaign of a plan from its true readings, with the sensors' noise of this seed; None: as they are."""
+    generator = None if seed is None else np.random.default_rng(seed)
+    tests = [_test(one, rig, readings, noise, generator) for one, readings in zip(plan, found, strict=True)]
     return Campaign(name, rig, replace(noise, gauges=noise.gauges[: len(gauges)]), gauges, tuple(tests))
 
 
@@ -96,9 +115,15 @@ def as_frame(hidden: Mapping[str, float], rig: Rig) -> dict[str, float]:
 
 
 def _test(
-    planned: PlannedTest, rig: Rig, readings: bench.Readings, noise: Noise, generator: np.random.Generator
+    planned: PlannedTest,
+    rig: Rig,
+    readings: bench.Readings,
+    noise: Noise,
+    generator: np.random.Generator | None,
 ) -> Test:
     def read(values: np.ndarray, sigma: np.ndarray) -> np.ndarray:
+        if generator is None:
+            return values
         noisy = np.asarray(values + generator.normal(size=values.shape) * sigma)
         for k, one in enumerate(sigma):
             noisy[:, k] = _displayed(noisy[:, k], one)
@@ -110,9 +135,7 @@ def _test(
         read(readings.displacement, noise.displacement),
         read(readings.wrench, noise.wrench),
         read(readings.gauges, noise.gauges[: readings.gauges.shape[1]]),
-        _displayed(
-            planned.temperature + generator.normal(size=steps.size) * noise.temperature, noise.temperature
-        ),
+        read(planned.temperature[:, None], np.array([noise.temperature]))[:, 0],
         np.zeros(steps.size, dtype=np.int64),
     )
     role: Role = "holdout" if planned.holdout else "fit"

@@ -9,8 +9,8 @@ from pathlib import Path
 
 import pytest
 
+from pipeline.executors import executor
 from pipeline.manipulator.description import read
-from pipeline.manipulator.executors import executor
 from pipeline.manipulator.grid import Grid
 from pipeline.manipulator.sweep import RESULT, sweep
 

@@ -15,7 +15,7 @@ from meshes.bar import Bar
 from pipeline import system
 from pipeline.errors import InputError
 from pipeline.progress import Progress, Stage
-from pipeline.validation.comparison import departures
+from pipeline.validation.curves import departures
 from pipeline.validation.entries import eight_entries
 from pipeline.validation.reference_bar import Family, find_bar, thin_walled_stiffness
 from pipeline.validation.result import write_text
@@ -125,7 +125,17 @@ def test_departure_is_where_the_curve_has_left_its_tangent() -> None:
     """F = k x (1 + x / 10): one per cent is reached at x = -0.1, five at -0.5."""
     x = -np.linspace(0.0, 1.0, 2001)
     fx = 100.0 * x * (1.0 + x / 10.0)
-    path = SolidPath(q_deg=0.0, held=["z"], x=list(x), fx=list(fx), tangent=100.0, critical=1.0, failure="")
+    path = SolidPath(
+        q_deg=0.0,
+        held=["z"],
+        x=list(x),
+        fx=list(fx),
+        tension_x=[],
+        tension_fx=[],
+        tangent=100.0,
+        critical=1.0,
+        failure="",
+    )
     one, five = departures("solid FE", path, x, fx, 100.0)
     assert one.load_N == pytest.approx(9.9, rel=1e-3) and five.load_N == pytest.approx(47.5, rel=1e-3)
     straight = departures("solid FE", path, x, 100.0 * x, 100.0)

@@ -15,7 +15,11 @@ class JointClearance(Effect):
     title = "play in the base hinges"
     equation = "F = 20 N/mm x u for abs(u) < play, then the stop"
     signature = "a dead band about zero in the axial direction; beyond it the slope of the tight linkage"
-    limits = "a centring spring of 20 N/mm inside; under loads of one sign it looks like an offset of x"
+    limits = (
+        "a centring spring of 20 N/mm inside; under loads of one sign it looks like an offset of x; where the axial "
+        "load is within its noise a row may lie on either side of the play, and only rows that fit badly are tried on "
+        "the other: below two sigmas of the displacement sensor a play is less certain than its interval says"
+    )
     source = (
         "the dead-zone law, as in F. Pfeiffer, C. Glocker, Multibody Dynamics with Unilateral Contacts, 1996"
     )

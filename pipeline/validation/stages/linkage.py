@@ -9,8 +9,8 @@ from pydantic import BaseModel
 
 from fem.buckling import Mode, buckling
 from fem.linear import LinearModel
-from fem.linkage import PLATFORM, parallelogram
-from fem.path import Equilibrium, follow, with_imperfection
+from fem.linkage import parallelogram
+from fem.path import follow, with_imperfection
 from fem.space import Space
 from pipeline.progress import Stage
 from pipeline.validation.case import Case
@@ -133,16 +133,11 @@ def bowed_linkage(case: Case, s: Specimen, q: float, held: tuple[str, ...]) -> B
     return Bowed(model, held, first.load, slope(model, held))
 
 
-def solid_path(case: Case, s: Specimen, q: float, held: tuple[str, ...], stage: Stage) -> SolidPath:
+def solid_path(case: Case, s: Specimen, q: float, held: tuple[str, ...]) -> SolidPath:
     """Compression, through the first critical load, and tension."""
     bowed = bowed_linkage(case, s, q, held)
-
-    def on_point(point: Equilibrium) -> None:
-        at = PLATFORM.index("x")
-        stage.say(f"q = {q:g}°, {' '.join(held)} held, x = {point.displacement[at]:.3f} mm")
-
-    path = follow(bowed.model, held, list(-bowed.travel * np.array(s.detail.travel)), on_point=on_point)
-    pulled = follow(bowed.model, held, list(bowed.travel * np.array(TENSION)), on_point=on_point)
+    path = follow(bowed.model, held, list(-bowed.travel * np.array(s.detail.travel)))
+    pulled = follow(bowed.model, held, list(bowed.travel * np.array(TENSION)))
     return SolidPath(
         q_deg=q,
         held=list(held),

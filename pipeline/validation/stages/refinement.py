@@ -9,7 +9,6 @@ from fem.convergence import SAFETY, extrapolate
 from fem.frame.linkages import ELEMENTS
 from fem.path import follow
 from meshes.solid import Floats
-from pipeline.progress import Stage
 from pipeline.validation.case import Case
 from pipeline.validation.result import Buckling, Refinement
 from pipeline.validation.stages.frame import FrameLinkage, section_of_bar
@@ -27,19 +26,19 @@ STEPPED_TO = 1.4
 GUIDED = HELD_SETS[1]
 
 
-def solid_steps(case: Case, s: Specimen, stage: Stage) -> Refinement:
-    """The solid's load past the critical one, reached in more and more steps; RuntimeError if one does not arrive."""
-    q = case.linkage.angles_deg[0]
-    bowed = bowed_linkage(case, s, q, GUIDED)
-    ends = []
-    for steps in s.detail.steps:
-        stage.say(f"q = {q:g}°, {steps} steps")
-        values = bowed.travel * STEPPED_TO * np.arange(1, steps + 1) / steps
-        path = follow(bowed.model, GUIDED, list(-values))
-        if path.failure:
-            raise RuntimeError(f"the solid's path in {steps} steps: {path.failure}")
-        ends.append(float(path.points[-1].wrench[0]))
-    return stepped("solid FE", q, s.detail.steps, ends)
+def solid_end(case: Case, s: Specimen, steps: int) -> float:
+    """The solid's load past the critical one, reached in so many steps, N; RuntimeError if it does not arrive."""
+    bowed = bowed_linkage(case, s, case.linkage.angles_deg[0], GUIDED)
+    values = bowed.travel * STEPPED_TO * np.arange(1, steps + 1) / steps
+    path = follow(bowed.model, GUIDED, list(-values))
+    if path.failure:
+        raise RuntimeError(f"the solid's path in {steps} steps: {path.failure}")
+    return float(path.points[-1].wrench[0])
+
+
+def solid_steps(case: Case, steps: Sequence[int], ends: Sequence[float]) -> Refinement:
+    """The study of these numbers of steps and the loads that were reached."""
+    return stepped("solid FE", case.linkage.angles_deg[0], steps, ends)
 
 
 def stepped(model: str, q: float, steps: Sequence[int], ends: Sequence[float]) -> Refinement:

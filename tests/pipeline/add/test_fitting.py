@@ -144,6 +144,9 @@ def test_bars_are_to_scale() -> None:
     assert bar(4.0, 1.0, 8.0, 24).plain == "█" * 3 + "░" * 9
     assert bar(1.0, 9.0, 8.0, 24).plain == "█" * 24
     assert bar(None, 1.0, 8.0, 24).plain == ""
+    # Decades from 0.1 to 100: an error of 10 is two thirds of the way, noise one third.
+    assert bar(10.0, 1.0, 100.0, 24).plain == "█" * 8 + "░" * 8
+    assert bar(0.01, 0.01, 100.0, 24).plain == ""
 
 
 def test_a_model_without_any_prediction_is_no_answer() -> None:

@@ -11,8 +11,8 @@ import numpy as np
 import pytest
 
 from pipeline.errors import InputError
+from pipeline.executors import Serial, executor
 from pipeline.manipulator.description import Description, read
-from pipeline.manipulator.executors import Serial, executor
 from pipeline.manipulator.grid import Grid
 from pipeline.manipulator.mapping import (
     COLUMNS,

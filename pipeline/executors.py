@@ -1,4 +1,4 @@
-"""Where the chunks of a sweep are computed: in this process, in several, or on a dask cluster."""
+"""Where independent calls are computed: in this process, in several, or on a dask cluster."""
 
 import os
 from collections.abc import Callable, Iterator

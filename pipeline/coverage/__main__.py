@@ -1,0 +1,43 @@
+"""`python -m pipeline.coverage`: runs the study, or goes on with it, and writes reports/coverage."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from meshes.files import replacing
+from pipeline.coverage.study import kept, run, tasks
+from pipeline.coverage.table import page, study
+from pipeline.progress import Progress
+
+STORE = Path(".parastiff/coverage/trials.jsonl")
+
+
+def main(
+    seeds: Annotated[int, typer.Option(help="Benches of each effect, there and absent.")] = 200,
+    pairs: Annotated[int, typer.Option(help="Benches of each pair.")] = 40,
+    only: Annotated[list[str] | None, typer.Option(help="Effects; repeatable.")] = None,
+    workers: Annotated[int, typer.Option(help="Processes.")] = 2,
+    store: Annotated[Path, typer.Option(help="Where finished benches are kept.")] = STORE,
+    out: Annotated[Path, typer.Option(help="Folder of the page.")] = Path("reports/coverage"),
+) -> None:
+    """Hide every effect on many benches, find it again, and count. Stopped and started again, it goes on."""
+    wanted = tasks(seeds, pairs, only or ())
+    progress = Progress()
+    with progress.stage("coverage") as stage:
+        for done, _ in enumerate(run(wanted, store, workers), 1):
+            stage.say(f"{done} of {len(wanted)} benches")
+    found = study(kept(store))
+    for name, text in (
+        ("coverage.json", found.model_dump_json(indent=1) + "\n"),
+        ("coverage.md", page(found)),
+    ):
+        with replacing(out / name) as part:
+            part.write_text(text, encoding="utf-8")
+    print(f"{out / 'coverage.md'}: {sum(row.noise.of for row in found.rows)} benches with hidden effects")
+
+
+if __name__ == "__main__":
+    typer.run(main)

@@ -1,0 +1,131 @@
+"""One bench of the study: hidden effects, one noise, the fit, and how far from the truth it came."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from functools import cache
+from time import process_time
+from typing import Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fem.frame.bench import Readings
+from pipeline.campaign import Campaign
+from pipeline.compare.error import Discrepancy
+from pipeline.coverage.cases import BASE, is_size, typical
+from pipeline.inference.fit import Fit
+from pipeline.inference.intervals import intervals, landscape
+from pipeline.inference.model import Model
+from pipeline.inference.prediction import Prediction
+from pipeline.inference.program import Program, program
+from pipeline.inference.starts import best_fit
+from pipeline.record import Record
+from pipeline.simulate import bench_rig
+from pipeline.virtual.bench import read_out, true_readings
+from pipeline.virtual.plan import GAUGES, SENSORS, bench_plan
+from vjm.effects import catalogue
+
+Kind = Literal["there", "absent"]
+_near: dict[tuple[str, ...], Prediction] = {}
+"""Of each fit the first prediction in this process: its equilibria are where those of other noise begin."""
+
+
+class Trial(Record):
+    """What one bench gave.
+
+    kind: whether the effects were hidden or added to a bench without them. residuals: that were fitted. rms: over
+    the degrees of freedom. holdout: whitened RMS of each held-out test. deviations: error of each parameter in its
+    own standard errors, None where it has none. inside: whether the 95 % interval of each size holds null.
+    steps: of each test. lost: rows without a prediction. seconds: of processor time. commit: of the code.
+    """
+
+    kind: Kind
+    effects: tuple[str, ...]
+    seed: int
+    steps: int
+    residuals: int
+    degrees: int
+    chi_square: float
+    holdout: tuple[float, ...]
+    deviations: dict[str, float | None] = {}  # noqa: RUF012 (pydantic copies it)
+    inside: dict[str, bool] = {}  # noqa: RUF012
+    lost: int
+    seconds: float
+    commit: str
+
+    @property
+    def rms(self) -> float:
+        """Whitened RMS of the fitted tests over their degrees of freedom."""
+        return float(np.sqrt(self.chi_square / self.degrees))
+
+
+def trial(kind: Kind, effects: Sequence[str], seed: int, steps: int, commit: str) -> Trial:
+    """Hide the effects at typical size, or nothing, on a bench of so many steps a test; add them and fit."""
+    began = process_time()
+    hidden = typical(effects) if kind == "there" else {}
+    cases = program(campaign(tuple(hidden.items()), seed, steps))
+    named = [catalogue()[name] for name in dict.fromkeys([BASE, *effects])]
+    case = (kind, str(steps), *effects)
+    best = best_fit(Model().with_effects(named), cases, effects, _near.get(case))
+    _near.setdefault(case, best.prediction)
+    return Trial(
+        kind=kind,
+        effects=tuple(effects),
+        seed=seed,
+        steps=steps,
+        residuals=int(best.whitened.size),
+        degrees=best.degrees,
+        chi_square=best.chi_square,
+        holdout=_held_out(best, cases),
+        deviations=_deviations(best, hidden) if hidden else {},
+        inside={} if hidden else _inside(best, cases),
+        lost=int(best.prediction.lost.sum()),
+        seconds=round(process_time() - began, 2),
+        commit=commit,
+    )
+
+
+def campaign(hidden: tuple[tuple[str, float], ...], seed: int, steps: int) -> Campaign:
+    """The whole bench plan with this noise."""
+    plan = bench_plan(steps)
+    return read_out("coverage", bench_rig(), plan, SENSORS, seed, _truth(hidden, steps), GAUGES)
+
+
+def exact(hidden: tuple[tuple[str, float], ...], steps: int) -> Campaign:
+    """The whole bench plan read without noise, to be judged with that of its sensors."""
+    plan = bench_plan(steps)
+    return read_out("exact", bench_rig(), plan, SENSORS, None, _truth(hidden, steps), GAUGES)
+
+
+@cache
+def _truth(hidden: tuple[tuple[str, float], ...], steps: int) -> list[Readings]:
+    """Readings without noise; the same for all seeds."""
+    return true_readings(bench_rig(), bench_plan(steps), dict(hidden), GAUGES)
+
+
+def _held_out(best: Fit, cases: Program) -> tuple[float, ...]:
+    gap = Discrepancy(cases, best.prediction)
+    found: list[float] = []
+    for number, test in enumerate(cases.campaign.tests):
+        rows: NDArray[np.bool_] = cases.test == number
+        rms = gap.rms(rows)
+        if test.role == "holdout" and rms is not None:
+            found.append(rms)
+    return tuple(found)
+
+
+def _deviations(best: Fit, truth: dict[str, float]) -> dict[str, float | None]:
+    out: dict[str, float | None] = {}
+    for each, value, std in zip(best.model.free, best.model.values, best.std, strict=True):
+        out[each.name] = float((value - truth[each.name]) / std) if np.isfinite(std) and std > 0.0 else None
+    return out
+
+
+def _inside(best: Fit, cases: Program) -> dict[str, bool]:
+    out = {}
+    for each, it in zip(best.model.free, intervals(landscape(best, cases)), strict=True):
+        if is_size(each.effect, each.parameter.name):
+            null = each.parameter.null
+            out[each.name] = (it.low is None or it.low <= null) and (it.high is None or null <= it.high)
+    return out

@@ -1,0 +1,64 @@
+"""The solid's load paths, each in a process of its own: none needs another."""
+
+from collections.abc import Sequence
+from concurrent.futures import as_completed
+from os import cpu_count
+from pathlib import Path
+from typing import Any
+
+from fem.material import Isotropic
+from meshes.bar import Bar
+from pipeline.executors import executor
+from pipeline.progress import Progress, Stage
+from pipeline.validation.case import Case
+from pipeline.validation.detail import Detail
+from pipeline.validation.result import Refinement
+from pipeline.validation.stages.linkage import HELD_SETS, SolidPath, solid_path
+from pipeline.validation.stages.refinement import solid_end, solid_steps
+from pipeline.validation.stages.specimen import Specimen
+from pipeline.validation.workshop import Workshop
+
+MOST = 6
+"""More processes than paths would wait."""
+
+Parts = tuple[Bar, Isotropic, float, Detail, Path]
+
+
+def solid_paths(case: Case, s: Specimen, stage: Stage) -> list[SolidPath]:
+    """Every path that the detail asks for, in the order of angles and ways of holding."""
+    angles = case.linkage.angles_deg[: s.detail.path_angles]
+    pairs = [(q, held) for q in angles for held in HELD_SETS[: s.detail.path_sets]]
+    s.mesh(s.detail.path)
+    return _each(stage, _path, [(case, _parts(s), q, held) for q, held in pairs])
+
+
+def solid_study(case: Case, s: Specimen, stage: Stage) -> Refinement:
+    """The solid's load past the critical one in more and more steps; RuntimeError if one does not arrive."""
+    ends = _each(stage, _end, [(case, _parts(s), steps) for steps in s.detail.steps])
+    return solid_steps(case, s.detail.steps, ends)
+
+
+def _each(stage: Stage, call: Any, arguments: Sequence[tuple[Any, ...]]) -> list[Any]:
+    with executor(min(cpu_count() or 1, len(arguments), MOST)) as (pool, _):
+        futures = [pool.submit(call, *each) for each in arguments]
+        for done, future in enumerate(as_completed(futures), 1):
+            future.result()
+            stage.say(f"{done} of {len(futures)}")
+        return [future.result() for future in futures]
+
+
+def _parts(s: Specimen) -> Parts:
+    """What goes to another process: without a terminal and without what is worked out on the way."""
+    return s.bar, s.material, s.size, s.detail, s.workshop.folder
+
+
+def _whole(parts: Parts) -> Specimen:
+    return Specimen(*parts[:4], Workshop(parts[4], Progress(quiet=True)))
+
+
+def _path(case: Case, parts: Parts, q: float, held: tuple[str, ...]) -> SolidPath:
+    return solid_path(case, _whole(parts), q, held)
+
+
+def _end(case: Case, parts: Parts, steps: int) -> float:
+    return solid_end(case, _whole(parts), steps)

@@ -1,0 +1,98 @@
+"""Inputs that are measured: beyond a kink when that is where they were, and near where a fit ends."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from functools import cache
+
+import numpy as np
+import pytest
+from scipy.stats import chi2
+
+from pipeline.coverage.cases import BASE, typical
+from pipeline.coverage.trial import campaign
+from pipeline.inference.fit import NEAR, Objective, fit
+from pipeline.inference.inputs import kinked, linearised
+from pipeline.inference.model import Model
+from pipeline.inference.prediction import predict
+from pipeline.inference.program import Program, program
+from pipeline.inference.residual import residual
+from vjm.effects import catalogue
+
+
+def model(name: str) -> Model:
+    """The bench's geometry and an effect at its typical size."""
+    found = Model().with_effects([catalogue()[each] for each in (BASE, name)])
+    return found.at(np.array([typical([name])[each.name] for each in found.free]))
+
+
+@cache
+def cases(name: str, seed: int) -> Program:
+    return program(campaign(tuple(typical([name]).items()), seed, 8))
+
+
+@pytest.mark.parametrize("seed", [3, 4])
+def test_play_under_forces_that_are_all_noise_is_no_misfit(seed: int) -> None:
+    """Steps without axial force: read with 1 N of noise where half a newton is the whole play.
+
+    At the truth the sum of squares is that of noise; linearised at the measured forces it is far above.
+    """
+    tests, play = cases("joint_clearance", seed), model("joint_clearance")
+    naive = residual(tests, predict(play, tests, slopes=False))
+    _, left = linearised(play, tests, slopes=False)
+    count = int(tests.predicted[tests.fitted].sum())
+    assert chi2.sf(np.sum(left.flat(left.values) ** 2), count) > 1e-3
+    assert np.sum(naive.flat(naive.values) ** 2) > 1.5 * count
+
+
+def test_the_better_side_of_the_kink_is_chosen_row_by_row() -> None:
+    """Never worse than linearised at the measured inputs, in any row, and the states' reasons follow."""
+    tests, play = cases("joint_clearance", 3), model("joint_clearance")
+    naive = residual(tests, predict(play, tests, slopes=False))
+    found, left = linearised(play, tests, slopes=False)
+    before, after = np.sum(naive.values**2, axis=1), np.sum(left.values**2, axis=1)
+    assert np.all(after <= before + 1e-6 * (1.0 + before)) and np.any(after < 0.5 * before - 10.0)
+    assert set(found.reasons) == set(np.flatnonzero(found.lost).tolist())
+
+
+def test_rows_alone_are_predicted_as_among_all() -> None:
+    tests, it = cases("joint_clearance", 3), model("joint_clearance")
+    rows = np.array([0, 3, 4, 40, 41, 77])
+    part = tests.only(rows)
+    np.testing.assert_array_equal(part.measured, tests.measured[rows])
+    whole, alone = (predict(it, each, slopes=False).values for each in (tests, part))
+    np.testing.assert_allclose(alone / tests.sigma, whole[rows] / tests.sigma, atol=1e-4)
+
+
+def test_which_models_have_kinks() -> None:
+    assert kinked(model("joint_clearance"))
+    assert not kinked(model("modulus_error")) and not kinked(model("joint_friction"))
+
+
+def test_a_fit_ends_linearised_near_the_inputs_that_fit_best() -> None:
+    """Slopes at the measured temperatures are small by the noise in them: 0.8 standard errors of 0.4 %."""
+    tests = cases("thermal_expansion", 1)
+    began = Model().with_effects([catalogue()[each] for each in (BASE, "thermal_expansion")])
+    found = fit(began, tests)
+    sigma = np.where(tests.input_sigma > 0.0, tests.input_sigma, np.inf)
+    assert np.max(np.abs(found.residual.shift - found.prediction.shift) / sigma) <= NEAR
+    aim = Objective(found.model, tests, found.prediction)
+    far = aim.unsettled(found.model.values)
+    # At the measured inputs themselves, where a new objective begins, noise alone is several sigmas off.
+    assert far > 1.0
+    aim.again(found.model.values)
+    assert aim.unsettled(found.model.values) < 0.5 * far
+
+
+def test_no_force_read_no_displacement_prescribed() -> None:
+    """What was never read beside its force cannot say where a play was."""
+    tests = cases("joint_clearance", 3).campaign
+    blind = [
+        replace(t, data=replace(t.data, displacement=np.full_like(t.data.displacement, np.nan)))
+        if "force" in t.control
+        else t
+        for t in tests.tests
+    ]
+    held = [replace(t, control=("force",) * 6) for t in blind]
+    assert program(replace(tests, tests=tuple(held))).by_displacement is None
+    assert cases("joint_clearance", 3).by_displacement is not None
