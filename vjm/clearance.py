@@ -44,3 +44,9 @@ class Clearance:
         energy = 0.5 * CENTRING * strain[..., 0] ** 2 + 0.5 * self.stop * beyond[..., 0] ** 2
         tangent = np.where(beyond == 0.0, CENTRING, CENTRING + self.stop)[..., None]
         return Response(energy, force, tangent, memory)
+
+    def give(self, force: Array) -> Array:
+        """Strain at a force; both (...)."""
+        inside = np.clip(force / CENTRING, -self.play, self.play)
+        beyond = (force - CENTRING * inside) / (CENTRING + self.stop)
+        return np.asarray(inside + beyond)

@@ -44,3 +44,11 @@ class Contact:
         start = 0.5 * stiffness * linear**2 - 0.4 * self.c * (linear / self.c) ** 2.5
         energy = np.where(near, 0.5 * stiffness * size**2, start + 0.4 * self.c * ratio**2.5)[..., 0]
         return Response(energy, force, tangent, memory)
+
+    def give(self, force: Array) -> Array:
+        """Strain at a force; both (...)."""
+        size = np.abs(force) / LINEAR_BELOW
+        linear = self.c * LINEAR_BELOW ** (2 / 3)
+        return np.asarray(
+            np.sign(force) * linear * np.where(size < 1.0, size, np.maximum(size, 1.0) ** (2 / 3))
+        )

@@ -1,8 +1,9 @@
 """Derivatives of an equilibrium by its inputs and by any parameter of its mechanism, by implicit differentiation.
 
 An equilibrium solves r(u, targets, p) = 0; with the converged tangent r_u, du/dp = -r_u^-1 r_p. No equilibrium
-is solved again. r_p is taken at fixed u by central differences of fourth order of the residual, which is
-smooth in the data of a mechanism; its error, about the fourth power of the relative step, is at rounding.
+is solved again. r_p is taken at fixed u by differences of the residual, which is smooth in the data of a mechanism:
+of fourth order their error, about the fourth power of the relative step, is at rounding; of second order it is some
+1e-6, of first some 1e-3, at a half and a quarter of the cost.
 """
 
 from __future__ import annotations
@@ -20,8 +21,12 @@ from vjm.mechanism import Mechanism
 from vjm.problem import channel_scale
 from vjm.readings import control_of, read_slope
 
-_OFFSETS = np.array([-2.0, -1.0, 1.0, 2.0])
-_WEIGHTS = np.array([1.0, -8.0, 8.0, -1.0]) / 12.0
+_SCHEMES = {
+    1: ((0.0, -1.0), (1.0, 1.0)),
+    2: ((-1.0, -0.5), (1.0, 0.5)),
+    4: ((-2.0, 1.0 / 12.0), (-1.0, -8.0 / 12.0), (1.0, 8.0 / 12.0), (2.0, -1.0 / 12.0)),
+}
+"""Offsets and weights of differences, by their order."""
 _STEP = 1e-3
 
 
@@ -103,11 +108,13 @@ def by_parameters(
     directions: Sequence[AnyDirection],
     target_slope: ArrayLike = 0.0,
     memory_slope: ArrayLike = 0.0,
+    order: int = 4,
 ) -> Sensitivity:
     """By k parameters, inputs or targets at once.
 
     target_slope: (..., 6, k) derivative of the targets, where they change with them. memory_slope: (..., M, k)
-    derivative of the memory at the start of the step, `Sensitivity.memory` of the step before.
+    derivative of the memory at the start of the step, `Sensitivity.memory` of the step before. order: of the
+    differences, 1, 2 or 4.
     """
     place, count = lagrangian.layout(state.mechanism), len(directions)
     batch = state.converged.shape
@@ -115,19 +122,23 @@ def by_parameters(
     target = np.broadcast_to(np.asarray(target_slope, dtype=float), (*batch, 6, count))
     slope = np.zeros((*state.unknowns.shape, count))
     own = np.zeros((*state.readings.shape, count))
+    here = (_residual(state, state.memory, place), state.readings) if order == 1 else (0.0, 0.0)
     for k, direction in enumerate(directions):
         if isinstance(direction, Target):
             sides = channel_scale(place, state.channels)[..., direction.coordinate]
             slope[..., place.platform.start + direction.coordinate, k] -= 1.0 / sides
             continue
-        for offset, weight in zip(_OFFSETS, _WEIGHTS / (_STEP * direction.size), strict=True):
-            step = _STEP * direction.size * offset
+        for step, weight in _steps(order, direction.size):
+            if not step:
+                slope[..., k] += weight * here[0]
+                own[..., k] += weight * here[1]
+                continue
             moved = direction.moved(state, step)
             slope[..., k] += weight * _residual(moved, state.memory + step * memory[..., k], place)
             own[..., k] += weight * moved.readings
     slope[..., place.platform, :] -= target / channel_scale(place, state.channels)[..., None]
     unknowns, regular = _solve(state, -slope)
-    change = _memory_change(state, directions, unknowns, memory)
+    change = _memory_change(state, directions, unknowns, memory, order)
     return Sensitivity(state, unknowns, change, own + _readings(state, unknowns), regular)
 
 
@@ -140,8 +151,8 @@ def by_parameter(
     memory_slope: ArrayLike = 0.0,
 ) -> Sensitivity:
     """By one parameter, see `Direction`; target_slope (..., 6), memory_slope (..., M)."""
-    slopes = (np.asarray(slope, dtype=float)[..., None] for slope in (target_slope, memory_slope))
-    return by_parameters(state, [Direction(build, value, size)], *slopes)
+    target, memory = (np.asarray(slope, dtype=float)[..., None] for slope in (target_slope, memory_slope))
+    return by_parameters(state, [Direction(build, value, size)], target, memory)
 
 
 def _residual(state: Equilibrium, memory: Array, place: lagrangian.Layout) -> Array:
@@ -169,8 +180,14 @@ def _solve(state: Equilibrium, right: Array) -> tuple[Array, np.ndarray]:
     return unknowns, found.regular.reshape(state.converged.shape)
 
 
+def _steps(order: int, size: float) -> list[tuple[float, float]]:
+    """Changes of a parameter and their weights in its derivative."""
+    step = _STEP * size
+    return [(offset * step, weight / step) for offset, weight in _SCHEMES[order]]
+
+
 def _memory_change(
-    state: Equilibrium, directions: Sequence[AnyDirection], unknowns: Array, memory: Array
+    state: Equilibrium, directions: Sequence[AnyDirection], unknowns: Array, memory: Array, order: int
 ) -> Array:
     """Derivative (..., M, k) of the memory after the step along the changes of unknowns and memory.
 
@@ -182,8 +199,7 @@ def _memory_change(
     for k, direction in enumerate(directions):
         if isinstance(direction, Target):
             continue
-        for offset, weight in zip(_OFFSETS, _WEIGHTS / (_STEP * direction.size), strict=True):
-            step = _STEP * direction.size * offset
+        for step, weight in _steps(order, direction.size):
             moved = replace(
                 direction.moved(state, step),
                 unknowns=state.unknowns + step * unknowns[..., k],

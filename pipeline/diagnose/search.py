@@ -161,10 +161,16 @@ def _pruned(shelf: Shelf, names: Names) -> Names:
 
 
 def _dispensable(shelf: Shelf, names: Names, name: str) -> bool:
-    """Whether an effect, by its own numbers and their covariance, explains no more than a few times its price."""
+    """Whether an effect, by its own numbers and their covariance, explains no more than a few times its price.
+
+    One that is there or not is, unless what is there would be a hopeless root without it.
+    """
+    if not shelf.candidates[name].parameters:
+        root = frozenset(n for n in names if not shelf.candidates[n].parameters)
+        return shelf.fit(root - {name}).chi_square < HOPELESS * shelf.fit(root).chi_square
     found = shelf.fit(names)
     mine = np.array([each.effect == name for each in found.model.free], dtype=bool)
-    if not mine.any() or not shelf.candidates[name].smooth:
+    if not shelf.candidates[name].smooth:
         return True
     null = np.array([each.parameter.null for each in found.model.free])
     away = (found.model.values - null)[mine]

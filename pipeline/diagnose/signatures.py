@@ -16,13 +16,15 @@ from numpy.typing import NDArray
 from pipeline.campaign import Campaign, Test
 from pipeline.inference.fit import Fit
 from pipeline.inference.model import Model
-from pipeline.inference.prediction import predict
+from pipeline.inference.prediction import Prediction, predict
 from pipeline.inference.program import Program, program
 from pipeline.inference.residual import residual, whitening
 from vjm.effects.base import Effect
 
 Array = NDArray[np.float64]
 Say = Callable[[str], None]
+PLAIN = 100.0
+"""Sigmas of all readings together from which nobody overlooks an effect."""
 ENOUGH = 200
 """Rows that a look at smooth effects needs; of more, some are left out."""
 
@@ -78,20 +80,27 @@ def _thinned(test: Test, some: np.ndarray) -> Test:
     return replace(test, data=data)
 
 
-def smooth_signature(found: Fit, effect: Effect, at: Look) -> Signature:
-    """Derivatives beside the null of an effect, on the rows of a look.
+ROUGHLY = 1
+"""Order of differences: a thousandth is near enough for a look."""
+
+
+def smooth_signatures(found: Fit, effects: Sequence[Effect], at: Look) -> list[Signature]:
+    """Derivatives beside the null of each effect, on the rows of a look; all at null together change nothing.
 
     At the inputs of the fit: the noise of the measured ones would be in the derivatives as it is in the residuals.
     """
-    model = found.model.with_effects([effect])
-    predicted = predict(model, at.program, shift=found.prediction.shift[at.rows])
+    model = found.model.with_effects(effects)
+    predicted = predict(model, at.program, shift=found.prediction.shift[at.rows], order=ROUGHLY)
     slopes = residual(at.program, predicted).slopes
-    free = model.free[len(found.model.free) :]
-    typical = np.array([each.parameter.typical for each in free])
-    low = np.array([0.0 if each.parameter.one_sided else -np.inf for each in free])
-    columns = slopes[..., len(found.model.free) :] * typical
     used = at.program.predicted & at.program.fitted[:, None]
-    return Signature(effect, (columns[used],), low)
+    out = []
+    for effect in effects:
+        mine = [k for k, each in enumerate(model.free) if each.effect == effect.name]
+        free = [model.free[k].parameter for k in mine]
+        low = np.array([0.0 if p.one_sided else -np.inf for p in free])
+        columns = slopes[..., mine] * np.array([p.typical for p in free])
+        out.append(Signature(effect, (columns[used],), low))
+    return out
 
 
 @dataclass(frozen=True, eq=False)
@@ -104,18 +113,37 @@ class Probe:
 
 
 def probes(base: Model, effects: Sequence[Effect], whole: Program, say: Say) -> list[Probe]:
-    """Of every effect with kinks, on the base model without what is there or not: lumped bars are quick."""
+    """Of every effect with kinks, on the base model without what is there or not: lumped bars are quick.
+
+    An effect that cannot be without another is compared with that one: the difference is its own.
+    """
     bare = Model(tuple(t for t in base.terms if t.effect.parameters), base.fixed)
-    kinked = [e for e in effects if not e.smooth]
-    if not kinked:
-        return []
-    without, out = predict(bare, whole, slopes=False), []
-    for effect in kinked:
-        for value in effect.probes:
-            say(f"{effect.name} at {value:g}")
-            there = predict(probed(bare.with_effects([effect]), effect, value), whole, slopes=False)
-            lost = (there.lost | without.lost)[:, None]
-            out.append(Probe(effect, value, np.where(lost, 0.0, there.values - without.values)))
+    out: list[Probe] = []
+    without: dict[tuple[str, ...], Prediction] = {}
+    known = {effect.name: effect for effect in effects}
+    for effect in effects:
+        if effect.smooth or any(name not in known for name in effect.includes):
+            continue
+        besides = bare.with_effects([known[name] for name in effect.includes])
+        if effect.includes not in without:
+            without[effect.includes] = predict(besides, whole, slopes=False)
+        out += _probes_of(effect, besides, without[effect.includes], whole, say)
+    return out
+
+
+def _probes_of(effect: Effect, besides: Model, without: Prediction, whole: Program, say: Say) -> list[Probe]:
+    """The weakest first, up to one that is plain: the stronger ones cost most and tell no more."""
+    out = []
+    weights = whitening(whole, without)
+    used = whole.predicted & whole.fitted[:, None]
+    for value in effect.probes:
+        say(f"{effect.name} at {value:g}")
+        model = probed(besides.with_effects([effect]), effect, value)
+        there = predict(model, whole, slopes=False)
+        lost = (there.lost | without.lost)[:, None]
+        out.append(Probe(effect, value, np.where(lost, 0.0, there.values - without.values)))
+        if np.linalg.norm(weights.apply(np.where(used, out[-1].change, 0.0))[used]) > PLAIN:
+            break
     return out
 
 
@@ -145,11 +173,9 @@ def signatures(
     found: Fit, candidates: Sequence[Effect], looks: Sequence[Probe], at: Look, say: Say
 ) -> list[Signature]:
     """Of every candidate that the fit does not have yet and that changes anything at all."""
-    out = []
-    for effect in candidates:
-        if effect.smooth and effect.parameters and effect.name not in found.model.names:
-            say(effect.name)
-            out.append(smooth_signature(found, effect, at))
+    say("what every candidate would do")
+    smooth = [e for e in candidates if e.smooth and e.parameters and e.name not in found.model.names]
+    out = smooth_signatures(found, smooth, at) if smooth else []
     out += [s for s in probed_signatures(found, looks, at) if s.effect.name not in found.model.names]
     shown = [it for it in out if any(np.any(columns) for columns in it.columns)]
     return out if found.prediction.lost.any() else shown

@@ -11,12 +11,13 @@ from numpy.typing import NDArray
 from pipeline.campaign.names import COORDINATES
 from pipeline.inference.model import Model
 from pipeline.inference.program import INPUTS, Group, Program
-from vjm.effects.base import Rig
+from vjm.effects.base import Rig, for_bars
 from vjm.effects.thermal_expansion import DRIVE
 from vjm.equilibrium import Equilibrium, equilibrium, stack
 from vjm.lagrangian import layout
 from vjm.mechanism import initial_memory
 from vjm.sensitivity import TARGETS, AnyDirection, Direction, DriveDirection, by_parameters
+from vjm.slides import with_slides
 
 Array = NDArray[np.float64]
 _KELVIN = 1.0
@@ -59,10 +60,12 @@ def predict(
     slopes: bool = True,
     start: Prediction | None = None,
     shift: Array | None = None,
+    order: int = 2,
 ) -> Prediction:
     """Readings at all rows; start: a prediction of a like model, from whose states to begin.
 
-    shift: (R, 7) added to the measured inputs and temperature. ValueError for an effect that the rig cannot have.
+    shift: (R, 7) added to the measured inputs and temperature. order: of the differences in derivatives by numbers,
+    see `vjm.sensitivity`. ValueError for an effect that the rig cannot have.
     """
     count = len(model.free) if slopes else 0
     rows, channels = program.measured.shape
@@ -79,7 +82,7 @@ def predict(
     for number, group in enumerate(program.groups):
         begin = None if start is None else start.states[number]
         place, real = program.rows_of(group), group.real
-        part = _group(model, program, _shifted(group, out.shift[place]), slopes, begin)
+        part = _group(model, program, _shifted(group, out.shift[place]), slopes, begin, order)
         out.values[place], out.by_inputs[place] = part.values[real], part.by_inputs[real]
         out.by_free[place] = part.by_free[real]
         lost = ~part.state.converged | (part.state.unstable > 0)
@@ -90,7 +93,9 @@ def predict(
     return replace(zeroed(out, program), states=tuple(states))
 
 
-def _group(model: Model, program: Program, group: Group, slopes: bool, start: Equilibrium | None) -> _Part:
+def _group(
+    model: Model, program: Program, group: Group, slopes: bool, start: Equilibrium | None, order: int
+) -> _Part:
     gauges = program.campaign.gauges
     mechanism = model.mechanism(group.rig, gauges)
     drives = layout(mechanism).drives
@@ -100,19 +105,33 @@ def _group(model: Model, program: Program, group: Group, slopes: bool, start: Eq
     asked: list[AnyDirection] = [*TARGETS, *(_direction(model, k, group, program) for k in range(len(free)))]
     if DRIVE in drives:
         asked.append(DriveDirection(DRIVE, _KELVIN))
-    if start is not None and start.unknowns.shape[-1] != layout(mechanism).size:
-        start = None
-    begin = None if start is None else replace(start, mechanism=mechanism)
+    begin = _begin(mechanism, group, inputs, start)
     if initial_memory(mechanism).size:
-        state, by = _history(mechanism, group, inputs, asked, begin)
+        state, by = _history(mechanism, group, inputs, asked, begin, order)
     else:
         state = equilibrium(mechanism, group.targets, group.channels[:, None], begin, drives=inputs)
-        by = by_parameters(state, asked).readings
+        by = by_parameters(state, asked, order=order).readings
     values = state.readings
     values[..., :6] -= group.nominal
     warm = by[..., -1:] if DRIVE in drives else np.zeros((*values.shape, 1))
     by_inputs = np.concatenate([by[..., :6], warm], axis=-1)
     return _Part(values, by_inputs, by[..., 6 : 6 + len(free)], state)
+
+
+def _begin(
+    mechanism: Rig, group: Group, inputs: dict[str, Array], start: Equilibrium | None
+) -> Equilibrium | None:
+    """Where to begin: at the start where it fits; with slides, where the linkage without them would be."""
+    sliding = any(link.slides for link in mechanism.links) and not initial_memory(mechanism).size
+    if start is not None and start.unknowns.shape[-1] == layout(mechanism).size:
+        return with_slides(start, mechanism) if sliding else replace(start, mechanism=mechanism)
+    if not sliding:
+        return None
+    bare = for_bars(mechanism, lambda link: replace(link, slides=()))
+    fits = start is not None and start.unknowns.shape[-1] == layout(bare).size
+    tight = replace(start, mechanism=bare) if start is not None and fits else None
+    state = equilibrium(bare, group.targets, group.channels[:, None], tight, drives=inputs)
+    return with_slides(state, mechanism)
 
 
 def _shifted(group: Group, shift: Array) -> Group:
@@ -128,6 +147,7 @@ def _history(
     inputs: dict[str, Array],
     asked: list[AnyDirection],
     start: Equilibrium | None,
+    order: int,
 ) -> tuple[Equilibrium, Array]:
     """Step after step, all tests together, the memory and its derivatives handed on."""
     state, slope = None, np.zeros((1, len(asked)))
@@ -139,7 +159,7 @@ def _history(
         state = equilibrium(
             mechanism, group.targets[:, step], group.channels, begin, drives=now, memory=memory
         )
-        found = by_parameters(state, asked, memory_slope=slope if step else 0.0)
+        found = by_parameters(state, asked, memory_slope=slope if step else 0.0, order=order)
         slope = found.memory
         states.append(state)
         by.append(found.readings)

@@ -1,0 +1,55 @@
+"""A start with slides let go: laws inverted exactly, and the equilibrium that is found is the one found from rest."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from vjm import paper
+from vjm.clearance import Clearance
+from vjm.contact import Contact
+from vjm.effects.base import for_bars
+from vjm.equilibrium import equilibrium
+from vjm.mechanisms.parallelogram import Parallelogram
+from vjm.slides import with_slides
+
+HELD = ("y", "z", "rx", "ry", "rz")
+LINKAGE = Parallelogram(310.0, 80.0, paper.BAR_STIFFNESS, q=np.radians(15))
+FORCES = np.array([-4000.0, -3.0, 0.0, 0.4, 900.0])
+TARGETS = LINKAGE.unloaded_pose * [0, 1, 1, 1, 1, 1] + FORCES[:, None] * [1, 0, 0, 0, 0, 0]
+
+
+@pytest.mark.parametrize("law", [Contact(5e-5), Clearance(0.01)])
+def test_a_law_gives_what_it_answers(law: Contact | Clearance) -> None:
+    force = np.array([-5e3, -2.0, -0.1, 0.0, 0.3, 1.0, 40.0, 4e3])
+    answer = law.respond(law.give(force)[..., None], np.zeros(0)).force[..., 0]
+    np.testing.assert_allclose(answer, force, rtol=1e-9, atol=1e-12)
+
+
+@pytest.mark.parametrize("law", [Contact(5e-5), Clearance(0.01)])
+def test_the_start_leads_where_rest_leads(law: Contact | Clearance) -> None:
+    sliding = for_bars(LINKAGE, lambda link: replace(link, slides=(law,)))
+    cold = equilibrium(sliding, TARGETS, HELD)
+    warm = equilibrium(sliding, TARGETS, HELD, with_slides(equilibrium(LINKAGE, TARGETS, HELD), sliding))
+    assert cold.converged.all() and warm.converged.all()
+    np.testing.assert_allclose(warm.pose, cold.pose, rtol=0, atol=1e-10)
+    assert warm.iterations.max() <= 5 and warm.iterations.sum() <= cold.iterations.sum()
+
+
+def test_a_state_with_other_slides_serves_as_well() -> None:
+    """Stops that moved by a tenth are met again; kept where they were, Newton's method wanders."""
+    first, second = (
+        for_bars(LINKAGE, lambda link, play=play: replace(link, slides=(Clearance(play),)))
+        for play in (0.01, 0.011)
+    )
+    state = equilibrium(first, TARGETS, HELD)
+    again = equilibrium(second, TARGETS, HELD, with_slides(state, second))
+    np.testing.assert_allclose(again.pose, equilibrium(second, TARGETS, HELD).pose, rtol=0, atol=1e-10)
+    assert again.iterations.max() <= 5
+
+
+def test_another_mechanism_is_refused() -> None:
+    with pytest.raises(ValueError, match="unknowns"):
+        with_slides(equilibrium(LINKAGE, TARGETS, HELD), LINKAGE.refined())
