@@ -3,6 +3,7 @@
 import shlex
 import sys
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 from typing import Annotated, NoReturn
 
@@ -37,6 +38,11 @@ EffectsFrom = Annotated[
 Json = Annotated[Path | None, typer.Option("--json", help="File for the whole result.")]
 
 
+ManipulatorFile = Annotated[
+    str, typer.Argument(metavar="FILE", help="A manipulator as .toml, or the name of a shipped one.")
+]
+
+
 def give_up(message: str, code: int) -> NoReturn:
     """Print one sentence and end."""
     print(f"error: {message}", file=sys.stderr)
@@ -66,13 +72,41 @@ def run(
 
 @app.command()
 def report(
-    folder: Annotated[Path, typer.Argument(metavar="DIR", help="Folder with a result.json.")],
+    path: Annotated[
+        Path, typer.Argument(metavar="PATH", help="A campaign's folder, or one with a saved result.")
+    ],
+    out: Annotated[
+        Path | None, typer.Option(help="Folder of a campaign's report; default results/NAME.")
+    ] = None,
+    model: ModelFile = None,
+    effects_from: EffectsFrom = None,
+    look: Annotated[
+        bool, typer.Option("--diagnose", help="Look for what the model lacks first; a minute or two.")
+    ] = False,
+    answer: Annotated[Path | None, typer.Option(help="Saved answer of diagnose, to be shown.")] = None,
     quiet: Quiet = False,
 ) -> None:
-    """Draw the report of saved results again, without solving."""
-    from pipeline.command import redraw
+    """The report of a campaign, or of saved results again without solving: HTML, Markdown and pictures."""
+    from pipeline.page.command import report_of
 
-    guarded(lambda: redraw(folder, quiet))
+    if look and answer is not None:
+        give_up("--diagnose and --answer are both given, allowed is one of the two", 2)
+    guarded(lambda: report_of(path, out, model, effects_from or [], look, answer, quiet))
+
+
+@app.command()
+def studio(
+    campaign: Annotated[
+        Path | None, typer.Argument(metavar="CAMPAIGN", help="A campaign's folder; or choose it on the page.")
+    ] = None,
+    port: Annotated[int, typer.Option(min=0, max=65535, help="0: any that is free.")] = 0,
+    browser: Annotated[bool, typer.Option(help="Open it in the browser.")] = True,
+    effects_from: EffectsFrom = None,
+) -> None:
+    """A page on this machine where the same is done by clicking."""
+    from pipeline.studio.command import studio
+
+    guarded(lambda: studio(campaign, port, browser, effects_from or []))
 
 
 @app.command()
@@ -111,12 +145,19 @@ def simulate(
         typer.Option("--effect", metavar="NAME[.PARAMETER][=VALUE]", help="What is hidden; repeatable."),
     ] = None,
     seed: Annotated[int, typer.Option(min=0, help="Of the noise, and of sizes that are not given.")] = 0,
+    manipulator: Annotated[
+        str | None, typer.Option(metavar="FILE", help="A whole manipulator; default a parallelogram.")
+    ] = None,
     quiet: Quiet = False,
 ) -> None:
     """A virtual bench: finite elements with hidden effects and noise write a campaign; the answer is sealed."""
     from pipeline.simulate import simulate
+    from pipeline.simulate_manipulator import simulate_manipulator
 
-    guarded(lambda: simulate(out, effect or [], seed, quiet))
+    if manipulator is None:
+        guarded(lambda: simulate(out, effect or [], seed, quiet))
+    else:
+        guarded(lambda: simulate_manipulator(out, manipulator, effect or [], seed, quiet))
 
 
 @app.command()
@@ -137,6 +178,69 @@ def add(
 
 
 @app.command()
+def remove(
+    campaign: CampaignFolder,
+    effects: Annotated[list[str], typer.Argument(metavar="EFFECT...", help="Names of the model's effects.")],
+    model: ModelFile = None,
+    effects_from: EffectsFrom = None,
+    json: Json = None,
+    quiet: Annotated[bool, typer.Option("--quiet", help="Only the verdict and the parameters.")] = False,
+) -> None:
+    """Take effects out of the campaign's model, fit the rest again, save the model: an undo of add or improve."""
+    from pipeline.add.command import remove_effects
+
+    guarded(lambda: remove_effects(campaign, effects, model, effects_from or [], json, quiet))
+
+
+@app.command()
+def improve(
+    campaign: CampaignFolder,
+    model: ModelFile = None,
+    effects_from: EffectsFrom = None,
+    json: Json = None,
+    out: Annotated[
+        Path | None, typer.Option(help="Folder for answer.json and the model of every step.")
+    ] = None,
+    seed: Annotated[int | None, typer.Option(help="Kept with the answer; nothing here is random.")] = None,
+    quiet: Annotated[bool, typer.Option("--quiet", help="Only the verdict and the parameters.")] = False,
+) -> None:
+    """Diagnose and add until the error is noise or nothing known helps; only what is certain is added."""
+    from pipeline.improve.command import improve_campaign
+
+    guarded(lambda: improve_campaign(campaign, model, effects_from or [], json, out, seed, quiet))
+
+
+@app.command()
+def plan(
+    campaign: CampaignFolder,
+    model: ModelFile = None,
+    effects_from: EffectsFrom = None,
+    json: Json = None,
+    quiet: Annotated[bool, typer.Option("--quiet", help="Only the next test.")] = False,
+) -> None:
+    """Which effects these tests can show and tell apart, measured or not yet, and the next test worth doing."""
+    from pipeline.plan.command import plan_campaign
+
+    guarded(lambda: plan_campaign(campaign, model, effects_from or [], json, quiet))
+
+
+@app.command()
+def challenge(
+    cases: Annotated[int, typer.Option(min=1, help="Campaigns, from the first one on.")] = 600,
+    workers: Annotated[int, typer.Option(min=1, help="Processes.")] = 2,
+    out: Annotated[Path, typer.Option(help="Folder of the score.")] = Path("reports/challenge"),
+    store: Annotated[Path, typer.Option(help="Where finished campaigns are kept.")] = Path(
+        ".parastiff/challenge.jsonl"
+    ),
+    quiet: Quiet = False,
+) -> None:
+    """The score of the diagnosis over many virtual benches with hidden effects; stopped, it can go on."""
+    from pipeline.challenge.command import run_challenge
+
+    guarded(lambda: run_challenge(cases, workers, out, store, quiet))
+
+
+@app.command()
 def diagnose(
     campaign: CampaignFolder,
     model: ModelFile = None,
@@ -150,6 +254,61 @@ def diagnose(
     from pipeline.diagnose.command import diagnose_campaign
 
     guarded(lambda: diagnose_campaign(campaign, model, effects_from or [], json, out, seed, quiet))
+
+
+@app.command()
+def table(
+    manipulator: ManipulatorFile = "orthoglide",
+    json: Json = None,
+    out: Annotated[Path | None, typer.Option(help="Folder for table_1.json and table_1.md.")] = None,
+    quiet: Annotated[bool, typer.Option("--quiet", help="Only the cells.")] = False,
+) -> None:
+    """Table 1 of the paper by virtual springs and finite elements of the whole manipulator."""
+    from pipeline.manipulator.table_command import table
+
+    guarded(lambda: table(manipulator, json, out, quiet))
+
+
+@app.command()
+def sweep(
+    out: Annotated[
+        Path, typer.Option(help="Folder of the map; that of an interrupted sweep is gone on with.")
+    ],
+    manipulator: ManipulatorFile = "orthoglide",
+    points: Annotated[str, typer.Option(metavar="N|NX,NY,NZ", help="Points along each axis.")] = "21",
+    low: Annotated[
+        str | None, typer.Option(metavar="X,Y,Z", help="Low corner, mm; default a cube about home.")
+    ] = None,
+    high: Annotated[str | None, typer.Option(metavar="X,Y,Z", help="High corner, mm.")] = None,
+    workers: Annotated[int, typer.Option(help="Processes.")] = 1,
+    dask: Annotated[
+        str | None, typer.Option(metavar="ADDRESS", help="Scheduler of a dask cluster, or local.")
+    ] = None,
+    wrench: Annotated[
+        str | None,
+        typer.Option(metavar="FX,FY,FZ[,MX,MY,MZ]", help="N, N·mm: also the loaded state, its stiffness."),
+    ] = None,
+    effect: Annotated[
+        list[str] | None,
+        typer.Option("--effect", metavar="NAME[.PARAMETER][=VALUE]", help="Also its error; repeatable."),
+    ] = None,
+    rise: Annotated[
+        float | None, typer.Option(help="Temperature above the reference, K, where an effect needs it.")
+    ] = None,
+    effects_from: EffectsFrom = None,
+    chunk: Annotated[int, typer.Option(help="Points that are computed and kept together.")] = 2000,
+    pictures: Annotated[bool, typer.Option(help="Draw slices and an isosurface.")] = True,
+    quiet: Quiet = False,
+) -> None:
+    """Stiffness and critical load of a manipulator over a grid of postures; interrupt and resume as you like."""
+    from pipeline.executors import single_threaded
+
+    single_threaded()
+    from pipeline.manipulator.sweep_command import Asked, run_sweep
+
+    asked = Asked(manipulator, out, low, high, points, workers, dask, chunk, quiet)
+    asked = replace(asked, effects=effect or (), effects_from=effects_from or (), wrench=wrench, rise=rise)
+    guarded(lambda: run_sweep(replace(asked, pictures=pictures)))
 
 
 def typed() -> str:

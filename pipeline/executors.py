@@ -6,12 +6,22 @@ from concurrent.futures import Executor, Future, ProcessPoolExecutor
 from contextlib import contextmanager
 from importlib import import_module
 from multiprocessing import get_context
+from signal import SIG_IGN, SIGINT, signal
 from typing import Any, TypeVar
 
 from pipeline.errors import InputError
 
 Out = TypeVar("Out")
 THREADS = ("OMP_NUM_THREADS", "MKL_NUM_THREADS", "OPENBLAS_NUM_THREADS")
+
+
+def single_threaded() -> None:
+    """Linear algebra with one thread, unless the environment says otherwise; for many small matrices more only wait.
+
+    Has to come before numpy is imported.
+    """
+    for name in THREADS:
+        os.environ.setdefault(name, "1")
 
 
 class Serial(Executor):
@@ -44,8 +54,12 @@ def executor(workers: int = 1, dask: str | None = None) -> Iterator[tuple[Execut
         before = {name: os.environ.get(name) for name in THREADS}
         os.environ.update(dict.fromkeys(THREADS, "1"))
         try:
-            with ProcessPoolExecutor(workers, mp_context=get_context("spawn")) as pool:
+            pool = ProcessPoolExecutor(workers, mp_context=get_context("spawn"), initializer=_deaf)
+            try:
                 yield pool, workers
+            finally:
+                # What has not begun is not waited for when something went wrong.
+                pool.shutdown(wait=True, cancel_futures=True)
         finally:
             for name, value in before.items():
                 if value is None:
@@ -54,12 +68,17 @@ def executor(workers: int = 1, dask: str | None = None) -> Iterator[tuple[Execut
                     os.environ[name] = value
 
 
+def _deaf() -> None:
+    """An interrupt from the keyboard reaches all processes; the one that started the others ends them."""
+    signal(SIGINT, SIG_IGN)
+
+
 @contextmanager
 def _dask(workers: int, address: str) -> Iterator[Any]:
     try:
         distributed = import_module("dask.distributed")
     except ImportError:
-        raise InputError("--dask needs the package distributed: pip install distributed") from None
+        raise InputError("--dask needs the package distributed: pip install '.[distributed]'") from None
     if address == "local":
         cluster = distributed.LocalCluster(n_workers=workers, threads_per_worker=1, dashboard_address=None)
         with cluster, distributed.Client(cluster) as client:

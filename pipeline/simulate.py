@@ -35,7 +35,7 @@ def simulate(out: Path, effects: Sequence[str], seed: int, quiet: bool = False) 
     be had and for a folder with a campaign; RuntimeError where the bench itself finds no equilibrium.
     """
     rig = bench_rig()
-    _free(out)
+    require_free(out)
     # Sizes and noise are drawn apart, so that the same seed gives the same noise whatever is hidden.
     sizes, noise = (np.random.default_rng(s) for s in np.random.SeedSequence(seed).spawn(2))
     values = hidden(effects, catalogue(), rig, sizes)
@@ -80,7 +80,7 @@ def sealed(out: Path) -> Path:
     return out.parent / f"{out.name}.sealed.json"
 
 
-def _free(out: Path) -> None:
+def require_free(out: Path) -> None:
     """InputError if there is a campaign already, its answer, or no way to write."""
     for path in (out / DESCRIPTION, out / MEASUREMENTS, sealed(out)):
         if path.exists():

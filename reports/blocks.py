@@ -1,6 +1,6 @@
 """What a report is made of: sections of blocks. The page and the Markdown twin print the same ones."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -104,7 +104,31 @@ class Gallery:
     figures: Sequence[Figure]
 
 
-Block = Tables | Text | Bullets | Code | Figure | Gallery | Table
+@dataclass(frozen=True)
+class Lead:
+    """The sentence that a reader is to take away."""
+
+    text: str
+
+
+@dataclass(frozen=True)
+class Explorer:
+    """Many plots of which one is shown, chosen by two lists; Markdown takes `pictures`.
+
+    choices: what the lists are called. plots: as plotly.js reads them, by the entries of both. first: shown at first.
+    linked: id of a heat map whose cells choose as well, with the entries of both as their customdata.
+    """
+
+    name: str
+    caption: str
+    choices: tuple[str, str]
+    plots: Mapping[tuple[str, str], Any]
+    first: tuple[str, str]
+    linked: str = ""
+    pictures: Sequence[Figure] = ()
+
+
+Block = Tables | Text | Bullets | Code | Figure | Gallery | Table | Lead | Explorer
 
 
 @dataclass(frozen=True)

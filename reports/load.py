@@ -25,6 +25,7 @@ REQUIRED = {
     "critical[]": "q_deg held model spring_at what load_N why",
     "curves[]": "model q_deg held spring_at branch x_mm fx_N critical_N note",
     "validity[]": "model q_deg held deviation load_N",
+    "orthoglide[]": "unknowns cells readings agreement findings",
     "errata[]": "number place printed correct evidence",
 }
 

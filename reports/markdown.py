@@ -3,7 +3,7 @@
 import re
 from collections.abc import Iterator, Sequence
 
-from reports.blocks import Bullets, Cell, Code, Figure, Gallery, Section, Table, Tables, Text
+from reports.blocks import Bullets, Cell, Code, Explorer, Figure, Gallery, Lead, Section, Table, Tables, Text
 from reports.formats import plain
 
 
@@ -29,22 +29,27 @@ def block_lines(block: object) -> Iterator[str]:
     """The lines of one block."""
     if isinstance(block, Text):
         yield escaped(block.text)
+    elif isinstance(block, Lead):
+        yield f"**{escaped(block.text)}**"
     elif isinstance(block, Bullets):
         yield from (f"- {escaped(item)}" for item in block.items)
     elif isinstance(block, Code):
         yield from ("```", block.text, "```")
     elif isinstance(block, Figure):
         yield from figure_lines(block)
-    elif isinstance(block, Gallery):
-        for figure in block.figures:
-            yield from figure_lines(figure)
-            yield ""
-    elif isinstance(block, Tables):
-        for part in block.tables:
-            yield from table_lines(part)
+    elif isinstance(block, Gallery | Explorer | Tables):
+        for part in parts(block):
+            yield from block_lines(part)
             yield ""
     elif isinstance(block, Table):
         yield from table_lines(block)
+
+
+def parts(block: Gallery | Explorer | Tables) -> Sequence[object]:
+    """What a block of several holds."""
+    if isinstance(block, Tables):
+        return block.tables
+    return block.figures if isinstance(block, Gallery) else block.pictures
 
 
 def figure_lines(figure: Figure) -> Iterator[str]:

@@ -3,7 +3,7 @@
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from reports import plots, tables_bar, tables_linkage, tables_record
+from reports import plots, tables_bar, tables_linkage, tables_orthoglide, tables_record
 from reports.blocks import Block, Bullets, Code, Figure, Gallery, Section, Table, Tables, Text
 from reports.load import Json
 from reports.shapes import supports_of
@@ -11,8 +11,9 @@ from reports.shapes import supports_of
 Drawing = tuple[str, bytes]
 
 
-def build(result: Json, drawings: Mapping[str, Drawing], shapes: Any) -> list[Section]:
-    """All sections. `drawings`: (SVG, PNG) by name; `shapes`: plot of the modes and its supports, or None."""
+def build(result: Json, drawings: Mapping[str, Drawing], shapes: Any, stressed: Any = None) -> list[Section]:
+    """All sections. `drawings`: (SVG, PNG) by name; `shapes`: plot of the modes and its supports, or None;
+    `stressed`: plot of the bent linkages, or None."""
     parts = [
         Section("findings", "Findings", [Bullets(result["story"]), Tables([tables_record.run(result)])]),
         linkage(result, drawings),
@@ -20,11 +21,11 @@ def build(result: Json, drawings: Mapping[str, Drawing], shapes: Any) -> list[Se
         convergence(result, drawings),
         buckling(result, drawings, shapes),
         parallelogram(result),
-        critical(result),
+        critical(result, drawings, stressed),
         force_deflection(result, drawings),
     ]
     if result["orthoglide"]:
-        parts.append(Section("orthoglide", "Orthoglide (Table 1)", [tables_record.orthoglide(result)]))
+        parts.append(orthoglide(result))
     return [*parts, errata(result), record(result)]
 
 
@@ -113,7 +114,15 @@ def parallelogram(result: Json) -> Section:
     return Section("parallelogram", "Stiffness of the parallelogram (Eqs. 11 and 13)", blocks)
 
 
-def critical(result: Json) -> Section:
+STRESS = (
+    "The bent linkage at its critical load, where the straight one and every slightly bent one are in balance: pushed "
+    "by that load and bent by its lowest mode with a largest displacement of L/100, drawn larger; von Mises stress of "
+    "both together, linear elastic. Fully held, each bar buckles by itself and either one may be drawn. The platform "
+    "is rigid and not drawn. Drag to turn, scroll, choose above."
+)
+
+
+def critical(result: Json, drawings: Mapping[str, Drawing], stressed: Any) -> Section:
     """Critical loads by every model."""
     caption = "Critical loads on a logarithmic axis. Hatched: an instability in tension."
     blocks: list[Block] = [
@@ -122,6 +131,8 @@ def critical(result: Json) -> Section:
         Text("Why they differ:"),
         Bullets(tables_linkage.reasons(result)),
     ]
+    if "stress" in drawings:
+        blocks.append(drawn("stress", STRESS, drawings, stressed))
     checks = tables_linkage.closed_forms(result)
     return Section("critical", "Critical loads of the parallelogram", blocks + ([checks] if checks else []))
 
@@ -154,6 +165,12 @@ def force_deflection(result: Json, drawings: Mapping[str, Drawing]) -> Section:
         blocks.append(Bullets(notes))
     blocks.append(tables_linkage.validity(result))
     return Section("force-deflection", "Force and deflection (Fig. 3)", blocks)
+
+
+def orthoglide(result: Json) -> Section:
+    """The paper's Table 1."""
+    blocks = [block for item in result["orthoglide"] for block in tables_orthoglide.blocks(item)]
+    return Section("orthoglide", "Whole Orthoglide (Table 1)", blocks)
 
 
 def errata(result: Json) -> Section:

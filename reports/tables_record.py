@@ -1,10 +1,9 @@
 """Tables of the run itself: what was run, the errata, how long it took, with which versions."""
 
 from collections.abc import Mapping
-from typing import Any
 
 from reports.blocks import Column, Table, table
-from reports.formats import CELLS, count, fixed, held_label, number, plain
+from reports.formats import CELLS, count, fixed, number, plain
 from reports.load import Json
 
 
@@ -60,24 +59,3 @@ def errata(result: Json) -> Table:
     columns = [Column("no." if key == "number" else key, numeric=False) for key in keys]
     rows = [[str(item[key]) for key in keys] for item in result["errata"]]
     return table("", columns, rows)
-
-
-def orthoglide(result: Json) -> Table:
-    """The rows of the whole manipulator as the run wrote them."""
-    items = result["orthoglide"]
-    keys = list(dict.fromkeys(key for item in items for key in item))
-    numeric = {key: all(is_number(item.get(key)) for item in items) for key in keys}
-    rows = [[cell(item.get(key)) for key in keys] for item in items]
-    return table("Orthoglide", [Column(plain(key), numeric=numeric[key]) for key in keys], rows)
-
-
-def is_number(value: Any) -> bool:
-    """A number or nothing."""
-    return value is None or (isinstance(value, int | float) and not isinstance(value, bool))
-
-
-def cell(value: Any) -> str:
-    """A value of unknown kind as text."""
-    if is_number(value):
-        return number(value, 4)
-    return held_label([str(part) for part in value]) if isinstance(value, list) else str(value)

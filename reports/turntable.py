@@ -40,6 +40,11 @@ def figure(found: Sequence[Shapes]) -> go.Figure:
         for mode in shapes.modes[:count]:
             plot.add_trace(mesh(surface, shapes, mode))
             titles.append(f"{escape(shapes.supports)}: {escape(mode.title)}")
+    return turning(plot, titles, 2.8, 480)
+
+
+def turning(plot: go.Figure, titles: Sequence[str], reach: float, height: int) -> go.Figure:
+    """Surfaces of which one is seen at a time, chosen in a drop-down, to scale; reach: how long x is drawn."""
     for index, trace in enumerate(plot.data):
         trace.visible = index == 0
     buttons = [
@@ -51,7 +56,7 @@ def figure(found: Sequence[Shapes]) -> go.Figure:
     axis = {"showbackground": False, "showgrid": False, "zeroline": False, "ticks": "", "showspikes": False}
     scene = {
         "aspectmode": "manual",
-        "aspectratio": dict(zip("xyz", 2.8 * span / span[0], strict=True)),
+        "aspectratio": dict(zip("xyz", reach * span / span[0], strict=True)),
         "camera": {
             "eye": {"x": -0.42, "y": -1.15, "z": 0.62},
             "projection": {"type": "orthographic"},
@@ -63,7 +68,7 @@ def figure(found: Sequence[Shapes]) -> go.Figure:
         },
     }
     menu = {"buttons": buttons, "x": 0, "xanchor": "left", "y": 1.0, "yanchor": "bottom", "showactive": True}
-    return style(plot, 480, scene=scene, updatemenus=[menu], margin={"l": 0, "r": 0, "t": 60, "b": 0})
+    return style(plot, height, scene=scene, updatemenus=[menu], margin={"l": 0, "r": 0, "t": 60, "b": 0})
 
 
 def limits(plot: go.Figure) -> tuple[Any, Any]:

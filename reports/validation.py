@@ -2,7 +2,17 @@
 
 from pathlib import Path
 
-from reports import agreement, bar_drawing, charts, linkage_drawing, markdown, page, shapes, turntable
+from reports import (
+    agreement,
+    bar_drawing,
+    charts,
+    linkage_drawing,
+    linkage_shapes,
+    markdown,
+    page,
+    shapes,
+    turntable,
+)
 from reports.errors import ReportError
 from reports.files import write_bytes
 from reports.load import Json, load
@@ -38,10 +48,13 @@ def write(folder: Path, result: Json) -> list[Path]:
     if result.get("agreement"):
         drawings["agreement"] = ("", agreement.draw(result))
     drawings |= {f"modes_{item.supports}": ("", shapes.picture(item)) for item in found}
+    linkages = linkage_shapes.read(folder, result)
+    if linkages:
+        drawings["stress"] = ("", linkage_shapes.picture(linkages))
     fresh = list(drawings)
     drawings |= kept(folder, result, fresh)
     turned = (turntable.figure(found), {item.supports for item in found}) if found else None
-    sections = build(result, drawings, turned)
+    sections = build(result, drawings, turned, linkage_shapes.figure(linkages) if linkages else None)
     pictures = folder / "pictures"
     written = [write_bytes(pictures / f"{name}.png", drawings[name][1]) for name in fresh]
     html, text = page.render(result["title"], sections), markdown.render(result["title"], sections)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from pathlib import Path
 
-from pipeline.add.fitting import Added, add
+from pipeline.add.fitting import Added, add, remove
 from pipeline.add.table import show
 from pipeline.campaign import Campaign, read
 from pipeline.command import usable
@@ -57,6 +57,32 @@ def add_effects(
     if answer.verdict != "within_noise":
         following.append(f"python -m pipeline diagnose {folder}")
     show(answer, str(folder / NAME), following, quiet)
+
+
+def remove_effects(
+    folder: Path,
+    names: Sequence[str],
+    model_file: Path | None = None,
+    effects_from: Sequence[Path] = (),
+    json: Path | None = None,
+    quiet: bool = False,
+) -> None:
+    """Take effects out of the model of the campaign in a folder, save it there, print what changed.
+
+    InputError for bad input; nothing is written then.
+    """
+    campaign = read(folder)
+    began, known = starting_model(campaign, folder, model_file, known_effects(effects_from))
+    usable(folder, f"the model in {folder}")
+    if json is not None:
+        usable(json.parent, f"--json {json}")
+    progress = Progress(quiet)
+    with progress.stage(f"removing {', '.join(names)}") as stage:
+        found = remove(campaign, began, names, stage.say)
+    save(folder / NAME, found, campaign, known)
+    if json is not None:
+        found.answer.write(json)
+    show(found.answer, str(folder / NAME), [f"python -m pipeline compare {folder}"], quiet)
 
 
 def starting_model(

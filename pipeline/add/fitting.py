@@ -11,11 +11,11 @@ from pipeline.add.summary import changes, confusable, error_of, is_noise, undete
 from pipeline.answer import Answer, Correlation
 from pipeline.campaign import Campaign
 from pipeline.errors import InputError
-from pipeline.inference.fit import fit
+from pipeline.inference.fit import Fit, fit
 from pipeline.inference.intervals import correlations, landscape, only_together
 from pipeline.inference.model import Model
 from pipeline.inference.model_file import Uncertainty
-from pipeline.inference.program import program
+from pipeline.inference.program import Program, program
 from pipeline.inference.sigmas import completed
 from pipeline.inference.starts import best_fit
 from pipeline.inference.suitable import check_suitable
@@ -66,14 +66,42 @@ def add(campaign: Campaign, model: Model, effects: Sequence[Effect], say: Say = 
         raise RuntimeError(
             f"the model with {', '.join(after.model.names)} cannot be solved anywhere: {reason}"
         )
+    return _compared(cases, (before, after), len(model.free), new, say, start)
+
+
+def remove(campaign: Campaign, model: Model, names: Sequence[str], say: Say = lambda _: None) -> Added:
+    """The campaign's model without some of its effects, what it has left fitted again.
+
+    Verdict and errors as in `add`. InputError for an effect that is not in the model.
+    """
+    start = perf_counter()
+    for name in names:
+        if name not in model.names:
+            there = ", ".join(model.names) or "none"
+            raise InputError(f"{name} is not in the model, allowed are its effects: {there}")
+    whole = completed(campaign)
+    cases = program(whole)
+    say("the model as it was")
+    before = fit(replace(model, fixed=frozenset(f.name for f in model.free) | model.fixed), cases)
+    less = model
+    for name in names:
+        less = less.without(name)
+    return _compared(cases, (before, fit(less, cases)), len(model.free), (), say, start)
+
+
+def _compared(
+    cases: Program, fits: tuple[Fit, Fit], numbers: int, new: Sequence[str], say: Say, start: float
+) -> Added:
+    """The answer about a fit, beside the one before, which had so many fitted numbers."""
+    before, after = fits
     say("intervals")
     land = landscape(after, cases)
     values = values_of(after.model, land)
     pairs = correlations(land)
     names = [each.name for each in after.model.free]
-    errors = (error_of(before, cases, len(model.free)), error_of(after, cases, len(after.model.free)))
+    errors = (error_of(before, cases, numbers), error_of(after, cases, len(after.model.free)))
     answer = Answer(
-        campaign=whole.name,
+        campaign=cases.campaign.name,
         verdict="within_noise" if is_noise(errors[-1]) else "unknown",
         effects=after.model.names,
         added=tuple(new),
@@ -88,4 +116,6 @@ def add(campaign: Campaign, model: Model, effects: Sequence[Effect], say: Say = 
         commit=commit(),
         versions=versions(),
     )
-    return Added(after.model, answer.model_copy(update={"sentences": sentences(answer, whole.remarks)}))
+    return Added(
+        after.model, answer.model_copy(update={"sentences": sentences(answer, cases.campaign.remarks)})
+    )

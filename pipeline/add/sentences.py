@@ -36,6 +36,10 @@ def _not_noise(error: ModelError) -> str:
     return f"what is left is no noise by {' and '.join(said)}" if said else "nothing can be tested"
 
 
+def _with(answer: Answer) -> str:
+    return f", with {', '.join(answer.added)}" if answer.added else ""
+
+
 def _details(answer: Answer) -> Iterator[str]:
     before, after = answer.error[0], answer.error[-1]
     if before.chi_square is not None and after.chi_square is not None:
@@ -45,7 +49,7 @@ def _details(answer: Answer) -> Iterator[str]:
         cost = {0: "without a further number", 1: "for one further number"}
         yield (
             f"Chi-square {word} by {abs(gain):.4g} to {after.chi_square:.4g} on {after.degrees} degrees of "
-            f"freedom, {cost.get(numbers, f'for {numbers} further numbers')}, with {', '.join(answer.added)}."
+            f"freedom, {cost.get(numbers, f'for {numbers} further numbers')}{_with(answer)}."
         )
     if after.chi_square_p is not None and after.chi_square_p > CLEARLY:
         yield "The residual is smaller than its noise: the sigmas of the campaign may be too large."

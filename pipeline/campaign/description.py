@@ -1,6 +1,8 @@
 """campaign.toml: text in; rig, noise, gauges and the head of each test out."""
 
 import tomllib
+from dataclasses import replace
+from pathlib import Path as FilePath
 from typing import Any, TypeVar, get_args
 
 from pydantic import BaseModel, TypeAdapter, ValidationError
@@ -8,7 +10,8 @@ from pydantic import BaseModel, TypeAdapter, ValidationError
 from pipeline.campaign.complaints import Complaints, shown
 from pipeline.campaign.control import controls
 from pipeline.campaign.head import Description, Head
-from pipeline.campaign.model import Gauge, Rig
+from pipeline.campaign.manipulator_table import ManipulatorTable, reached
+from pipeline.campaign.model import Gauge, Rig, Vector
 from pipeline.campaign.names import (
     DISPLACEMENT,
     FORCE,
@@ -20,6 +23,7 @@ from pipeline.campaign.names import (
 )
 from pipeline.campaign.tables import GaugeTable, RigTable, Sigma, TestTable, Top, sentences
 from pipeline.campaign.toml_lines import TomlLines
+from pipeline.errors import InputError
 from vjm.mechanisms.bar import Tip
 
 Raw = dict[str, Any]
@@ -27,9 +31,9 @@ Model = TypeVar("Model", bound=BaseModel)
 Path = tuple[str | int, ...]
 
 
-def describe(text: str, complaints: Complaints) -> Description:
-    """The description in a TOML text; BadCampaign with every complaint about it."""
-    reader = _Reader(text, complaints)
+def describe(text: str, complaints: Complaints, folder: FilePath | None = None) -> Description:
+    """The description in a TOML text; BadCampaign with every complaint about it. folder: of files that it names."""
+    reader = _Reader(text, complaints, folder)
     top = reader.top()
     rig = reader.rig(top.rig)
     gauges = reader.gauges(top.gauges, rig)
@@ -44,8 +48,8 @@ def describe(text: str, complaints: Complaints) -> Description:
 class _Reader:
     """Checks one section after the other, so that a mistake in one hides none in another."""
 
-    def __init__(self, text: str, complaints: Complaints) -> None:
-        self.complaints = complaints
+    def __init__(self, text: str, complaints: Complaints, folder: FilePath | None) -> None:
+        self.complaints, self.folder = complaints, folder
         self.lines = TomlLines(text.replace("\r\n", "\n"))
         try:
             self.raw: Raw = tomllib.loads(text)
@@ -54,6 +58,7 @@ class _Reader:
             complaints.add("", f"is no TOML: {said}")
             complaints.check()
         self.gauge_names: list[str] = []
+        self.postures: dict[Vector, Rig] = {}
 
     def top(self) -> Top:
         version = self.raw.get("schema", 1)
@@ -67,8 +72,19 @@ class _Reader:
         return top
 
     def rig(self, raw: Raw) -> Rig | None:
+        if raw.get("kind") == "manipulator":
+            return self._manipulator(raw)
         table = self._checked(RigTable, raw, ("rig",), "rig")
         return None if table is None else table.rig()
+
+    def _manipulator(self, raw: Raw) -> Rig | None:
+        described = self._checked(ManipulatorTable, raw, ("rig",), "rig")
+        try:
+            return None if described is None else described.rig(self.folder)
+        except InputError as error:
+            for said in str(error).splitlines():
+                self._say(("rig", "file"), said, "rig.file")
+        return None
 
     def gauges(self, raw: list[Raw], rig: Rig | None) -> tuple[Gauge, ...]:
         gauges: list[Gauge] = []
@@ -88,6 +104,8 @@ class _Reader:
                 SUPPORT,
             ):
                 self._say(("gauges", k, "name"), "is taken, allowed is a name of its own", place)
+            elif rig is not None and rig.kind == "manipulator":
+                self._say(("gauges", k), "is on a manipulator, whose campaigns have no gauges yet", place)
             elif rig is not None and rig.kind == "bar" and table.bar != 1:
                 self._say(("gauges", k, "bar"), f"bar is {table.bar}, a rig of one bar allows 1", place)
             else:
@@ -132,6 +150,7 @@ class _Reader:
     def _head(self, table: TestTable, rig: Rig, path: Path, place: str) -> Head:
         if rig.kind == "parallelogram" and table.q_deg is None:
             self._say(path, "q_deg is missing, a parallelogram needs it", place)
+        rig = self._posture(table, rig, path, place)
         if rig.kind == "bar" and table.q_deg:
             said = f"q_deg is {shown(table.q_deg)}, a bar lies along x and allows 0"
             self._say((*path, "q_deg"), said, place)
@@ -141,11 +160,32 @@ class _Reader:
         line = self.lines.of(*path)
         return Head(table.id, table.q_deg or 0.0, table.role, held, table.zero, rig, line)
 
+    def _posture(self, table: TestTable, rig: Rig, path: Path, place: str) -> Rig:
+        """The rig with its manipulator at the point of the test; the same object for tests at the same point."""
+        if rig.kind != "manipulator":
+            if table.at_mm is not None:
+                self._say((*path, "at_mm"), 'at_mm is given, allowed only with kind = "manipulator"', place)
+            return rig
+        if table.q_deg is not None:
+            self._say((*path, "q_deg"), "q_deg is given, a manipulator has at_mm instead", place)
+        if table.at_mm is None:
+            self._say(
+                path, "at_mm is missing, a manipulator needs the point where its platform stands", place
+            )
+            return rig
+        if rig.manipulator is not None and (why := reached(rig, table.at_mm)):
+            self._say((*path, "at_mm"), f"is {list(table.at_mm)}: {why}", f"{place}, at_mm")
+        return self.postures.setdefault(table.at_mm, replace(rig, point=table.at_mm))
+
     def _own_rig(self, table: TestTable, base: Raw, rig: Rig, path: Path, place: str) -> Rig | None:
         """The rig of the campaign with the values of this test."""
         own = table.rig
         if not own:
             return rig
+        if rig.kind == "manipulator":
+            said = "is given, tests of a manipulator differ in at_mm only"
+            self._say((*path, "rig"), said, f"{place}, rig")
+            return None
         where, place = (*path, "rig"), f"{place}, rig"
         if own.get("kind", rig.kind) != rig.kind:
             self._say(where, f"kind is {shown(own['kind'])}, a test keeps that of the campaign", place)
@@ -180,6 +220,8 @@ class _Reader:
 
 def _stand_in(raw: Raw) -> Rig:
     """A rig to judge the control of a test by, where that of the campaign has mistakes of its own."""
+    if raw.get("kind") == "manipulator":
+        return Rig("manipulator", 1.0)
     if raw.get("kind") != "bar":
         return Rig("parallelogram", 1.0)
     tips: dict[str, Tip] = {tip: tip for tip in get_args(Tip)}

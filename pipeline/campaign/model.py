@@ -15,10 +15,11 @@ from numpy.typing import NDArray
 
 from fem.beam import uniform_stiffness
 from pipeline.campaign.names import COORDINATES, DISPLACEMENT, FORCE, SUPPORT
+from vjm.manipulator.parts import Manipulator
 from vjm.mechanisms.bar import Base, Tip
 
 Array = NDArray[np.float64]
-Kind = Literal["parallelogram", "bar"]
+Kind = Literal["parallelogram", "bar", "manipulator"]
 Role = Literal["fit", "holdout"]
 Zero = Literal["nominal", "first_row", "fitted"]
 Vector = tuple[float, float, float]
@@ -36,12 +37,14 @@ class UniformBar:
 
 @dataclass(frozen=True, eq=False)
 class Rig:
-    """What is on the bench: two bars of a parallelogram, or one bar. One of `bar_stiffness` and `bar` is given.
+    """What is on the bench: two bars of a parallelogram, or one bar, or a whole manipulator.
 
-    length: mm between the hinges. width: mm between the bars; None for a bar. bar_stiffness: (6, 6) of one bar
+    Of a bar one of `bar_stiffness` and `bar` is given. length: mm between the hinges. width: mm between the bars; None for a bar. bar_stiffness: (6, 6) of one bar
     at its tip, base clamped, bar frame. base, tip: supports of a bar. gravity: direction in the base frame as it
     was given, of any length; None where no weight is known. line_weight: N/mm along each bar. platform_weight: N.
     reference_temperature: °C. fibre_y, fibre_z: mm from the bar's axis to its outermost fibres.
+    manipulator, file: a manipulator and the file that describes it; its length is then the characteristic one.
+    point: where its unloaded platform stands in a test, mm.
     """
 
     kind: Kind
@@ -57,6 +60,9 @@ class Rig:
     reference_temperature: float | None = None
     fibre_y: float | None = None
     fibre_z: float | None = None
+    manipulator: Manipulator | None = None
+    file: str | None = None
+    point: Vector | None = None
 
     @cached_property
     def stiffness(self) -> Array:

@@ -25,7 +25,7 @@ def read(folder: Path) -> Campaign:
     mistake in campaign.toml, or if it has none for every mistake in measurements.csv.
     """
     texts = _texts(folder)
-    description = describe(texts[DESCRIPTION], Complaints(str(folder / DESCRIPTION)))
+    description = describe(texts[DESCRIPTION], Complaints(str(folder / DESCRIPTION)), folder)
     complaints = Complaints(str(folder / MEASUREMENTS))
     known = known_columns(gauge.name for gauge in description.gauges)
     frame = sheet(texts[MEASUREMENTS], known, complaints)

@@ -19,6 +19,7 @@ Weight = Annotated[Number, Field(ge=0.0, le=1e9)]
 Sigma = Annotated[Number, Field(ge=1e-12, le=1e9)]
 Celsius = Annotated[Number, Field(ge=-273.15, le=1e4)]
 Angle = Annotated[Number, Field(ge=-85.0, le=85.0)]
+Place = Annotated[Number, Field(ge=-1e6, le=1e6)]
 Text = Annotated[str, Field(min_length=1, max_length=100)]
 Direction = Literal["x", "y", "z", "-x", "-y", "-z"]
 
@@ -155,6 +156,7 @@ class TestTable(Table):
 
     id: Text
     q_deg: Angle | None = None
+    at_mm: tuple[Place, Place, Place] | None = None
     role: Role
     control: dict[str, str]
     zero: Zero = "nominal"

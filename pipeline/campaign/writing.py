@@ -62,7 +62,8 @@ def description_text(campaign: Campaign) -> str:
     document["tests"] = []
     for test in campaign.tests:
         control = {key: by for key, by in zip(COORDINATES, test.control, strict=True) if by != SUPPORT}
-        entry = {"id": test.id, "q_deg": test.q_deg, "role": test.role, "control": inline(control)}
+        place = {"q_deg": test.q_deg} if test.rig.point is None else {"at_mm": list(test.rig.point)}
+        entry = {"id": test.id, **place, "role": test.role, "control": inline(control)}
         if test.zero != "nominal":
             entry["zero"] = test.zero
         if own := _differences(test.id, base, rig_table(test.rig)):
@@ -96,7 +97,8 @@ def rig_table(rig: Rig) -> dict[str, Any]:
     matrix = None if rig.bar_stiffness is None else np.asarray(rig.bar_stiffness).tolist()
     table: dict[str, Any] = {
         "kind": rig.kind,
-        "length_mm": rig.length,
+        "file": rig.file,
+        "length_mm": None if rig.kind == "manipulator" else rig.length,
         "width_mm": rig.width,
         "bar_stiffness": matrix,
         "bar": None

@@ -8,9 +8,11 @@ from typing import Annotated
 import typer
 
 from meshes.files import replacing
-from pipeline.coverage.study import kept, run, tasks
+from pipeline.coverage.study import run, tasks
 from pipeline.coverage.table import page, study
+from pipeline.coverage.trial import Trial
 from pipeline.progress import Progress
+from pipeline.trials import kept
 
 STORE = Path(".parastiff/coverage/trials.jsonl")
 
@@ -29,7 +31,7 @@ def main(
     with progress.stage("coverage") as stage:
         for done, _ in enumerate(run(wanted, store, workers), 1):
             stage.say(f"{done} of {len(wanted)} benches")
-    found = study(kept(store))
+    found = study(kept(store, Trial))
     for name, text in (
         ("coverage.json", found.model_dump_json(indent=1) + "\n"),
         ("coverage.md", page(found)),

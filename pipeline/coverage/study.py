@@ -2,15 +2,10 @@
 
 from __future__ import annotations
 
-import multiprocessing
-import multiprocessing.pool
-import os
-import signal
 from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
 
-from pydantic import ValidationError
-
+from pipeline import trials
 from pipeline.coverage.cases import PAIRS
 from pipeline.coverage.trial import Kind, Trial, trial
 from pipeline.provenance import commit
@@ -48,32 +43,7 @@ def tasks(seeds: int, pair_seeds: int, only: Sequence[str] = ()) -> list[Task]:
 
 def run(wanted: Iterable[Task], store: Path, workers: int) -> Iterator[Trial]:
     """The trials, those in the store first; the others are added to it as they are done."""
-    known = {_key(each): each for each in kept(store)}
-    missing = []
-    for task in wanted:
-        if task[:4] in known:
-            yield known[task[:4]]
-        else:
-            missing.append(task)
-    store.parent.mkdir(parents=True, exist_ok=True)
-    with store.open("a", encoding="utf-8") as file, _pool(workers) as pool:
-        for found in pool.imap_unordered(_one, missing):
-            file.write(found.model_dump_json() + "\n")
-            file.flush()
-            yield found
-
-
-def kept(store: Path) -> list[Trial]:
-    """The trials in a store; a line that was cut off in writing is passed over."""
-    if not store.exists():
-        return []
-    found = []
-    for line in store.read_text(encoding="utf-8").splitlines():
-        try:
-            found.append(Trial.model_validate_json(line))
-        except ValidationError:
-            continue
-    return found
+    return trials.run({task[:4]: task for task in wanted}, _one, Trial, _key, store, workers)
 
 
 def _key(it: Trial) -> tuple[Kind, tuple[str, ...], int, int]:
@@ -82,10 +52,3 @@ def _key(it: Trial) -> tuple[Kind, tuple[str, ...], int, int]:
 
 def _one(task: Task) -> Trial:
     return trial(*task)
-
-
-def _pool(workers: int) -> multiprocessing.pool.Pool:
-    # One thread each: the arrays are small, and threads of several processes are in each other's way.
-    for name in ("OMP_NUM_THREADS", "MKL_NUM_THREADS", "OPENBLAS_NUM_THREADS"):
-        os.environ.setdefault(name, "1")
-    return multiprocessing.get_context("spawn").Pool(workers, signal.signal, (signal.SIGINT, signal.SIG_IGN))

@@ -20,10 +20,12 @@ WIDTH = 4
 """Sets of one size that are fitted, at most, of those that compete."""
 MOST = 5
 """Effects in a set."""
+ENOUGH = 24
+"""Fits after which a search that has found nothing good goes on no further."""
 LEADERS = 7
 """Candidates of which pairs are looked at."""
-DOUBT = 0.15
-"""Part of what an effect explains by which its first-order estimate may be wrong."""
+DOUBT, KINKED = 0.15, 0.6
+"""Part of what an effect explains by which its first-order estimate may be wrong; of one with kinks, from a probe."""
 
 
 HOPELESS = 300.0
@@ -135,15 +137,21 @@ def _competing(shelf: Shelf, start: Names, count: int) -> list[Estimate]:
     here = cost(shelf, start)
     every = [e for e in _estimates(shelf, start, (count,)) if e.names != start]
     best = min([here, *(cost(shelf, n) for n in shelf.fits), *(e.cost for e in every)])
-    within = [e for e in every if e.cost < min(here, best + max(APART * 2, DOUBT * (here - best)))]
-    for e in within[:WIDTH]:
+    hoped = {e.names: e.cost - _doubt(shelf, e.names - start) * max(here - e.cost, 0.0) for e in every}
+    within = [e for e in every if e.cost < here and hoped[e.names] < best + 2 * APART]
+    within = sorted(within, key=lambda e: hoped[e.names])[:WIDTH]
+    for e in within:
         shelf.fit(e.names, e.probes)
-    return within[:WIDTH]
+    return within
+
+
+def _doubt(shelf: Shelf, names: Names) -> float:
+    return DOUBT if all(shelf.candidates[name].smooth for name in names) else KINKED
 
 
 def _grown(shelf: Shelf, start: Names) -> Names:
     """The best set with one effect more, or two; the same if none is better."""
-    if len(start) >= MOST:
+    if len(start) >= MOST or len(shelf.fits) >= ENOUGH:
         return start
     more = [start, *(e.names for k in (1, 2) for e in _competing(shelf, start, k)[:2])]
     return min(more, key=lambda names: cost(shelf, names))

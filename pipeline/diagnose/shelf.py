@@ -85,9 +85,10 @@ class Shelf:
 
     def _fitted(self, names: Names, begin: Mapping[str, float]) -> Fit:
         effects = [self.candidates[name] for name in self.order(names)]
-        model, start = self._begin(names)
+        model, start, known = self._begin(names)
         if not model.free:
             return self._settled(fit(model, self.whole))
+        effects = [e for e in effects if e.name not in known]
         kinked = [e for e in effects if not e.smooth]
         new = [e.name for e in effects]
         if not kinked or not all(e.name in begin for e in kinked):
@@ -103,13 +104,15 @@ class Shelf:
         there = predict(found.model, self.whole, start=found.prediction, shift=found.residual.shift)
         return Fit(found.model, there, residual(self.whole, there), found.evaluations + 1)
 
-    def _begin(self, names: Names) -> tuple[Model, Prediction | None]:
-        """The model with values of the largest set that was fitted already, and where that one stood."""
+    def _begin(self, names: Names) -> tuple[Model, Prediction | None, Names]:
+        """The model with values of the best of the largest sets that were fitted already, where that one stood, and
+        the set."""
         model = self.base.with_effects([self.candidates[name] for name in self.order(names)])
         inside = [each for each in self.fits if each < names]
         if not inside:
-            return model, None
-        known = self.fits[max(inside, key=len)]
+            return model, None, frozenset()
+        largest = max(inside, key=lambda each: (len(each), -self.fits[each].chi_square))
+        known = self.fits[largest]
         old = {f.name: v for f, v in zip(known.model.free, known.model.values, strict=True)}
         values = [old.get(f.name, v) for f, v in zip(model.free, model.values, strict=True)]
-        return model.at(np.array(values)), known.prediction
+        return model.at(np.array(values)), known.prediction, largest

@@ -120,11 +120,11 @@ def probes(base: Model, effects: Sequence[Effect], whole: Program, say: Say) -> 
     bare = Model(tuple(t for t in base.terms if t.effect.parameters), base.fixed)
     out: list[Probe] = []
     without: dict[tuple[str, ...], Prediction] = {}
-    known = {effect.name: effect for effect in effects}
+    known = {effect.name: effect for effect in (*effects, *(term.effect for term in base.terms))}
     for effect in effects:
         if effect.smooth or any(name not in known for name in effect.includes):
             continue
-        besides = bare.with_effects([known[name] for name in effect.includes])
+        besides = bare.with_effects([known[name] for name in effect.includes if name not in bare.names])
         if effect.includes not in without:
             without[effect.includes] = predict(besides, whole, slopes=False)
         out += _probes_of(effect, besides, without[effect.includes], whole, say)

@@ -8,6 +8,7 @@ from fem.frame import bench
 from fem.frame.errors import Errors
 from fem.frame.rig import Gauge as FrameGauge
 from pipeline.campaign.names import DISPLACEMENT, SUPPORT
+from pipeline.inference.manipulator_linear import by_frame, predict_constant
 from pipeline.inference.prediction import Prediction, zeroed
 from pipeline.inference.program import INPUTS, Program
 from pipeline.virtual.bench import frame_rig
@@ -17,9 +18,11 @@ def predict_frame(program: Program, tangent: Prediction) -> Prediction:
     """Readings of geometrically exact frame elements without any error of the bench.
 
     tangent: of another model of the same rig, in whose place the frame has none of its own. ValueError for a rig
-    that the frame refuses. `states` is empty.
+    that the frame refuses. `states` is empty. Of a whole manipulator the frame is linear, at rest.
     """
     campaign = program.campaign
+    if campaign.rig.manipulator is not None:
+        return predict_constant(program, by_frame)
     trials = [
         bench.Trial(
             test.q,

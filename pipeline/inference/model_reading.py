@@ -59,6 +59,11 @@ def read_model(path: Path, known: Mapping[str, Effect] | None = None, kind: str 
     return read_model_file(path, None if known is None else Known(known, {}), kind).model
 
 
+def acted_on(kind: str) -> str:
+    """The kind of rig on which effects act: of a manipulator its parallelograms."""
+    return "parallelogram" if kind == "manipulator" else kind
+
+
 def read_model_file(path: Path, known: Known | None = None, kind: str | None = None) -> ModelFile:
     """The model in a file with what it says of itself; complaints as above."""
     complaints = Complaints(str(path))
@@ -135,7 +140,7 @@ class _Reader:
             said = f"is unknown, {unknown_name(name, known.effects)}"
         elif name in before:
             said = "is there twice, allowed is each effect once"
-        elif kind is not None and kind not in effect.kinds:
+        elif kind is not None and acted_on(kind) not in effect.kinds:
             said = f"needs a rig of kind {' or '.join(effect.kinds)}, not {kind}"
         if said:
             self.say(("effects", k, "name"), f"effect {shown(name)}", said)

@@ -4,16 +4,19 @@ from __future__ import annotations
 
 from dataclasses import dataclass, fields, replace
 from functools import cache
+from typing import cast
 
 import numpy as np
 from numpy.typing import NDArray
 
 from pipeline.campaign.names import COORDINATES
+from pipeline.inference.manipulator_prediction import predict_manipulator
+from pipeline.inference.manipulator_states import States
 from pipeline.inference.model import Model
 from pipeline.inference.program import INPUTS, Group, Program
 from vjm.effects.base import Rig, for_bars
 from vjm.effects.thermal_expansion import DRIVE
-from vjm.equilibrium import Equilibrium, equilibrium, stack
+from vjm.equilibrium import Equilibrium, drive_values, equilibrium, stack
 from vjm.lagrangian import layout
 from vjm.mechanism import initial_memory
 from vjm.sensitivity import TARGETS, AnyDirection, Direction, DriveDirection, by_parameters
@@ -96,6 +99,10 @@ def predict(
 def _group(
     model: Model, program: Program, group: Group, slopes: bool, start: Equilibrium | None, order: int
 ) -> _Part:
+    if group.rig.manipulator is not None:
+        # Its states have what is asked of those of a bench: unknowns, whether they converged and are stable.
+        whole = predict_manipulator(model, group, slopes, cast(States | None, start))
+        return _Part(whole.values, whole.by_inputs, whole.by_free, cast(Equilibrium, whole.state))
     gauges = program.campaign.gauges
     mechanism = model.mechanism(group.rig, gauges)
     drives = layout(mechanism).drives
@@ -122,6 +129,9 @@ def _begin(
     mechanism: Rig, group: Group, inputs: dict[str, Array], start: Equilibrium | None
 ) -> Equilibrium | None:
     """Where to begin: at the start where it fits; with slides, where the linkage without them would be."""
+    if start is not None and layout(start.mechanism).drives != layout(mechanism).drives:
+        # A model with heat may follow one without: the start is at the inputs of now.
+        start = replace(start, drives=drive_values(mechanism, inputs))
     sliding = any(link.slides for link in mechanism.links) and not initial_memory(mechanism).size
     if start is not None and start.unknowns.shape[-1] == layout(mechanism).size:
         return with_slides(start, mechanism) if sliding else replace(start, mechanism=mechanism)

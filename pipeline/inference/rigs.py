@@ -9,6 +9,8 @@ import numpy as np
 from pipeline.campaign import Gauge
 from pipeline.campaign import Rig as Described
 from vjm.effects.base import Rig
+from vjm.manipulator.effects import bench, like_bench
+from vjm.manipulator.parts import Manipulator
 from vjm.mechanisms.assembly import GaugeAt
 from vjm.mechanisms.bar import Bar
 from vjm.mechanisms.parallelogram import Parallelogram
@@ -16,11 +18,17 @@ from vjm.sensors import DeadWeight, Sensor, TrueMoment
 
 
 def mechanism_of(rig: Described, gauges: tuple[Gauge, ...]) -> Rig:
-    """The plain mechanism: lumped springs (Eq. 1), known weights, sensors that read true moments."""
+    """The plain mechanism: lumped springs (Eq. 1), known weights, sensors that read true moments.
+
+    Of a manipulator one of its parallelograms, for effects to act on: `manipulator_of` puts them into all of it.
+    """
     sensors: tuple[Sensor, ...] = (TrueMoment(),)
     down = rig.down
     if down is not None and rig.platform_weight:
         sensors = (*sensors, DeadWeight(rig.platform_weight * down))
+    if rig.manipulator is not None:
+        down = rig.manipulator.gravity if down is None else down
+        return bench(replace(rig.manipulator, sensors=sensors, gravity=down))
     places = tuple(GaugeAt(g.bar, g.station, g.vector) for g in gauges)
     it: Rig
     if rig.kind == "parallelogram":
@@ -34,8 +42,17 @@ def mechanism_of(rig: Described, gauges: tuple[Gauge, ...]) -> Rig:
     return replace(it, gravity=down, line_load=rig.line_weight * down)
 
 
+def manipulator_of(rig: Described, changed: Rig) -> Manipulator:
+    """The whole manipulator with what effects have made of its `mechanism_of`."""
+    assert rig.manipulator is not None and isinstance(changed, Parallelogram)
+    return like_bench(rig.manipulator, changed)
+
+
 def nominal_pose(rig: Described, q: np.ndarray) -> np.ndarray:
     """(..., 6) unloaded platform of the rig as drawn at the angles q (...), rad."""
     pose = np.zeros((*np.shape(q), 6))
+    if rig.point is not None:
+        pose[..., :3] = rig.point
+        return pose
     pose[..., 0], pose[..., 2] = rig.length * np.cos(q), -rig.length * np.sin(q)
     return pose

@@ -67,7 +67,7 @@ def describe(text: str, file: str) -> Description:
     chains = {name: reader.chain(name, entries) for name, entries in top.chains.items()}
     legs = reader.legs(top.legs, chains)
     reader.complaints.check()
-    manipulator = Manipulator(top.name, legs, top.length_mm)
+    manipulator = Manipulator(top.name, legs, top.length_mm, gravity=top.down)
     home = np.concatenate([top.home_mm, np.zeros(3)])
     reader.reaches(manipulator, home)
     reader.complaints.check()

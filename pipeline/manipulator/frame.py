@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from fem.frame.section import section_of
 from fem.frame.structure import ELEMENTS, FREE, RIGID, Beam, Joint, Structure, stiffness_at
+from pipeline.manipulator.frame_hinges import HINGE, hinge_give, refuse
 from vjm.manipulator.parts import (
     Actuator,
     ElasticLink,
@@ -25,6 +26,7 @@ from vjm.manipulator.parts import (
     Passive,
     Virtual,
 )
+from vjm.sensors import BaseSpring, DeadWeight, TrueMoment
 
 Array = NDArray[np.float64]
 BASE, PLATFORM = 0, 1
@@ -45,9 +47,24 @@ def frame_stiffness(
 def frame_of(manipulator: Manipulator, pose: Array, coordinates: tuple[Array, ...]) -> Structure:
     """The structure: node 0 is the base, node 1 the platform."""
     build = _Builder([np.zeros(3), np.asarray(pose[:3], dtype=float)])
+    grounds = _ground(build, manipulator)
     for leg, x in zip(manipulator.legs, coordinates, strict=True):
         _leg(build, leg, [float(v) for v in x])
-    return Structure(np.array(build.positions), tuple(build.beams), tuple(build.joints), (BASE,))
+    return Structure(np.array(build.positions), tuple(build.beams), tuple(build.joints), grounds)
+
+
+def _ground(build: _Builder, manipulator: Manipulator) -> tuple[int, ...]:
+    """Nodes that are fixed: the base, or the ground below its springs."""
+    others = [s for s in manipulator.sensors if not isinstance(s, BaseSpring | DeadWeight | TrueMoment)]
+    if others:
+        raise ValueError(f"finite elements at rest have no {type(others[0]).__name__}")
+    springs = [s for s in manipulator.sensors if isinstance(s, BaseSpring)]
+    if not springs:
+        return (BASE,)
+    ground = build.new(np.zeros(3))
+    give = np.diag(np.sum([s.compliance for s in springs], axis=0))
+    build.join(ground, BASE, np.zeros(3), np.eye(3), [float(c) for c in give])
+    return (ground,)
 
 
 @dataclass
@@ -146,12 +163,17 @@ def _linkage(build: _Builder, part: Parallelogram, q: float) -> None:
     turned = build.triad @ _turn(np.array([0.0, 1.0, 0.0]), q)
     end = build.place + part.length * turned[:, 0]
     body = build.new(end)
-    hinge = [part.radial, RIGID, part.radial, part.tilt, FREE, part.tilt]
-    section = section_of(part.bar_stiffness, part.length)
-    for side in (-0.5, 0.5):
-        arm = side * part.width * build.triad[:, 2]
+    width, hinge = part.width + part.as_built.wider, hinge_give(part)
+    for side, link in zip((-0.5, 0.5), part.as_built.links, strict=True):
+        refuse(link, part)
+        arm = side * width * build.triad[:, 2]
         base, tip = build.new(build.place + arm), build.new(end + arm)
-        build.beams.append(Beam(base, tip, section, turned))
-        build.join(build.node, base, build.place + arm, turned, hinge)
-        build.join(tip, body, end + arm, turned, hinge)
+        build.beams.append(Beam(base, tip, section_of(link.stiffness, link.length), turned))
+        for nodes, place, give in (
+            ((build.node, base), build.place + arm, link.base_give),
+            ((tip, body), end + arm, link.tip_give),
+        ):
+            compliance = [float(c) for c in np.diag(give)]
+            compliance[HINGE] = hinge
+            build.join(*nodes, place, turned, compliance)
     build.node, build.place = body, end

@@ -4,32 +4,17 @@ from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.interpolate import RegularGridInterpolator
 
 from pipeline.manipulator.grid import Grid
+from pipeline.manipulator.loaded import loaded_columns
+from pipeline.manipulator.question import FOUND, LOST, REST, SINGULAR, UNREACHED, Array, Question
 from vjm.manipulator.legs import critical_forces, shares
 from vjm.manipulator.measures import principal, rotational, translational
 from vjm.manipulator.parts import Manipulator
 from vjm.manipulator.posture import postures
 from vjm.manipulator.rest import stiffness_at_rest
 
-Array = NDArray[np.float64]
-COLUMNS = (
-    "x_mm",
-    "y_mm",
-    "z_mm",
-    "state",
-    "K_tran_min",
-    "K_tran_max",
-    "K_rot_min",
-    "K_rot_max",
-    "critical_N",
-    "leg",
-)
-"""Columns of a sweep. state: 0 found, 1 not reached, 2 no stiffness. critical_N: smallest force on the platform, of
-any direction, that makes a leg buckle; leg: its number. All but the first four are zero where the state is not 0."""
-FOUND, UNREACHED, SINGULAR = 0.0, 1.0, 2.0
 NODES = 5
 """Nodes along each axis of the coarse grid on which the legs' critical forces are found; cubic between them."""
 
@@ -85,12 +70,12 @@ def critical_map(nodes: Grid, force: Array) -> CriticalMap:
     return CriticalMap(axes, force.reshape(*nodes.counts, -1))
 
 
-def mapped(manipulator: Manipulator, critical: CriticalMap, points: Array) -> Array:
-    """(B, columns) of `COLUMNS` at points (B, 3) mm."""
+def mapped(manipulator: Manipulator, question: Question, critical: CriticalMap, points: Array) -> Array:
+    """(B, columns) of the question at points (B, 3) mm."""
     at = postures(manipulator, points)
     stiffness = stiffness_at_rest(manipulator, at)
     share = shares(manipulator, at, stiffness)
-    out = np.zeros((len(points), len(COLUMNS)))
+    out = np.zeros((len(points), len(question.columns)))
     out[:, :3] = points
     out[:, 3] = np.where(share.regular, FOUND, np.where(at.reached, SINGULAR, UNREACHED))
     good = np.flatnonzero(share.regular)
@@ -100,18 +85,42 @@ def mapped(manipulator: Manipulator, critical: CriticalMap, points: Array) -> Ar
     for column, block in ((4, translational(total)), (6, rotational(total))):
         values = principal(block)
         out[good, column], out[good, column + 1] = values[:, 0], values[:, -1]
+    force = critical.at(points[good])
     with np.errstate(divide="ignore"):
-        force = critical.at(points[good]) / np.linalg.norm(share.force[good], axis=-1)
-    out[good, 9] = np.argmin(force, axis=-1)
-    out[good, 8] = np.min(force, axis=-1)
+        least = force / np.linalg.norm(share.force[good], axis=-1)
+    out[good, 9] = np.argmin(least, axis=-1)
+    out[good, 8] = np.min(least, axis=-1)
+    more = len(REST)
+    if question.wrench is not None:
+        pull = pulls(stiffness.by_leg[good], share.direction[good], question.wrench)
+        with np.errstate(divide="ignore"):
+            out[good, more] = np.min(np.where(pull < 0.0, force / np.maximum(-pull, 0.0), np.inf), axis=-1)
+        more += 1
+    if question.wrench is not None or question.changed is not None:
+        values, stable = loaded_columns(manipulator, question, at.take(good))
+        out[good, more:] = values
+        out[good[~stable], 3] = LOST
     return out
 
 
+def pulls(by_leg: Array, direction: Array, wrench: Array) -> Array:
+    """(B, legs) pull along each leg under a wrench (6,), from the stiffness (B, legs, 6, 6) of the legs."""
+    total = np.sum(by_leg, axis=1)
+    moved = np.linalg.solve(total, np.broadcast_to(wrench, (len(total), 6))[..., None])[..., 0]
+    return np.asarray(np.einsum("bli,blij,bj->bl", direction, by_leg[:, :, :3], moved))
+
+
 def chunk_of(
-    manipulator: Manipulator, critical: CriticalMap, grid: Grid, number: int, start: int, stop: int
+    manipulator: Manipulator,
+    question: Question,
+    critical: CriticalMap,
+    grid: Grid,
+    number: int,
+    start: int,
+    stop: int,
 ) -> tuple[int, Array]:
     """Number of a chunk and its rows: what a worker computes. Workers import this module only, which is quick."""
-    return number, mapped(manipulator, critical, grid.points(start, stop))
+    return number, mapped(manipulator, question, critical, grid.points(start, stop))
 
 
 def nodes_of(manipulator: Manipulator, nodes: Grid, start: int, stop: int) -> tuple[int, Array]:

@@ -17,7 +17,8 @@ import numpy as np
 from pipeline.errors import InputError
 from pipeline.manipulator.description import Description
 from pipeline.manipulator.grid import Grid
-from pipeline.manipulator.mapping import COLUMNS, Array, CriticalMap, chunk_of, coarse, critical_map, nodes_of
+from pipeline.manipulator.mapping import CriticalMap, chunk_of, coarse, critical_map, nodes_of
+from pipeline.manipulator.question import Array, Question
 
 CHUNK = 2000
 """Points of a chunk: about 20 MB of work space."""
@@ -27,16 +28,17 @@ _AHEAD, _NODES = 2, 5
 
 @dataclass(frozen=True, eq=False)
 class Sweep:
-    """A finished sweep: its folder, its grid, and how many chunks were computed now and how many were there."""
+    """A finished sweep: its folder, grid and columns, and how many chunks were computed now and how many there."""
 
     folder: Path
     grid: Grid
+    columns: tuple[str, ...]
     computed: int
     found: int
 
     @property
     def values(self) -> Array:
-        """(points, columns) of `COLUMNS`, mapped from the file."""
+        """(points, columns), mapped from the file."""
         return np.asarray(np.load(self.folder / RESULT, mmap_mode="r"))
 
 
@@ -48,13 +50,16 @@ def sweep(
     workers: int = 1,
     chunk: int = CHUNK,
     progress: Callable[[int, int], None] = lambda done, all: None,
+    question: Question | None = None,
 ) -> Sweep:
     """Sweep into a folder, or go on with what is there; progress is told the finished chunks and all of them.
 
-    workers: calls that the executor runs at once. InputError for a folder that holds another sweep.
+    workers: calls that the executor runs at once. question: what is asked beside the stiffness at rest. InputError
+    for a folder that holds another sweep.
     """
+    asked = question or Question()
     folder.mkdir(parents=True, exist_ok=True)
-    _claim(folder, description, grid, chunk)
+    _claim(folder, description, grid, chunk, asked)
     total = -(-grid.size // chunk)
     if not (folder / RESULT).exists():
         (folder / CHUNKS).mkdir(exist_ok=True)
@@ -63,12 +68,12 @@ def sweep(
     if missing:
         critical = _critical(description, grid, folder, executor, _AHEAD * workers)
         todo = ((k, k * chunk, min((k + 1) * chunk, grid.size)) for k in missing)
-        calls = ((chunk_of, (description.manipulator, critical, grid, *one)) for one in todo)
+        calls = ((chunk_of, (description.manipulator, asked, critical, grid, *one)) for one in todo)
         for done, (number, values) in enumerate(_bounded(executor, calls, _AHEAD * workers), start=1):
             _write(_file(folder, number), values)
             progress(total - len(missing) + done, total)
-    _join(folder, grid, total)
-    return Sweep(folder, grid, len(missing), total - len(missing))
+    _join(folder, grid, total, len(asked.columns))
+    return Sweep(folder, grid, asked.columns, len(missing), total - len(missing))
 
 
 def _bounded(
@@ -92,14 +97,15 @@ def _bounded(
             future.cancel()
 
 
-def _claim(folder: Path, description: Description, grid: Grid, chunk: int) -> None:
+def _claim(folder: Path, description: Description, grid: Grid, chunk: int, question: Question) -> None:
     """Writes what the folder is for, or checks that it is for this."""
     head = {
         "manipulator": description.manipulator.name,
         "digest": hashlib.sha256(description.text.encode()).hexdigest(),
         "grid": asdict(grid),
         "chunk": chunk,
-        "columns": COLUMNS,
+        "columns": question.columns,
+        **question.said,
     }
     text = json.dumps(head, indent=1) + "\n"
     file = folder / HEAD
@@ -107,7 +113,7 @@ def _claim(folder: Path, description: Description, grid: Grid, chunk: int) -> No
         _replace(file, text.encode())
     elif file.read_text(encoding="utf-8") != text:
         raise InputError(
-            f"{file}: is of another sweep (manipulator, grid or chunk), allowed is a folder of its own"
+            f"{file}: is of another sweep (manipulator, grid, chunk, wrench or effect), allowed is a folder of its own"
         )
 
 
@@ -145,12 +151,12 @@ def _replace(file: Path, content: bytes) -> None:
     os.replace(part, file)
 
 
-def _join(folder: Path, grid: Grid, total: int) -> None:
+def _join(folder: Path, grid: Grid, total: int, columns: int) -> None:
     """One file from all chunks, which are then removed."""
     file = folder / RESULT
     if not file.exists():
         part = file.with_suffix(f".{os.getpid()}.part")
-        head = {"descr": "<f8", "fortran_order": False, "shape": (grid.size, len(COLUMNS))}
+        head = {"descr": "<f8", "fortran_order": False, "shape": (grid.size, columns)}
         with part.open("wb") as out:
             np.lib.format.write_array_header_1_0(out, head)
             for number in range(total):

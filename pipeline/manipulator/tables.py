@@ -44,10 +44,23 @@ class Top(Table):
     name: Text
     length_mm: Length
     home_mm: Point = (0.0, 0.0, 0.0)
+    gravity: Vector = (0.0, 0.0, -1.0)
     chains: dict[str, list[dict[str, Any]]]
     legs: Annotated[list[dict[str, Any]], Field(min_length=1, max_length=100)]
 
     _name = field_validator("name")(printable)
+
+    @field_validator("gravity")
+    @classmethod
+    def points(cls, value: tuple[float, float, float]) -> tuple[float, float, float]:
+        if not any(value):
+            raise ValueError("allowed is a direction")
+        return value
+
+    @property
+    def down(self) -> Array:
+        """(3,) unit vector of gravity, base frame."""
+        return np.array(self.gravity) / np.linalg.norm(self.gravity)
 
 
 class Placed(Table):
@@ -256,6 +269,8 @@ class ParallelogramTable(ElasticTable):
     tilt_rad_per_Nmm: Give = 0.0
     home_deg: Angle = 0.0
     bars: Bars = "pair"
+    fibre_y_mm: Length | None = None
+    fibre_z_mm: Length | None = None
 
     @model_validator(mode="after")
     def segmented(self) -> "ParallelogramTable":
@@ -273,6 +288,8 @@ class ParallelogramTable(ElasticTable):
             float(np.radians(self.home_deg)),
             self.bars,
             self.segments,
+            self.fibre_y_mm,
+            self.fibre_z_mm,
         )
 
 

@@ -6,11 +6,11 @@ compression is negative; in `buckling` and `critical` a compression load is posi
 
 import json
 from pathlib import Path
-from typing import Any
 
 from pydantic import Field
 
 from meshes.files import replacing
+from pipeline.manipulator.table_record import Table1
 from pipeline.record import Record
 
 Matrix = list[list[float]]
@@ -249,7 +249,8 @@ class Result(Record):
     refinement: list[Refinement] = Field(default_factory=list)
     agreement: list[str] = Field(default_factory=list)
     """Why the curves of solid, frame, refined springs and LIN differ, a sentence each."""
-    orthoglide: list[dict[str, Any]]
+    orthoglide: list[Table1]
+    """The paper's Table 1; empty for a case that is not the paper's."""
     errata: list[Erratum]
     story: list[str]
     """The findings in plain sentences, every number from this run."""

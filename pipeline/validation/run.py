@@ -38,6 +38,8 @@ from pipeline.validation.stages.linkage import (
     solid_buckling,
     solid_stiffness,
 )
+from pipeline.validation.stages.linkage_shapes import linkage_shapes, shape_name
+from pipeline.validation.stages.orthoglide import table_sentences, whole_manipulator
 from pipeline.validation.stages.refinement import refinements
 from pipeline.validation.stages.specimen import Specimen, specimen
 from pipeline.validation.stages.springs import spring_set
@@ -111,8 +113,10 @@ def run(case: Case, detail: Detail, workshop: Workshop, out: Path, typed: str) -
         stage.note = f"{len(mesh.cells)} {mesh.kind}, {mesh.dofs} unknowns"
     bar = identify(case, s, fit)
     buckling, shapes = buckled_bar(job, s, bar)
-    springs = spring_stage(job, s, bar, buckling, solid_stage(job, s))
-    for path in shapes:
+    solids = solid_stage(job, s)
+    springs = spring_stage(job, s, bar, buckling, solids)
+    table = whole_manipulator(case, workshop)
+    for path in (*shapes, *bent_linkage(job, s, solids.loads)):
         # Late, so that an interrupted run leaves no new shapes beside an old result.
         with replacing(out / "modes" / path.name) as part:
             shutil.copyfile(path, part)
@@ -131,9 +135,12 @@ def run(case: Case, detail: Detail, workshop: Workshop, out: Path, typed: str) -
         validity=springs.validity,
         refinement=springs.refinement,
         agreement=springs.agreement,
-        orthoglide=[],
+        orthoglide=table,
         errata=springs.errata,
-        story=tell(bar, buckling, springs.parallelogram, springs.critical, springs.validity),
+        story=[
+            *tell(bar, buckling, springs.parallelogram, springs.critical, springs.validity),
+            *table_sentences(table),
+        ],
         seconds=dict(job.progress.seconds),
         versions=versions(),
         commit=commit(),
@@ -172,6 +179,20 @@ def solid_stage(job: Run, s: Specimen) -> Solids:
     )
     steps = keep("step study", inputs, Refinement, lambda stage: solid_study(job.case, s, stage))
     return Solids(stiffness, loads, followed, steps)
+
+
+def bent_linkage(job: Run, s: Specimen, loads: list[SolidBuckling]) -> list[Path]:
+    """Files of the linkage bent at each critical load."""
+    inputs, name = job.inputs(s), "linkage shapes"
+    folder = job.workshop.files(name, inputs)
+    names = job.workshop.reuse(
+        name,
+        inputs,
+        list[str],
+        lambda stage: linkage_shapes(job.case, s, loads, folder, stage),
+        tuple(shape_name(it.q_deg, it.held) for it in loads),
+    )
+    return [folder / file for file in names]
 
 
 def spring_stage(job: Run, s: Specimen, bar: Bar, buckled: list[Buckling], solids: Solids) -> Springs:

@@ -28,7 +28,7 @@ class JointClearance(Effect):
     )
     hinge = "base"
     smooth = False
-    probes = (0.003, 0.03)
+    probes = (0.003, 0.01, 0.03)
 
     def change(self, rig: Rig, values: Values) -> Rig:
         play = Clearance(values["play_mm"])

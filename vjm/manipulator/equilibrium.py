@@ -12,6 +12,7 @@ from vjm.frames import Array, moment
 from vjm.manipulator.lagrangian import System, gradient_and_hessian
 from vjm.newton import CONVERGED, Step, dense, newton
 from vjm.problem import held_mask
+from vjm.sensors import Channels, through
 
 TOLERANCE = 1e-12
 ITERATIONS = 40
@@ -45,6 +46,11 @@ class Loaded:
         return np.stack([self.unknowns[:, self.system.multiplier(k)] for k in legs], axis=1)
 
     @property
+    def readings(self) -> Array:
+        """(B, 12) pose and load as the manipulator's sensors read them; without any, the load is that of `loads`."""
+        return channels(self.system, self.unknowns).values
+
+    @property
     def wrench(self) -> Array:
         """(B, 6) on the platform at its point, base frame; moments are true moments."""
         load = self.loads.sum(1)
@@ -63,7 +69,8 @@ def equilibrium(
     """Newton's method on the stationarity of L.
 
     targets: (6,) or (B, 6): pose of a held platform coordinate (mm, rad), load on a free one (N, N·mm, conjugate to
-    the rotation vector). held: names of the held ones. start: state to begin from, default unloaded.
+    the rotation vector), each as the manipulator's sensors read it. held: names of the held ones. start: state to
+    begin from, default unloaded.
     increments: approach a target that is not met at once in up to 2^7 steps from the start. ValueError for targets
     that are not finite or have another last axis.
     """
@@ -99,30 +106,48 @@ def _in_steps(
     return found
 
 
+def channels(of: System, u: Array) -> Channels:
+    """Pose and load (B, 12) as read, with their derivative (B, 12, 12) by true pose and load, at u (B, size)."""
+    load = np.sum([u[:, of.multiplier(k)] for k in range(len(of.legs))], axis=0)
+    return through(of.manipulator.sensors, np.concatenate([u[:, of.platform], load], axis=-1))
+
+
 def _prescribed(of: System, u: Array, mask: np.ndarray) -> Array:
-    load = sum(u[:, of.multiplier(k)] for k in range(len(of.legs)))
-    return np.asarray(np.where(mask, u[:, of.platform], load))
+    return channels(of, u).values[:, _numbers(mask)]
+
+
+def _numbers(mask: np.ndarray) -> np.ndarray:
+    """(6,) reading that each coordinate's control prescribes."""
+    return np.arange(6) + np.where(mask, 0, 6)
+
+
+def control_rows(of: System, u: Array, mask: np.ndarray) -> tuple[Array, Array, Array]:
+    """Dimensionless stationarity of L (B, size), its derivative (B, size, size) by the unknowns, and the unit (6,) of
+    a target; the platform's rows are those of its control: the readings, from which the targets are to be taken."""
+    pose = of.platform
+    pose_scale = of.scale[pose]
+    unit = np.where(mask, 1.0 / pose_scale, pose_scale / of.energy)
+    gradient, hessian = gradient_and_hessian(of, u)
+    gradient *= of.scale / of.energy
+    hessian *= (of.scale / of.energy)[:, None]
+    read = channels(of, u)
+    gradient[:, pose] = read.values[:, _numbers(mask)] * unit
+    slope = read.slope[:, _numbers(mask)] * unit[:, None]
+    hessian[:, pose] = 0.0
+    hessian[:, pose, pose] = slope[..., :6]
+    for k in range(len(of.legs)):
+        hessian[:, pose, of.multiplier(k)] = slope[..., 6:]
+    return gradient, hessian, unit
 
 
 def _solve(of: System, wanted: Array, mask: np.ndarray, first: Array, tolerance: float, limit: int) -> Loaded:
-    scale, energy, pose = of.scale, of.energy, of.platform
-    pose_scale = scale[pose]
-    unit = np.where(mask, 1.0 / pose_scale, pose_scale / energy)
-
     def rows_and_step(u: Array, members: np.ndarray) -> tuple[Array, Step]:
-        part = of.take(members)
-        gradient, hessian = gradient_and_hessian(part, u)
-        gradient *= scale / energy
-        hessian *= (scale / energy)[:, None]
-        gradient[:, pose] = (_prescribed(part, u, mask) - wanted[members]) * unit
-        hessian[:, pose] = 0.0
-        hessian[:, pose, pose] = np.diag(np.where(mask, unit, 0.0))
-        for k in range(len(of.legs)):
-            hessian[:, pose, of.multiplier(k)] = np.diag(np.where(mask, 0.0, unit))
-        return gradient, dense(gradient, hessian, scale)
+        gradient, hessian, unit = control_rows(of.take(members), u, mask)
+        gradient[:, of.platform] -= wanted[members] * unit
+        return gradient, dense(gradient, hessian, of.scale)
 
     motion = np.flatnonzero(~of.multipliers)
-    end = newton(rows_and_step, first, scale, tolerance, limit, motion)
+    end = newton(rows_and_step, first, of.scale, tolerance, limit, motion)
     done = np.asarray(end.reason == CONVERGED)
     return Loaded(of, end.unknowns, end.iterations, end.residual, done, end.reason)
 
@@ -157,3 +182,14 @@ def loaded_stiffness(state: Loaded) -> Array:
     k = -np.swapaxes(mixed, -1, -2) @ np.linalg.solve(scaled[:, inner[:, None], inner], mixed)
     k = k * of.energy / of.scale[pose][:, None] / of.scale[pose]
     return np.asarray(0.5 * (k + np.swapaxes(k, -1, -2)))
+
+
+def read_stiffness(state: Loaded) -> Array:
+    """(B, 6, 6) change of the load read with the pose read: `loaded_stiffness` seen through the sensors."""
+    slope = channels(state.system, state.unknowns).slope
+    k = loaded_stiffness(state)
+    pose = slope[..., :6, :6] + slope[..., :6, 6:] @ k
+    load = slope[..., 6:, :6] + slope[..., 6:, 6:] @ k
+    return np.asarray(
+        np.swapaxes(np.linalg.solve(np.swapaxes(pose, -1, -2), np.swapaxes(load, -1, -2)), -1, -2)
+    )

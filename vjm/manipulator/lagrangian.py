@@ -8,10 +8,12 @@ to (p, rotation vector).
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from vjm.frames import Array
 from vjm.manipulator.loops import LoopedLeg, Path, looped
@@ -24,13 +26,15 @@ from vjm.manipulator.rest import pseudo_rigid_springs
 class System:
     """A manipulator at B postures: everything that does not change under load.
 
-    rest: per leg (B, N) unloaded coordinates; stiffness: per leg (B, m, m) linear part.
+    rest: per leg (B, N) unloaded coordinates; stiffness: per leg (B, m, m) linear part. memory: per leg (B, M) of
+    its laws before the load. Where bars are not as drawn, the coordinates of a leg at rest need not close its loops.
     """
 
     manipulator: Manipulator
     pose: Array
     rest: tuple[Array, ...]
     stiffness: tuple[Array, ...]
+    memory: tuple[Array, ...]
 
     @cached_property
     def legs(self) -> tuple[LoopedLeg, ...]:
@@ -103,24 +107,53 @@ class System:
 
     def take(self, members: np.ndarray) -> System:
         """The same manipulator at some of the postures."""
-        rest = tuple(r[members] for r in self.rest)
-        return System(self.manipulator, self.pose[members], rest, tuple(k[members] for k in self.stiffness))
+        parts = (tuple(x[members] for x in each) for each in (self.rest, self.stiffness, self.memory))
+        return System(self.manipulator, self.pose[members], *parts)
+
+    def full(self, leg: int, u: Array) -> Array:
+        """(B, N) all coordinates of a leg at u (B, size)."""
+        full = self.rest[leg].copy()
+        full[:, self.legs[leg].moving] = u[:, self.coordinates[leg]]
+        return full
+
+    def after(self, u: Array) -> System:
+        """The same postures with what the laws remember of a load step that ended at u (B, size)."""
+        memory = []
+        for k, leg in enumerate(self.legs):
+            strain = self.full(k, u) - self.rest[k]
+            kept = self.memory[k].copy()
+            for spring, place in zip(leg.springs, leg.memories, strict=True):
+                if place.stop > place.start:
+                    numbers = np.array(spring.coordinates)
+                    kept[:, place] = spring.law.respond(strain[:, numbers], self.memory[k][:, place]).memory
+            memory.append(kept)
+        return replace(self, memory=tuple(memory))
 
 
-def system(manipulator: Manipulator, at: Postures) -> System:
-    """The manipulator at postures (B,) that are all reached. ValueError for one that is not."""
+Inputs = Mapping[str, ArrayLike]
+"""Inputs that move rest values, such as a rise of temperature, by name; each one number or (B,)."""
+
+
+def system(manipulator: Manipulator, at: Postures, inputs: Inputs | None = None) -> System:
+    """The manipulator at postures (B,) that are all reached. ValueError for one that is not.
+
+    Inputs that no part of the manipulator follows change nothing.
+    """
     if not np.all(at.reached):
         raise ValueError(str(at.reason[~at.reached][0]))
     pose = at.pose.reshape(-1, 6)
-    rest, stiffness = [], []
+    given = {k: np.broadcast_to(np.asarray(v, dtype=float), len(pose)) for k, v in (inputs or {}).items()}
+    rest, stiffness, memory = [], [], []
     for leg, x in zip(map(looped, manipulator.legs), at.coordinates, strict=True):
         posture = x.reshape(len(pose), -1)
-        rest.append(leg.at(posture))
+        moved = [given[name][:, None] * slope for name, slope in leg.inputs if name in given]
+        rest.append(leg.at(posture) + sum(moved))
         linear = np.broadcast_to(leg.linear, (len(pose), *leg.linear.shape)).copy()
         for part, place, numbers in leg.equivalents:
             linear[:, numbers[:, None], numbers] = pseudo_rigid_springs(part, posture[:, place])
         stiffness.append(linear[:, leg.moving[:, None], leg.moving])
-    return System(manipulator, pose, tuple(rest), tuple(stiffness))
+        memory.append(np.broadcast_to(leg.initial_memory, (len(pose), leg.initial_memory.size)))
+    return System(manipulator, pose, tuple(rest), tuple(stiffness), tuple(memory))
 
 
 def gradient_and_hessian(of: System, u: Array) -> tuple[Array, Array]:
@@ -128,11 +161,11 @@ def gradient_and_hessian(of: System, u: Array) -> tuple[Array, Array]:
     gradient, hessian = np.zeros_like(u), np.zeros((*u.shape, u.shape[-1]))
     pose = of.platform
     for k, (leg, x) in enumerate(zip(of.legs, of.coordinates, strict=True)):
-        full = of.rest[k].copy()
-        full[:, leg.moving] = u[:, x]
+        full = of.full(k, u)
         dual = of.multiplier(k)
         block = _Block(leg, gradient, hessian, x)
-        block.springs(full - of.rest[k], of.stiffness[k])
+        block.springs(full - of.rest[k], of.stiffness[k], of.memory[k])
+        block.dead_loads(full)
         block.close(leg.main, full, u, dual, -1.0)
         for number, (first, second) in enumerate(leg.loops):
             inner = slice(x.stop + 6 * number, x.stop + 6 * number + 6)
@@ -153,16 +186,23 @@ class _Block:
     hessian: Array
     x: slice
 
-    def springs(self, strain: Array, stiffness: Array) -> None:
+    def springs(self, strain: Array, stiffness: Array, memory: Array) -> None:
         moving = self.leg.moving
         self.gradient[:, self.x] += np.einsum("bij,bj->bi", stiffness, strain[:, moving])
         self.hessian[:, self.x, self.x] += stiffness
-        for spring in self.leg.springs:
+        for spring, past in zip(self.leg.springs, self.leg.memories, strict=True):
             numbers = np.array(spring.coordinates)
             place = self.x.start + np.searchsorted(moving, numbers)
-            answer = spring.law.respond(strain[:, numbers], np.zeros((len(strain), 0)))
+            answer = spring.law.respond(strain[:, numbers], memory[:, past])
             self.gradient[:, place] += answer.force
             self.hessian[:, place[:, None], place] += answer.tangent
+
+    def dead_loads(self, full: Array) -> None:
+        moving = self.leg.moving
+        for load in self.leg.loads:
+            force, slope = load.pull(full, True)
+            self.gradient[:, self.x] -= force[:, moving]
+            self.hessian[:, self.x, self.x] -= slope[:, moving[:, None], moving]
 
     def close(self, path: Path, full: Array, u: Array, dual: slice, sign: float) -> None:
         """Adds sign x multiplier^T pose of the path."""

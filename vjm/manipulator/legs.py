@@ -17,6 +17,7 @@ from vjm.manipulator.lagrangian import system
 from vjm.manipulator.parts import ElasticLink, Frame, Leg, Manipulator, Parallelogram, Passive
 from vjm.manipulator.posture import Postures
 from vjm.manipulator.rest import RestStiffness
+from vjm.refined import Refined
 
 SEGMENTS = 4
 """Segments that stand for a bar that buckles: its critical load is then good to 0.1 %."""
@@ -76,7 +77,10 @@ def segmented(leg: Leg, segments: int = SEGMENTS) -> Leg:
             isinstance(p, Passive) for p in parts[k:]
         )
         if isinstance(part, Parallelogram):
-            parts[k] = replace(part, bars="pair", segments=part.segments or segments)
+            built = (
+                None if part.built is None else replace(part.built, model=Refined(part.segments or segments))
+            )
+            parts[k] = replace(part, bars="pair", segments=part.segments or segments, built=built)
         elif isinstance(part, ElasticLink) and between and part.length:
             parts[k] = replace(part, segments=part.segments or segments)
     return replace(leg, parts=tuple(parts))

@@ -6,8 +6,9 @@ paper's T_1 = T_2, written between these bodies: both sides are short chains of 
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
-from functools import lru_cache
+from dataclasses import dataclass, field, replace
+from functools import cached_property, lru_cache
+from itertools import pairwise
 
 import numpy as np
 
@@ -16,10 +17,10 @@ from vjm.chain import Chain, Element, Fixed, Role
 from vjm.frames import Array
 from vjm.laws import Spring
 from vjm.link import Link
-from vjm.lumped import Lumped
+from vjm.loads import DeadLoad
 from vjm.manipulator.parts import MOVING, ElasticLink, Leg, Parallelogram, Part
 from vjm.manipulator.rest import elastic_elements
-from vjm.mechanisms.assembly import HINGE
+from vjm.mechanisms.assembly import Assembly
 from vjm.refined import Refined
 
 
@@ -39,7 +40,8 @@ class LoopedLeg:
     coordinates that equilibrium decides. rest: (N,) unloaded coordinates apart from the posture. posture: (M, N)
     how its coordinates move them. linear: (N, N) stiffness, zero for coordinates without a spring, that of an
     equivalent bar left out. springs: further laws. equivalents: linkages as pseudo-rigid bars: part, number in the
-    posture, numbers (5,) of its springs.
+    posture, numbers (5,) of its springs. loads: dead loads along it. inputs: change (N,) of the unloaded coordinates
+    with a unit of an input, by its name.
     """
 
     leg: Leg
@@ -52,6 +54,19 @@ class LoopedLeg:
     springs: tuple[Spring, ...]
     equivalents: tuple[tuple[Parallelogram, int, np.ndarray], ...]
     translations: np.ndarray
+    loads: tuple[DeadLoad, ...] = ()
+    inputs: tuple[tuple[str, Array], ...] = ()
+
+    @cached_property
+    def initial_memory(self) -> Array:
+        """(M,) memory of all laws before any load."""
+        return np.concatenate([np.zeros(0), *[s.law.initial_memory for s in self.springs]])
+
+    @cached_property
+    def memories(self) -> tuple[slice, ...]:
+        """Of each law in the memory."""
+        edges = np.cumsum([0, *[s.law.initial_memory.size for s in self.springs]])
+        return tuple(slice(int(a), int(b)) for a, b in pairwise(edges))
 
     @property
     def closures(self) -> int:
@@ -61,6 +76,16 @@ class LoopedLeg:
     def at(self, coordinates: Array) -> Array:
         """(..., N) unloaded coordinates at the posture (..., M)."""
         return np.asarray(self.rest + coordinates @ self.posture)
+
+
+@dataclass(frozen=True, eq=False)
+class _Place:
+    """A parallelogram, its number in the posture, its first coordinate, and the elements before it."""
+
+    part: Parallelogram
+    number: int
+    first: int
+    before: tuple[Element, ...]
 
 
 @dataclass
@@ -73,7 +98,9 @@ class _Builder:
     blocks: list[tuple[np.ndarray, Array]] = field(default_factory=list)
     rest: dict[int, float] = field(default_factory=dict)
     posture: list[dict[int, float]] = field(default_factory=list)
-    pending: list[tuple[Parallelogram, int, int]] = field(default_factory=list)
+    pending: list[_Place] = field(default_factory=list)
+    loads: list[DeadLoad] = field(default_factory=list)
+    inputs: list[tuple[str, int, Array]] = field(default_factory=list)
     equivalents: list[tuple[Parallelogram, int, np.ndarray]] = field(default_factory=list)
 
     def add(self, part: Part, tie: str) -> None:
@@ -81,8 +108,9 @@ class _Builder:
         if isinstance(part, MOVING):
             self.posture.append({first: 1.0})
         if isinstance(part, Parallelogram) and part.bars == "pair":
-            self.pending.append((part, len(self.posture) - 1, first))
-            last = self._bar(part, -0.5 * part.width, self.elements, first)
+            place = _Place(part, len(self.posture) - 1, first, tuple(self.elements))
+            self.pending.append(place)
+            last = self._bar(place, 0, self.elements, first)
             self.posture[-1][last] = -1.0
         elif isinstance(part, ElasticLink) and part.segments:
             self._limb(Refined(part.segments), Link(part.length, part.stiffness), self.elements, first)
@@ -105,31 +133,44 @@ class _Builder:
         self.rest |= {first + k: float(v) for k, v in enumerate(limb.rest) if v}
         self.size = first + limb.rest.size
 
-    def _bar(self, part: Parallelogram, offset: float, elements: list[Element], first: int) -> int:
-        """One bar between its hinges, its coordinates numbered from `first`; the number of the tip hinge."""
-        elements += [Fixed(np.array([0.0, 0.0, offset])), HINGE]
-        model: BarModel = Refined(part.segments) if part.segments else Lumped("tip")
-        self._limb(model, part.link, elements, first + 1)
-        elements += [HINGE, Fixed(np.array([0.0, 0.0, -offset]))]
-        self.size += 1
+    def _bar(self, place: _Place, number: int, elements: list[Element], first: int) -> int:
+        """Bar 1 or 2 (number 0, 1) between its hinges, coordinates numbered from `first`; number of the tip hinge."""
+        built = place.part.as_built
+        offset = np.array([0.0, 0.0, (number - 0.5) * (place.part.width + built.wider)])
+        bar = Assembly(
+            built.links[number],
+            built.model,
+            start=(Fixed(offset),),
+            end=(Fixed(-offset),),
+            hinges=built.hinges,
+            line_load=built.line_load,
+        ).chain()
+        elements += bar.chain.elements
+        self.blocks.append((first + bar.virtual, bar.stiffness))
+        self.springs += [replace(s, coordinates=tuple(first + c for c in s.coordinates)) for s in bar.springs]
+        self.rest |= {first + k: float(v) for k, v in enumerate(bar.rest) if v}
+        self.inputs += [(d.name, first, d.slope) for d in bar.drives if not d.posture]
+        for load in bar.loads:
+            path = Chain((*place.before, *load.path.elements))
+            numbers = np.concatenate([np.arange(place.first), first + load.coordinates])
+            self.loads.append(DeadLoad(path, numbers, load.force))
+        self.size = first + bar.chain.size
         return self.size - 1
 
     def close(self) -> tuple[tuple[Path, Path], ...]:
         """Second bars, numbered after all else, and the loops that they close."""
         loops = []
-        for part, place, first in self.pending:
-            paths = []
+        for place in self.pending:
             own = self.size
-            for start, offset in ((first, -0.5 * part.width), (own, 0.5 * part.width)):
-                elements: list[Element] = []
-                if start == own:
-                    last = self._bar(part, offset, elements, own)
-                    self.posture[place] |= {own: 1.0, last: -1.0}
-                else:
-                    scratch = _Builder()
-                    scratch._bar(part, offset, elements, 0)
-                chain = Chain(tuple(elements))
-                paths.append(Path(chain, start + np.arange(chain.size)))
+            first: list[Element] = []
+            scratch = _Builder()
+            scratch._bar(place, 0, first, 0)
+            second: list[Element] = []
+            last = self._bar(place, 1, second, own)
+            self.posture[place.number] |= {own: 1.0, last: -1.0}
+            chains = (Chain(tuple(first)), Chain(tuple(second)))
+            starts = (place.first, own)
+            paths = [Path(c, start + np.arange(c.size)) for c, start in zip(chains, starts, strict=True)]
             loops.append((paths[0], paths[1]))
         return tuple(loops)
 
@@ -168,4 +209,15 @@ def looped(leg: Leg) -> LoopedLeg:
         tuple(build.springs),
         tuple(build.equivalents),
         kinds[moving],
+        tuple(build.loads),
+        _slopes(build.inputs, size),
     )
+
+
+def _slopes(inputs: list[tuple[str, int, Array]], size: int) -> tuple[tuple[str, Array], ...]:
+    """Change (size,) of the coordinates by each input, all bars together."""
+    out: dict[str, Array] = {}
+    for name, first, slope in inputs:
+        whole = out.setdefault(name, np.zeros(size))
+        whole[first : first + slope.size] += slope
+    return tuple(out.items())

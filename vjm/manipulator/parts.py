@@ -12,8 +12,13 @@ from typing import Literal
 import numpy as np
 
 from vjm import checks
+from vjm.bars import BarModel
 from vjm.frames import Array
+from vjm.laws import Law
 from vjm.link import Link
+from vjm.lumped import Lumped
+from vjm.refined import Refined
+from vjm.sensors import Sensor
 
 Kind = Literal["translation", "rotation"]
 Bars = Literal["pair", "equivalent"]
@@ -82,6 +87,21 @@ class ElasticLink:
 
 
 @dataclass(frozen=True, eq=False)
+class AsBuilt:
+    """Two bars between four hinges as they are, whatever was drawn; see `vjm.mechanisms.parallelogram`.
+
+    links: bar 1 and 2. model: of both. hinges: laws of the turn of each hinge. wider: mm added to both widths.
+    line_load: (3,) N/mm along the bars, base frame.
+    """
+
+    links: tuple[Link, ...]
+    model: BarModel
+    hinges: tuple[Law, ...] = ()
+    wider: float = 0.0
+    line_load: Array = field(default_factory=lambda: np.zeros(3))
+
+
+@dataclass(frozen=True, eq=False)
 class Parallelogram:
     """Two bars of one length between four parallel hinges about y, `width` apart along z (Eq. 1).
 
@@ -89,7 +109,8 @@ class Parallelogram:
     (6, 6) of one bar at its tip, base clamped, bar frame. radial mm/N, tilt rad/(N·mm): give of each hinge axis
     across itself. home: bar angle q from which inverse kinematics starts, rad.
     bars: "pair", two bars with pins, or "equivalent", one pseudo-rigid bar with the same stiffness at rest.
-    segments: as in `ElasticLink`, of a pair.
+    segments: as in `ElasticLink`, of a pair. fibre_y, fibre_z: outermost fibres of the bars, mm, where known.
+    built: what effects have made of it (`vjm.manipulator.effects`); None: as drawn.
     ValueError for sizes that are not positive, a negative give or a K_b that is no stiffness.
     """
 
@@ -101,6 +122,9 @@ class Parallelogram:
     home: float = 0.0
     bars: Bars = "pair"
     segments: int = 0
+    fibre_y: float | None = None
+    fibre_z: float | None = None
+    built: AsBuilt | None = None
 
     def __post_init__(self) -> None:
         checks.positive("length", self.length)
@@ -116,6 +140,14 @@ class Parallelogram:
         """One bar between its hinge axes."""
         give = np.diag([self.radial, 0.0, self.radial, self.tilt, 0.0, self.tilt])
         return Link(self.length, self.bar_stiffness, base_give=give, tip_give=give)
+
+    @property
+    def as_built(self) -> AsBuilt:
+        """Its bars and hinges, with what effects have made of them."""
+        if self.built is not None:
+            return self.built
+        model: BarModel = Refined(self.segments) if self.segments else Lumped("tip")
+        return AsBuilt((self.link, self.link), model)
 
 
 Part = Frame | Actuator | Passive | Virtual | ElasticLink | Parallelogram
@@ -150,12 +182,17 @@ class Leg:
 class Manipulator:
     """Legs in parallel between the base and one platform; length: a characteristic length, mm.
 
+    sensors: from true pose and load of the platform to what is read (`vjm.sensors`). gravity: (3,) unit vector of
+    weights given without a direction. mount: (3,) rotation vector, rad, by which all legs are turned already.
     ValueError without a leg.
     """
 
     name: str
     legs: tuple[Leg, ...]
     length: float
+    sensors: tuple[Sensor, ...] = ()
+    gravity: Array = field(default_factory=lambda: np.array([0.0, 0.0, -1.0]))
+    mount: Array = field(default_factory=lambda: np.zeros(3))
 
     def __post_init__(self) -> None:
         checks.positive("length", self.length)

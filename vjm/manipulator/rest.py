@@ -54,7 +54,18 @@ class RestStiffness:
 
 
 def stiffness_at_rest(manipulator: Manipulator, at: Postures) -> RestStiffness:
-    """6x6 of every leg at the postures; those that are not reached or singular say so."""
+    """6x6 of every leg at the postures; those that are not reached or singular say so.
+
+    As drawn: ValueError for a manipulator with effects, whose state at rest `vjm.manipulator.equilibrium` finds.
+    """
+    if manipulator.sensors or any(
+        isinstance(part, Parallelogram) and part.built is not None
+        for leg in manipulator.legs
+        for part in leg.parts
+    ):
+        raise ValueError(
+            f"{manipulator.name} is not as drawn: its stiffness at rest is that of an equilibrium"
+        )
     batch = at.reached.shape
     reason = at.reason.reshape(-1).copy()
     good = np.flatnonzero(reason == "")

@@ -6,10 +6,11 @@ from pathlib import Path
 
 import pytest
 
-from pipeline.coverage import study as running
-from pipeline.coverage.study import kept, run, tasks
+from pipeline import trials
+from pipeline.coverage.study import run, tasks
 from pipeline.coverage.table import page, study
 from pipeline.coverage.trial import Trial
+from pipeline.trials import kept
 
 
 def one(seed: int, deviation: float | None, steps: int = 8, **more: object) -> Trial:
@@ -67,7 +68,7 @@ def test_a_study_goes_on_where_it_was_stopped(tmp_path: Path, monkeypatch: pytes
             asked.extend(int(str(task[2])) for task in missing)
             return [one(int(str(task[2])), 0.0, steps=int(str(task[3]))) for task in missing]
 
-    monkeypatch.setattr(running, "_pool", lambda _: Pool())
+    monkeypatch.setattr(trials, "_pool", lambda _: Pool())
     wanted = [task for task in tasks(3, 0, ["modulus_error"]) if task[0] == "there"]
     assert [task[3] for task in wanted] == [24, 8, 8]
     assert len(list(run(wanted[:2], store, 1))) == 2
@@ -75,4 +76,4 @@ def test_a_study_goes_on_where_it_was_stopped(tmp_path: Path, monkeypatch: pytes
     with store.open("a") as file:
         file.write("\n")
     assert len(list(run(wanted, store, 1))) == 3 and asked == [0, 1, 2]
-    assert [each.seed for each in kept(store)] == [0, 1, 2]
+    assert [each.seed for each in kept(store, Trial)] == [0, 1, 2]

@@ -14,14 +14,8 @@ from pipeline.errors import InputError
 from pipeline.executors import Serial, executor
 from pipeline.manipulator.description import Description, read
 from pipeline.manipulator.grid import Grid
-from pipeline.manipulator.mapping import (
-    COLUMNS,
-    FOUND,
-    UNREACHED,
-    coarse,
-    critical_at,
-    critical_map,
-)
+from pipeline.manipulator.mapping import coarse, critical_at, critical_map
+from pipeline.manipulator.question import FOUND, REST, UNREACHED
 from pipeline.manipulator.sweep import HEAD, RESULT, sweep
 from pipeline.manipulator.table import measured, vjm_stiffness
 
@@ -56,7 +50,7 @@ def whole(orthoglide: Description, tmp_path_factory: pytest.TempPathFactory) -> 
 
 def test_every_point_is_what_one_point_is(whole: Path) -> None:
     values = np.load(whole / RESULT)
-    assert values.shape == (GRID.size, len(COLUMNS))
+    assert values.shape == (GRID.size, len(REST))
     np.testing.assert_array_equal(values[:, :3], GRID.points(0, GRID.size))
     assert np.all(values[:, 3] == FOUND)
     manipulator = read("orthoglide").manipulator

@@ -1,0 +1,86 @@
+"""Rigs and test plans of all sizes, drawn at random; loads and travels grow with the rig."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from pipeline.campaign import Noise, Rig, UniformBar
+from pipeline.simulate import LENGTH, REFERENCE_C, WIDTH, bench_rig
+from pipeline.virtual.plan import SENSORS, PlannedTest, bench_plan
+
+_EA, _EIZ, _EIY, _GJ = 6.82e6, 4.5e7, 2.0e8, 1.08e7
+"""N and N·mm²: a uniform bar like the paper's (Eq. 12)."""
+_REACH_Y, _REACH_Z = 2.33, 1.45
+"""Outermost fibres of an I-bar in radii of gyration."""
+AXIAL = tuple(f"axial_held_q{a}" for a in ("+0", "+30", "-30"))
+RICH, FAIR, POOR = "rich", "fair", "poor"
+
+
+@dataclass(frozen=True, eq=False)
+class Bench:
+    """What measures: a rig, its sensors, and the tests that are done."""
+
+    rig: Rig
+    noise: Noise
+    plan: tuple[PlannedTest, ...]
+    label: str
+
+
+def drawn_rig(generator: np.random.Generator) -> Rig:
+    """The paper's parallelogram in one case of three, else one of other length, width and bars."""
+    if generator.random() < 1.0 / 3.0:
+        return bench_rig()
+    length = float(generator.uniform(180.0, 500.0))
+    width = length * float(generator.uniform(0.2, 0.4))
+    axial, thick = generator.uniform(0.5, 2.0), generator.uniform(0.7, 1.6)
+    EA, EIz, EIy = _EA * axial, _EIZ * axial * thick**2, _EIY * axial * thick**2
+    bar = UniformBar(EA=EA, EIy=EIy, EIz=EIz, GJ=_GJ * axial * thick**2)
+    return Rig(
+        "parallelogram",
+        round(length, 1),
+        round(width, 1),
+        bar=bar,
+        gravity=(0.0, 0.0, -1.0),
+        reference_temperature=REFERENCE_C,
+        fibre_y=_REACH_Y * float(np.sqrt(EIz / EA)),
+        fibre_z=_REACH_Z * float(np.sqrt(EIy / EA)),
+    )
+
+
+def drawn_noise(generator: np.random.Generator) -> Noise:
+    """Sensors half as good to three times better than those of the good bench."""
+    factor = float(np.exp(generator.uniform(np.log(1.0 / 3.0), np.log(2.0))))
+    return replace(
+        SENSORS,
+        displacement=factor * SENSORS.displacement,
+        wrench=factor * SENSORS.wrench,
+        gauges=factor * SENSORS.gauges,
+    )
+
+
+def scaled(plan: Sequence[PlannedTest], rig: Rig, share: float) -> tuple[PlannedTest, ...]:
+    """The plan of the paper's bench for another rig: loads by Euler's load, travels by the length, times a share."""
+    base = bench_rig()
+    by_load = _euler(rig) / _euler(base)
+    by_length = rig.length / LENGTH
+    by_width = (rig.width or WIDTH) / WIDTH
+    # Of the coordinates, as forces along x and about y, and as travels along and about the others.
+    factors = share * np.array([by_load, by_length, by_length, 1.0, by_load * by_width, 1.0])
+    return tuple(replace(test, values=test.values * factors) for test in plan)
+
+
+def drawn_plan(generator: np.random.Generator, label: str, steps: int) -> tuple[PlannedTest, ...]:
+    """All tests, half of them, or three; those held out are always done."""
+    every = bench_plan(steps)
+    fitted = [test for test in every if not test.holdout]
+    count = {RICH: len(fitted), FAIR: len(fitted) // 2, POOR: 3}[label]
+    chosen = set(generator.choice(len(fitted), count, replace=False).tolist())
+    kept = {fitted[k].id for k in chosen}
+    return tuple(test for test in every if test.holdout or test.id in kept)
+
+
+def _euler(rig: Rig) -> float:
+    return float(rig.stiffness[1, 1]) * rig.length

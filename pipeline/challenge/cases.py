@@ -1,0 +1,148 @@
+"""The cases by number: what is hidden on which bench. The same number is the same case, on any machine."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from typing import Literal
+
+import numpy as np
+
+from pipeline.challenge.benches import (
+    AXIAL,
+    FAIR,
+    POOR,
+    RICH,
+    Bench,
+    drawn_noise,
+    drawn_plan,
+    drawn_rig,
+    scaled,
+)
+from pipeline.challenge.faults import FAULTS
+from pipeline.coverage.cases import is_size
+from pipeline.simulate import bench_rig
+from pipeline.virtual.plan import SENSORS, bench_plan
+from vjm.effects import catalogue
+
+Kind = Literal["clean", "single", "pair", "outside", "untold"]
+SEED = 20_261_121
+ROUND: tuple[Kind, ...] = (
+    *("clean", "single", "single", "outside"),
+    *("clean", "single", "pair", "untold"),
+    *("clean", "single", "single", "outside"),
+    *("clean", "single", "pair", "untold"),
+    *("clean", "single", "single", "outside"),
+)
+"""Kinds of the cases of a round: of 600, 150 are clean."""
+ALWAYS = "bar_geometric_nonlinearity"
+"""On every bench, so nothing that could be hidden."""
+SMALLEST, LARGEST = 0.03, 3.0
+"""Sizes of what is hidden, in typical sizes."""
+STEPS = (8, 10, 12)
+
+
+@dataclass(frozen=True, eq=False)
+class Case:
+    """hidden: "effect.parameter" to value. fault: what no effect explains, with its size. seed: of the noise."""
+
+    number: int
+    kind: Kind
+    bench: Bench
+    hidden: Mapping[str, float]
+    fault: tuple[str, float] | None
+    seed: int
+
+    @property
+    def effects(self) -> tuple[str, ...]:
+        """Names of what is hidden."""
+        return tuple(dict.fromkeys(path.partition(".")[0] for path in self.hidden))
+
+
+def case(number: int, share: float = 1.0) -> Case:
+    """The case of a number; share: of the loads, less than one where the bench did not bear them."""
+    generator = np.random.default_rng([SEED, number])
+    kind, steps = ROUND[number % len(ROUND)], int(generator.choice(STEPS))
+    seed = int(generator.integers(2**62))
+    if kind == "untold":
+        return _untold(number, generator, steps, seed, share)
+    rig, noise = drawn_rig(generator), drawn_noise(generator)
+    label = str(generator.choice((RICH, FAIR, POOR), p=(0.4, 0.4, 0.2)))
+    plan = scaled(drawn_plan(generator, label, steps), rig, share)
+    hidden: dict[str, float] = {}
+    fault = None
+    if kind == "outside":
+        fault = str(generator.choice(list(FAULTS))), _size(generator)
+    elif kind != "clean":
+        names = [name for name in catalogue() if name != ALWAYS]
+        for name in generator.choice(names, 2 if kind == "pair" else 1, replace=False):
+            hidden |= drawn(str(name), generator)
+    return Case(number, kind, Bench(rig, noise, plan, label), hidden, fault, seed)
+
+
+def drawn(name: str, generator: np.random.Generator) -> dict[str, float]:
+    """An effect of some size: every number that makes it present a share of it, of either sign where both mean."""
+    effect, size = catalogue()[name], _size(generator)
+    out: dict[str, float] = {}
+    for p in effect.parameters:
+        if is_size(name, p.name):
+            sign = 1.0 if p.one_sided else float(generator.choice((-1.0, 1.0)))
+            move = sign * size * float(generator.uniform(0.3, 1.0)) * p.typical
+            # Towards a bound it stays on this side of it.
+            out[f"{name}.{p.name}"] = float(np.clip(p.null + move, *_within(p.null, p.low, p.high)))
+        else:
+            out[f"{name}.{p.name}"] = p.null
+    return out
+
+
+def _within(null: float, low: float, high: float) -> tuple[float, float]:
+    return null + 0.95 * (low - null), null + 0.95 * (high - null)
+
+
+def _size(generator: np.random.Generator) -> float:
+    return float(np.exp(generator.uniform(np.log(SMALLEST), np.log(LARGEST))))
+
+
+UNTOLD: Mapping[str, tuple[tuple[str, ...], tuple[str, ...]]] = {
+    "axial, q = 0": (
+        ("axial_held_q+0",),
+        ("modulus_error.scale", "axis_flexibility.radial_mm_per_N", "base_compliance.x_mm_per_N"),
+    ),
+    "axial, three angles": (
+        AXIAL,
+        ("modulus_error.scale", "axis_flexibility.radial_mm_per_N"),
+    ),
+    "one temperature": (
+        (*AXIAL, "lateral_q+0", "swing_q+0", "lateral_q+30", "swing_q+30"),
+        ("thermal_expansion.alpha_per_K", "dimension_error.length_mm"),
+    ),
+}
+"""Plans that cannot tell: tests, and what they confuse."""
+SIZES = {
+    "axial, q = 0": (0.5, 2.0),
+    "axial, three angles": (0.5, 2.0),
+    # A longer bar is softer as well: from some hundred sigmas on that tells.
+    "one temperature": (0.01, 0.06),
+}
+"""Of what is hidden there, in typical sizes."""
+WARM = 30.0
+"""°C, of all tests where the temperature is one."""
+
+
+def _untold(number: int, generator: np.random.Generator, steps: int, seed: int, share: float) -> Case:
+    label = str(generator.choice(list(UNTOLD)))
+    ids, paths = UNTOLD[label]
+    path = str(generator.choice(paths))
+    name, _, parameter = path.partition(".")
+    effect = catalogue()[name]
+    (p,) = [each for each in effect.parameters if each.name == parameter]
+    value = p.null + float(generator.uniform(*SIZES[label])) * p.typical
+    every = [test for test in bench_plan(steps) if test.id in ids or test.holdout]
+    if label == "one temperature":
+        every = [replace(test, temperature=np.full(steps, WARM)) for test in every]
+    else:
+        every = [test for test in every if not test.holdout]
+    rig = bench_rig()
+    plan = scaled(every, rig, share)
+    hidden = {f"{name}.{each.name}": each.null for each in effect.parameters} | {path: value}
+    return Case(number, "untold", Bench(rig, SENSORS, plan, label), hidden, None, seed)

@@ -1,0 +1,217 @@
+"""One case, measured, diagnosed and judged against what was hidden."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from time import process_time
+from typing import Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fem.frame.bench import Readings
+from pipeline.campaign import Campaign
+from pipeline.challenge.cases import ALWAYS, Case, Kind, case
+from pipeline.challenge.faults import FAULTS
+from pipeline.compare.error import Discrepancy
+from pipeline.coverage.cases import is_size
+from pipeline.diagnose.apart import multiple_correlation
+from pipeline.diagnose.diagnosis import Diagnosis, diagnose
+from pipeline.diagnose.shelf import Shelf
+from pipeline.inference.intervals import intervals, landscape
+from pipeline.inference.model import Model
+from pipeline.inference.prediction import predict
+from pipeline.inference.program import program
+from pipeline.inference.residual import whitening
+from pipeline.record import Record
+from pipeline.virtual.bench import read_out, true_readings
+from pipeline.virtual.plan import GAUGES
+from vjm.effects import catalogue
+
+Array = NDArray[np.float64]
+Score = Literal["right", "in set", "part", "missed", "undecided", "wrong", "false alarm", "failed"]
+"""right: exactly what was hidden, or that nothing was, or that nothing known explains it. in set: one of the sets is
+right. part: some of it, and nothing else. missed: nothing was named where something was hidden. undecided: unknown
+where the catalogue explains it; a set without the truth that is not false; ambiguous where nothing known explains it.
+wrong: a name of what was not there. false alarm: one where nothing was hidden. failed: no answer."""
+SHARES = (1.0, 0.7, 0.5, 0.35)
+"""Of the loads, tried in turn where a bench does not bear them."""
+
+
+class Outcome(Record):
+    """A case and its score. sizes: mu, sigmas by which each hidden effect shows. gamma: 1 / sqrt(1 - rho), by effect,
+    of the rival that looks most like it. sets: the answer, without what every bench has. inside: whether the 95 %
+    intervals hold the truth, of right answers. holdout: whitened RMS of each held-out test."""
+
+    number: int
+    kind: Kind
+    plan: str
+    hidden: dict[str, float]
+    fault: tuple[str, float] | None
+    rows: int
+    sizes: dict[str, float]
+    gamma: dict[str, float]
+    verdict: str
+    sets: tuple[tuple[str, ...], ...]
+    score: Score
+    inside: dict[str, bool] = {}  # noqa: RUF012 (pydantic copies it)
+    holdout: tuple[float, ...] = ()
+    error: str = ""
+    seconds: float
+    commit: str
+
+    @property
+    def size(self) -> float:
+        """The least of the effects' sizes, 0 where nothing is hidden."""
+        return min(self.sizes.values(), default=0.0)
+
+    @property
+    def confusability(self) -> float:
+        """The largest gamma, 1 where nothing is hidden."""
+        return max(self.gamma.values(), default=1.0)
+
+
+def outcome(number: int, commit: str) -> Outcome:
+    """The outcome of the case of that number."""
+    began = process_time()
+    it, found, without = _measured(number)
+    campaign = _read(it, found, it.seed)
+    sizes = {name: _shows(it, only, without) for name, only in _each(it, found, without).items()}
+    common = {
+        "number": number,
+        "kind": it.kind,
+        "plan": it.bench.label,
+        "hidden": dict(it.hidden),
+        "fault": it.fault,
+        "rows": sum(t.data.steps.size for t in campaign.tests),
+        "sizes": {name: float(np.linalg.norm(d)) for name, d in sizes.items()},
+        "commit": commit,
+    }
+    try:
+        answer = diagnose(campaign, Model(), catalogue())
+    except (RuntimeError, ArithmeticError, ValueError) as error:
+        spent = round(process_time() - began, 2)
+        return Outcome(
+            **common, gamma={}, verdict="", sets=(), score="failed", error=str(error), seconds=spent
+        )
+    sets = tuple(tuple(n for n in names if n != ALWAYS) for names in answer.sets)
+    score = judged(it, answer.verdict, sets)
+    return Outcome(
+        **common,
+        gamma=_confusable(answer.shelf, it.effects, sizes),
+        verdict=answer.verdict,
+        sets=sets,
+        score=score,
+        inside=_inside(answer, it) if score == "right" and it.hidden else {},
+        holdout=_held_out(answer),
+        seconds=round(process_time() - began, 2),
+    )
+
+
+def judged(it: Case, verdict: str, sets: Sequence[Sequence[str]]) -> Score:
+    """The score of an answer; sets without what every bench has."""
+    truth, named = set(it.effects), [set(names) for names in sets]
+    if verdict == "unknown":
+        return "right" if it.fault else "undecided"
+    if it.kind == "clean":
+        return "right" if not any(named) else "false alarm" if all(named) else "in set"
+    if it.fault:
+        if not any(named):
+            return "missed"
+        return "wrong" if len(named) == 1 else "undecided"
+    if len(named) == 1:
+        (only,) = named
+        if only == truth:
+            return "right"
+        return "wrong" if only - truth else "part" if only else "missed"
+    if truth in named:
+        return "in set"
+    return "part" if any(names <= truth for names in named) else "wrong"
+
+
+def _measured(number: int) -> tuple[Case, list[Readings], list[Readings]]:
+    """The case with loads that its bench bears, and its readings with and without what is hidden, both exact."""
+    for share in SHARES:
+        it = case(number, share)
+        bench = it.bench
+        try:
+            without = true_readings(bench.rig, bench.plan, {}, GAUGES)
+            found = true_readings(bench.rig, bench.plan, it.hidden, GAUGES) if it.hidden else without
+            if it.fault:
+                found = FAULTS[it.fault[0]](bench, found, it.fault[1])
+            return it, found, without
+        except RuntimeError as error:
+            last = error
+    raise RuntimeError(f"case {number} at {SHARES[-1]:g} of its loads: {last}")
+
+
+def _each(it: Case, found: list[Readings], without: list[Readings]) -> Mapping[str, list[Readings]]:
+    """Readings with each effect alone; the fault is one."""
+    if it.fault:
+        return {it.fault[0]: found}
+    if len(it.effects) < 2:
+        return dict.fromkeys(it.effects, found)
+    alone = {}
+    for name in it.effects:
+        own = {path: value for path, value in it.hidden.items() if path.partition(".")[0] == name}
+        try:
+            alone[name] = true_readings(it.bench.rig, it.bench.plan, own, GAUGES)
+        except RuntimeError:
+            # One that is borne only with the other: what it adds to that.
+            alone[name] = found
+    return alone
+
+
+def _read(it: Case, found: list[Readings], seed: int | None) -> Campaign:
+    bench = it.bench
+    return read_out(f"case {it.number}", bench.rig, bench.plan, bench.noise, seed, found, GAUGES)
+
+
+def _shows(it: Case, found: list[Readings], without: list[Readings]) -> Array:
+    """(N,) whitened difference of the fitted readings that are predicted, less what prescribed ones answer for."""
+    cases = program(_read(it, without, None))
+    change = program(_read(it, found, None)).measured - cases.measured
+    reference = predict(Model().with_effects([catalogue()[ALWAYS]]), cases, slopes=False)
+    inputs = np.take_along_axis(change, cases.channels, axis=1)
+    change = change - np.einsum("rck,rk->rc", reference.by_inputs[..., :6], inputs)
+    used = cases.predicted & cases.fitted[:, None]
+    return np.asarray(whitening(cases, reference).apply(np.where(used, change, 0.0))[used])
+
+
+def _confusable(shelf: Shelf, names: Sequence[str], signatures: Mapping[str, Array]) -> dict[str, float]:
+    """Of each hidden effect, 1 / sqrt(1 - rho) of the candidate that looks most like it."""
+    root = frozenset({ALWAYS}) if ALWAYS in shelf.candidates else frozenset[str]()
+    about, at = shelf.picture(root), shelf.at
+    used = shelf.whole.predicted & shelf.whole.fitted[:, None]
+    place = np.full(used.shape, -1)
+    place[used] = np.arange(used.sum())
+    rows = place[at.rows][used[at.rows]]
+    out = {}
+    for name in names:
+        mine = signatures[name][rows]
+        others = [s for s in about.signatures.values() if s.effect.name not in (name, *names)]
+        alike = [multiple_correlation(mine, c) for s in others for c in s.columns] if np.any(mine) else [0.0]
+        out[name] = float(1.0 / np.sqrt(max(1.0 - max(alike, default=0.0), 1e-6)))
+    return out
+
+
+def _inside(answer: Diagnosis, it: Case) -> dict[str, bool]:
+    """Of sizes, whether the 95 % interval holds what was hidden."""
+    out = {}
+    land = landscape(answer.fit, answer.shelf.whole)
+    for free, found in zip(answer.model.free, intervals(land), strict=True):
+        if is_size(free.effect, free.parameter.name):
+            value = it.hidden[free.name]
+            out[free.name] = (found.low is None or found.low <= value) and (
+                found.high is None or value <= found.high
+            )
+    return out
+
+
+def _held_out(answer: Diagnosis) -> tuple[float, ...]:
+    whole = answer.shelf.whole
+    gap = Discrepancy(whole, answer.fit.prediction)
+    every = [
+        gap.rms(whole.test == k) for k, test in enumerate(whole.campaign.tests) if test.role == "holdout"
+    ]
+    return tuple(rms for rms in every if rms is not None)

@@ -1,0 +1,105 @@
+"""`improve` from the command line: a waterfall that grows while it works, the model saved step by step."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+
+from rich.console import Console
+from rich.live import Live
+
+from pipeline.add.command import starting_model
+from pipeline.add.summary import values_of
+from pipeline.answer import Answer
+from pipeline.campaign import Campaign, read
+from pipeline.command import usable
+from pipeline.diagnose.diagnosis import Diagnosis, answer_of, diagnose
+from pipeline.diagnose.words import sentences
+from pipeline.improve.steps import Step, steps
+from pipeline.improve.table import closing, following, waterfall
+from pipeline.inference.intervals import landscape
+from pipeline.inference.model import Model
+from pipeline.inference.model_file import NAME, ModelFile, Uncertainty, write_model
+from pipeline.inference.suitable import Known, known_effects
+from pipeline.progress import Progress
+from pipeline.provenance import commit, versions
+
+
+def improve_campaign(
+    folder: Path,
+    model_file: Path | None = None,
+    effects_from: Sequence[Path] = (),
+    json: Path | None = None,
+    out: Path | None = None,
+    seed: int | None = None,
+    quiet: bool = False,
+) -> Answer:
+    """Diagnose, add what is certain one by one, save the model with the campaign. InputError for bad input.
+
+    out: folder for the answer and for the model of every step, to go back to with --model.
+    """
+    campaign = read(folder)
+    began, known = starting_model(campaign, folder, model_file, known_effects(effects_from))
+    places = (
+        (folder, f"the model in {folder}"),
+        (json and json.parent, f"--json {json}"),
+        (out, f"--out {out}"),
+    )
+    for path, named in places:
+        if path is not None:
+            usable(path, named)
+    progress = Progress(quiet)
+    with progress.stage("looking for what is missing") as stage:
+        found = diagnose(campaign, began, known.effects, stage.say)
+        stage.note = f"{len(found.shelf.fits)} models fitted"
+    done = _watched(found, quiet)
+    last = done[-1].fit
+    land = landscape(last, found.shelf.whole)
+    values = values_of(last.model, land)
+    answer = answer_of(found, sentences(found))
+    answer = answer.model_copy(
+        update={
+            "verdict": "within_noise" if answer.verdict == "identified" else answer.verdict,
+            "effects": last.model.names,
+            "added": tuple(name for name in last.model.names if name not in began.names),
+            "parameters": values,
+            "error": tuple(step.error for step in done),
+            "seed": seed,
+        }
+    )
+    uncertainty = {
+        name: Uncertainty(v.std, v.low95, v.high95) for name, v in values.items() if v.interval != "fixed"
+    }
+    if answer.added:
+        _write(folder / NAME, last.model, uncertainty, campaign, known)
+    if out is not None:
+        for number, step in enumerate(done):
+            _write(out / f"step_{number}.toml", step.fit.model, {}, campaign, known)
+        answer.write(out / "answer.json")
+    if json is not None:
+        answer.write(json)
+    closing(answer, found, str(folder / NAME), following(answer, found.verdict, folder, out), quiet)
+    return answer
+
+
+def _watched(found: Diagnosis, quiet: bool) -> list[Step]:
+    """All steps, shown as they come."""
+    done: list[Step] = []
+    console = Console(highlight=False)
+    if quiet or not console.is_terminal:
+        done = list(steps(found))
+        if not quiet:
+            console.print(waterfall(found.campaign.name, done))
+        return done
+    with Live(waterfall(found.campaign.name, done), console=console) as live:
+        for step in steps(found):
+            done.append(step)
+            live.update(waterfall(found.campaign.name, done))
+    return done
+
+
+def _write(
+    path: Path, model: Model, uncertainty: dict[str, Uncertainty], campaign: Campaign, known: Known
+) -> None:
+    files = known.files_of(model.names)
+    write_model(path, ModelFile(model, uncertainty, files, campaign.name, commit(), versions()))

@@ -1,0 +1,51 @@
+"""The way from a model to what its diagnosis is certain of: one effect a step, what explains most first."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from pipeline.add.summary import error_of
+from pipeline.answer import ModelError
+from pipeline.diagnose.diagnosis import Diagnosis
+from pipeline.diagnose.shelf import Names
+from pipeline.inference.fit import Fit
+
+
+@dataclass(frozen=True, eq=False)
+class Step:
+    """A model on the way; added: the effect that the step before had not, "" for the first."""
+
+    added: str
+    fit: Fit
+    error: ModelError
+
+
+def certain(it: Diagnosis) -> Names:
+    """Effects that the diagnosis is certain of: all of one set, what all of several share, none of the unknown."""
+    if it.verdict in ("identified", "ambiguous"):
+        return frozenset.intersection(*(frozenset(names) for names in it.sets))
+    return frozenset()
+
+
+def steps(it: Diagnosis) -> Iterator[Step]:
+    """The model as it was, then with one certain effect more at a time."""
+    shelf, goal = it.shelf, certain(it)
+    here: Names = frozenset()
+    yield _step(it, "", here)
+    while here != goal:
+        ahead = [here | {name} for name in goal - here if _possible(it, name, here)]
+        best = min(ahead or [goal], key=lambda names: shelf.fit(names).chi_square)
+        yield _step(it, " + ".join(shelf.order(best - here)), best)
+        here = best
+
+
+def _possible(it: Diagnosis, name: str, here: Names) -> bool:
+    """Whether an effect may be added now: what it cannot be without is there."""
+    needed = set(it.shelf.candidates[name].includes)
+    return needed <= here | set(it.shelf.base.names)
+
+
+def _step(it: Diagnosis, added: str, names: Names) -> Step:
+    found = it.shelf.fit(names)
+    return Step(added, found, error_of(found, it.shelf.whole, len(found.model.free)))

@@ -1,0 +1,32 @@
+"""What a parallelogram with effects is for finite elements at rest: hinges that spring back, and what it lacks."""
+
+import numpy as np
+
+from fem.frame.structure import FREE
+from vjm.laws import Linear
+from vjm.link import Link
+from vjm.manipulator.parts import Parallelogram
+
+HINGE = 4
+"""The axis of a hinge among the six of its frame: about y."""
+
+
+def hinge_give(part: Parallelogram) -> float:
+    """rad/(N·mm) of one hinge about its axis: free, or linear springs in parallel. ValueError for another law."""
+    stiffness = 0.0
+    for law in part.as_built.hinges:
+        if not isinstance(law, Linear):
+            raise ValueError(f"finite elements at rest have no {type(law).__name__} in a hinge")
+        stiffness += float(law.stiffness[0, 0])
+    return 1.0 / stiffness if stiffness else FREE
+
+
+def refuse(link: Link, part: Parallelogram) -> None:
+    """ValueError for a bar whose state at rest is not that of a straight beam of the drawn length."""
+    for give in (link.base_give, link.tip_give):
+        if np.any(give != np.diag(np.diag(give))) or give[HINGE, HINGE]:
+            raise ValueError("finite elements at rest have axes that give along and across themselves only")
+    if np.any(part.as_built.line_load):
+        raise ValueError("finite elements at rest have bars without weight")
+    if link.length != part.length or link.slides or any(link.bow) or link.fibres is not None:
+        raise ValueError("finite elements at rest have straight, linear bars of the drawn length")

@@ -1,0 +1,171 @@
+"""A campaign, a model and what a diagnosis said, as one record for a page."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from pipeline.add.sentences import verdict_sentence
+from pipeline.add.summary import is_noise
+from pipeline.answer import Answer, Value
+from pipeline.campaign import Campaign
+from pipeline.inference.driving import column_name, unit_of
+from pipeline.inference.model import Model, Term
+from pipeline.inference.model_file import Uncertainty
+from pipeline.inference.program import Program, program
+from pipeline.inference.sigmas import completed
+from pipeline.inference.suitable import Known, check_suitable
+from pipeline.page.curves import rig_of, tests_of
+from pipeline.page.record import CandidatePage, EffectPage, Isolability, Page, Sigma
+from pipeline.page.stages import Stages, stages
+from pipeline.page.words import READING, SOURCES, assumptions, why
+from pipeline.provenance import commit, versions
+
+Say = Callable[[str], None]
+
+
+@dataclass(frozen=True, eq=False)
+class Subject:
+    """What a page is about. uncertainty: of the model's numbers, as its file has it. answer: of a diagnosis that
+    began with this model, if there was one; isolability: found with it."""
+
+    campaign: Campaign
+    model: Model
+    known: Known
+    uncertainty: Mapping[str, Uncertainty]
+    answer: Answer | None = None
+    isolability: Isolability | None = None
+
+
+def collect(it: Subject, commands: tuple[str, ...] = (), say: Say = lambda _: None) -> Page:
+    """The page of a model that is as saved, or as the diagnosis leaves it. InputError for what does not fit."""
+    whole = completed(it.campaign)
+    model = it.model if it.answer is None else proposed(it.model, it.answer, it.known)
+    check_suitable([term.effect for term in model.terms], whole)
+    cases = program(whole)
+    found = stages(model, cases, say)
+    answer = it.answer or _plain_answer(it, model, found)
+    known = it.known.effects
+    catalogue = [known[name] for name in model.names]
+    return Page(
+        campaign=whole.name,
+        folder=str(whole.folder or ""),
+        rig=rig_of(whole),
+        remarks=whole.remarks,
+        verdict=answer.verdict,
+        diagnosed=it.answer is not None,
+        headline=headline(answer, found, it.answer is not None),
+        sentences=answer.sentences[1:],
+        effects=model.names,
+        proposed=tuple(name for name in model.names if name not in it.model.names),
+        error=found.error,
+        parameters=answer.parameters,
+        correlations=answer.correlations,
+        tests=tests_of(found.before, found.after),
+        candidates=_candidates(answer, it.known),
+        isolability=it.isolability,
+        next_test=answer.next_test,
+        catalogue=tuple(
+            EffectPage(
+                name=e.name,
+                title=e.title,
+                equation=e.equation,
+                signature=e.signature,
+                limits=e.limits,
+                source=e.source,
+            )
+            for e in catalogue
+        ),
+        sigmas=_sigmas(it.campaign, cases),
+        assumptions=(*assumptions(whole, model.names, known), *READING),
+        sources=(*SOURCES, *dict.fromkeys(f"{e.name}: {e.source}." for e in catalogue)),
+        commands=commands,
+        versions=versions(),
+        commit=commit(),
+    )
+
+
+def proposed(model: Model, answer: Answer, known: Known) -> Model:
+    """The model that an answer leaves: its effects with its values."""
+    terms = []
+    for name in answer.effects:
+        effect = known.effects[name]
+        values = {p.name: answer.parameters[f"{name}.{p.name}"].value for p in effect.parameters}
+        terms.append(Term(effect, values))
+    return replace(model, terms=tuple(terms))
+
+
+def headline(answer: Answer, found: Stages, diagnosed: bool) -> str:
+    """The verdict in one sentence."""
+    if diagnosed and answer.sentences:
+        return answer.sentences[0]
+    if len(found.error) > 1:
+        return verdict_sentence(answer.model_copy(update={"error": (found.error[0], found.error[-1])}))
+    left = found.error[0].fit
+    if answer.verdict == "within_noise":
+        return f"within_noise: plain virtual springs explain the measurements, {left:.3g} sigma are left (1 is noise)."
+    return (
+        f"plain virtual springs leave {left:.3g} sigma (1 is noise); what is missing has not been looked for."
+    )
+
+
+def _plain_answer(it: Subject, model: Model, found: Stages) -> Answer:
+    last = found.error[-1]
+    return Answer(
+        campaign=it.campaign.name,
+        verdict="within_noise" if is_noise(last) else "unknown",
+        effects=model.names,
+        parameters=_parameters(model, it.uncertainty),
+        error=found.error,
+    )
+
+
+def _parameters(model: Model, uncertainty: Mapping[str, Uncertainty]) -> dict[str, Value]:
+    """Values with what the model's file says of them."""
+    out = {}
+    for term in model.terms:
+        for p in term.effect.parameters:
+            name = f"{term.effect.name}.{p.name}"
+            known = uncertainty.get(name)
+            out[name] = Value(
+                value=float(term.values[p.name]),
+                std=None if known is None else known.std,
+                low95=None if known is None else known.low95,
+                high95=None if known is None else known.high95,
+                interval="fixed" if known is None else "profile",
+                unit=p.unit,
+                meaning=p.meaning,
+            )
+    return out
+
+
+def _candidates(answer: Answer, known: Known) -> tuple[CandidatePage, ...]:
+    return tuple(
+        CandidatePage(
+            effect=c.effect,
+            title=known.effects[c.effect].title,
+            chosen=c.effect in answer.effects,
+            screen=c.screen,
+            fit=c.fit,
+            crossvalidated=c.crossvalidated,
+            evidence=c.evidence,
+            why=why(c, answer),
+        )
+        for c in answer.candidates
+    )
+
+
+def _sigmas(given: Campaign, cases: Program) -> tuple[Sigma, ...]:
+    """Of every channel that is measured."""
+    told = np.concatenate([given.noise.displacement, given.noise.wrench, given.noise.gauges])
+    return tuple(
+        Sigma(
+            column=column_name(int(k), given.gauges),
+            value=float(cases.sigma[k]),
+            unit=unit_of(int(k)),
+            given=bool(np.isfinite(told[k])),
+        )
+        for k in np.flatnonzero(np.isfinite(cases.measured).any(axis=0))
+    )

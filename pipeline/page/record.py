@@ -1,0 +1,144 @@
+"""All that a page about a campaign shows, to and from JSON; `reports` draws it and computes nothing.
+
+Errors are in sigmas, 1 is noise. Readings in the units of their columns: mm, rad, N, N·mm; None where there is none.
+Before: plain virtual springs; after: the model of the page.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+from pipeline.answer import Correlation, ModelError, Value
+from pipeline.record import Record
+
+Numbers = tuple[float | None, ...]
+NAME = "page.json"
+
+
+class Rig(Record):
+    """What is drawn of the rig. width_mm: None for a bar."""
+
+    kind: str
+    length_mm: float
+    width_mm: float | None
+
+
+class Curve(Record):
+    """One channel of one test, step after step.
+
+    before, after: predicted. left_before, left_after: measured less predicted over its own standard deviation, in
+    which the noise of the inputs stands too; rms_before, rms_after: their root mean squares. sigma: that deviation
+    after, in `unit`.
+    """
+
+    channel: str
+    unit: str
+    measured: Numbers
+    sigma: Numbers
+    before: Numbers
+    after: Numbers
+    left_before: Numbers
+    left_after: Numbers
+    rms_before: float | None
+    rms_after: float | None
+
+
+class TestPage(Record):
+    """One test. loads: of the quantity `load` that drives it. error_before, error_after: whitened RMS of the test,
+    misfit_before, misfit_after: of each step. measured_pose, predicted_pose: x y z rx ry rz from the nominal pose."""
+
+    __test__ = False
+
+    test: str
+    q_deg: float
+    role: str
+    control: dict[str, str]
+    rig: Rig
+    load: str
+    load_unit: str
+    loads: Numbers
+    steps: tuple[int, ...]
+    curves: tuple[Curve, ...]
+    error_before: float | None
+    error_after: float | None
+    misfit_before: Numbers
+    misfit_after: Numbers
+    lost_before: int
+    lost_after: int
+    measured_pose: tuple[Numbers, ...]
+    predicted_pose: tuple[Numbers, ...]
+
+
+class CandidatePage(Record):
+    """An effect that was looked at, as `pipeline.answer.Candidate`; why: it was chosen, or lost."""
+
+    effect: str
+    title: str
+    chosen: bool
+    screen: float | None
+    fit: float | None
+    crossvalidated: float | None
+    evidence: float | None
+    why: str
+
+
+class Isolability(Record):
+    """How alike effects look in these tests: correlation[i][j] of effect i with the best that effect j can do,
+    both free of what the model `about` can move; 1 cannot be told apart. None: effect i does not show."""
+
+    about: tuple[str, ...]
+    effects: tuple[str, ...]
+    correlation: tuple[Numbers, ...]
+
+
+class EffectPage(Record):
+    """An effect of the model as the catalogue has it."""
+
+    name: str
+    title: str
+    equation: str
+    signature: str
+    limits: str
+    source: str
+
+
+class Sigma(Record):
+    """The noise of a column; given: in campaign.toml, else estimated."""
+
+    column: str
+    value: float
+    unit: str
+    given: bool
+
+
+class Page(Record):
+    """A campaign, a model and what is known about both.
+
+    effects: of the model, in order; proposed: those of them that a diagnosis adds and the campaign's model lacks.
+    error: plain virtual springs and then each effect more, every stage fitted. commands: that make it again.
+    """
+
+    campaign: str
+    folder: str
+    rig: Rig
+    remarks: tuple[str, ...]
+    verdict: str
+    diagnosed: bool
+    headline: str
+    sentences: tuple[str, ...]
+    effects: tuple[str, ...]
+    proposed: tuple[str, ...]
+    error: tuple[ModelError, ...]
+    parameters: dict[str, Value]
+    correlations: tuple[Correlation, ...]
+    tests: tuple[TestPage, ...]
+    candidates: tuple[CandidatePage, ...]
+    isolability: Isolability | None
+    next_test: dict[str, Any] | None
+    catalogue: tuple[EffectPage, ...]
+    sigmas: tuple[Sigma, ...]
+    assumptions: tuple[str, ...]
+    sources: tuple[str, ...]
+    commands: tuple[str, ...]
+    versions: dict[str, str]
+    commit: str

@@ -1,0 +1,77 @@
+"""What a page says of candidates, of what was assumed, and of where equations come from."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+
+from pipeline.answer import Answer, Candidate
+from pipeline.campaign import Campaign
+from pipeline.inference.residual import LOST
+from vjm.effects.base import Effect
+
+APART = 10.0
+"""A difference of BIC from which it speaks very strongly, by Kass and Raftery, J. Am. Stat. Assoc. 90 (1995) 773."""
+
+SOURCES = (
+    "Virtual joints (Eqs. 1 to 10), closed form (Eq. 11): A. Pashkevich, A. Klimchik, S. Caro, D. Chablat, Stiffness "
+    "modelling of parallelogram-based parallel manipulators.",
+    "Residuals with noise in the inputs: W. A. Fuller, Measurement Error Models, Wiley 1987, ch. 3; H. I. Britt, "
+    "R. H. Luecke, Technometrics 15 (1973).",
+    "Intervals by profile likelihood: D. J. Venzon, S. H. Moolgavkar, Applied Statistics 37 (1988) 87-94.",
+)
+"""What every page rests on."""
+
+
+def why(it: Candidate, answer: Answer) -> str:
+    """Why an effect was chosen, or lost."""
+    least = answer.error[-1].fit
+    rivals = {name for names in answer.alternatives for name in names}
+    if it.effect in answer.effects:
+        return "chosen" if answer.verdict != "ambiguous" else "in the simplest of the sets that fit alike"
+    if it.effect in rivals:
+        return "fits as well: these tests cannot tell it from what was chosen"
+    if it.fit is not None and it.evidence is not None:
+        return f"fitted beside the others it leaves {it.fit:.3g} sigma, {_behind(it.evidence)}"
+    if it.screen is None:
+        return "does not show in these tests, or was part of another set"
+    if it.screen <= 1.02 * least:
+        return "promises no more than what was chosen without it"
+    return (
+        f"explains too little: {it.screen:.3g} sigma would be left, {least:.3g} are left with what was chosen"
+    )
+
+
+def _behind(evidence: float) -> str:
+    if evidence > APART:
+        return f"BIC {evidence:.0f} behind: excluded"
+    return f"BIC {evidence:.2g} behind: not needed" if evidence > 0.0 else "BIC as good"
+
+
+def assumptions(campaign: Campaign, names: tuple[str, ...], known: Mapping[str, Effect]) -> Iterator[str]:
+    """What the numbers rest on, a sentence each."""
+    held_out = [test.id for test in campaign.tests if test.role == "holdout"]
+    yield "Noise of every sensor is normal and independent from step to step, with the sigmas below."
+    yield "What is prescribed is read with noise as well; it counts through the model's own tangent."
+    yield f"A reading for which a model has no stable equilibrium counts as {LOST:g} sigma."
+    yield "Every test starts unloaded, with hinge springs and friction relaxed, and its steps are one history."
+    if held_out:
+        yield f"Held out, never used to fit or to choose: {', '.join(held_out)}."
+    for zero, said in (("first_row", "zeroed at their first row"), ("fitted", "with unknown zeros, fitted")):
+        tests = [test.id for test in campaign.tests if test.zero == zero]
+        if tests:
+            yield f"Tests {said}: {', '.join(tests)}."
+    rig = campaign.rig
+    if rig.platform_weight or rig.line_weight:
+        yield f"Known weights: platform {rig.platform_weight:g} N, bars {rig.line_weight:g} N/mm."
+    for name in names:
+        yield f"{name}: {known[name].limits}."
+
+
+READING = (
+    "Units are N, mm, rad and N·mm. Displacements are of the platform point from its nominal unloaded pose, the wrench "
+    "is exerted on the platform at that point, both in the base frame: x along the unloaded bars at q = 0, y normal "
+    "to the plane, z along the width.",
+    "An error of 1 sigma is noise. The error of the fitted tests is over their degrees of freedom.",
+    "Evidence is BIC less that of the best set, for the best set that was fitted with the effect in it.",
+)
+"""How a page is to be read."""

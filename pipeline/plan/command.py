@@ -1,0 +1,58 @@
+"""`plan` from the command line: what the tests of a campaign can show, and the next one."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+from pathlib import Path
+
+from pipeline.add.command import starting_model
+from pipeline.campaign import read
+from pipeline.command import usable
+from pipeline.diagnose.diagnosis import in_words, suitable
+from pipeline.inference.sigmas import completed
+from pipeline.inference.suitable import check_suitable, known_effects
+from pipeline.plan.isolability import matrix, visible
+from pipeline.plan.next import best_next
+from pipeline.plan.planned import foreseen
+from pipeline.plan.record import Plan, plan_record
+from pipeline.plan.seen import seen
+from pipeline.plan.table import show
+from pipeline.progress import Progress
+
+LARGE = "bar_geometric_nonlinearity"
+
+
+def plan_campaign(
+    folder: Path,
+    model_file: Path | None = None,
+    effects_from: Sequence[Path] = (),
+    json: Path | None = None,
+    quiet: bool = False,
+) -> Plan:
+    """Look at the plan of a campaign with the model it has, large deflection added. InputError for bad input."""
+    campaign = read(folder)
+    model, known = starting_model(campaign, folder, model_file, known_effects(effects_from))
+    if json is not None:
+        usable(json.parent, f"--json {json}")
+    check_suitable([term.effect for term in model.terms], campaign)
+    whole, unmeasured = foreseen(campaign)
+    whole = completed(whole)
+    candidates, refused = suitable(whole, model, known.effects)
+    if LARGE in candidates:
+        # Signatures depend on the loads as in reality, whether or not that was found to matter yet.
+        model = model.with_effects([candidates.pop(LARGE)])
+    progress = Progress(quiet)
+    with progress.stage("what the tests show") as stage:
+        now = seen(whole, model, candidates, stage.say)
+        found = visible(now, candidates)
+        names, alike = matrix(now)
+    with progress.stage("the next test") as stage:
+        fitted = replace(whole, tests=tuple(t for t in whole.tests if t.role == "fit"))
+        worth = best_next(fitted, model, candidates, now, stage.say)
+    words = None if worth is None else in_words(worth.choice)
+    plan = plan_record(whole.name, found, names, alike, worth, words, unmeasured, refused)
+    if json is not None:
+        plan.write(json)
+    show(plan, quiet)
+    return plan

@@ -1,0 +1,52 @@
+"""The command simulate on a whole manipulator: frame elements write a campaign, and the answer is sealed."""
+
+from __future__ import annotations
+
+import json
+import re
+from collections.abc import Sequence
+from pathlib import Path
+
+import numpy as np
+
+from meshes.files import replacing
+from pipeline.campaign import Campaign, Rig, write
+from pipeline.manipulator.description import SHIPPED, read
+from pipeline.progress import Progress
+from pipeline.provenance import commit, versions
+from pipeline.simulate import require_free, sealed
+from pipeline.virtual.hidden import hidden
+from pipeline.virtual.manipulator import measure_manipulator, plan
+from vjm.effects import catalogue
+
+
+def simulate_manipulator(
+    out: Path, file: str, effects: Sequence[str], seed: int, quiet: bool = False
+) -> Campaign:
+    """As `pipeline.simulate.simulate`, on a manipulator: a shipped one, or a file that is not moved afterwards."""
+    described = read(file)
+    named = file if (SHIPPED / f"{file}.toml").exists() else str(Path(file).resolve())
+    rig = Rig("manipulator", described.manipulator.length, manipulator=described.manipulator, file=named)
+    require_free(out)
+    sizes, noise = (np.random.default_rng(s) for s in np.random.SeedSequence(seed).spawn(2))
+    values = hidden(effects, catalogue(), rig, sizes)
+    with Progress(quiet).stage("simulate"):
+        name = re.sub(r"\s+", " ", out.resolve().name)
+        tests = plan(described.manipulator, described.home)
+        campaign = measure_manipulator(name, rig, tests, values, int(noise.integers(2**63)))
+    answer = {
+        "campaign": campaign.name,
+        "effects": list(values),
+        "parameters": {f"{name}.{p}": value for name, own in values.items() for p, value in own.items()},
+        "seed": seed,
+        "rig": f"manipulator {described.manipulator.name}",
+        "truth": "linear frame finite elements at each posture",
+        "versions": versions(),
+        "commit": commit(),
+    }
+    write(out, campaign)
+    with replacing(sealed(out)) as part:
+        part.write_text(json.dumps(answer, indent=1) + "\n", encoding="utf-8")
+    rows = sum(test.data.steps.size for test in campaign.tests)
+    print(f"{out}: {len(campaign.tests)} tests, {rows} load steps; the answer is sealed in {sealed(out)}")
+    return campaign

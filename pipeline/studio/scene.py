@@ -1,0 +1,51 @@
+"""The linkage in space: as it was measured at a load step, coloured by misfit, and as the model has it."""
+
+from __future__ import annotations
+
+from math import log10
+from typing import Any
+
+import pyvista
+from matplotlib import colormaps
+from matplotlib.colors import to_hex
+
+from pipeline.page.record import TestPage
+from reports.campaign.linkage import lines, scale_of
+from reports.shapes import require_egl
+from reports.style import FAINT, INK
+
+TOP = 100.0
+"""Sigmas of the darkest colour; the lightest is noise."""
+SHADES = "cividis_r"
+
+
+class Scene:
+    """A view of three sets of tubes; what is measured is coloured."""
+
+    def __init__(self) -> None:
+        require_egl()
+        self.plotter: Any = pyvista.Plotter(off_screen=True, window_size=(600, 400))
+        self.plotter.set_background("white")
+        self.plotter.view_vector((-0.5, -1.0, 0.6), (0.0, 0.0, 1.0))
+
+    def show(self, test: TestPage, step: int) -> str:
+        """Draw a step; returns what is seen, in words."""
+        data = test.model_dump()
+        scale = scale_of(data)
+        misfit = test.misfit_after[step]
+        self._add("nominal", data, None, scale, FAINT, 1.5)
+        self._add("measured", data, test.measured_pose[step], scale, colour(misfit), 4.0)
+        self._add("predicted", data, test.predicted_pose[step], scale, INK, 1.2)
+        said = "no prediction" if misfit is None else f"misfit of this step {misfit:.3g} sigma"
+        return f"step {test.steps[step]}, displacements × {scale:g}, {said}"
+
+    def _add(self, name: str, data: Any, pose: Any, scale: float, shade: str, radius: float) -> None:
+        parts = [pyvista.lines_from_points(points) for points in lines(data, pose, scale)]
+        tubes = pyvista.merge(parts).tube(radius=radius * data["rig"]["length_mm"] / 310.0)
+        self.plotter.add_mesh(tubes, name=name, color=shade, render=False, reset_camera=False)
+
+
+def colour(misfit: float | None) -> str:
+    """Of a misfit in sigmas, logarithmic from 1 to `TOP`."""
+    share = 1.0 if misfit is None else log10(max(misfit, 1.0)) / log10(TOP)
+    return to_hex(colormaps[SHADES](min(share, 1.0)))

@@ -1,0 +1,104 @@
+"""The solid parallelogram bent at its critical load, with the stress there, as files for pictures.
+
+At the critical load the straight linkage and every slightly bent one are in balance (W. T. Koiter, thesis, Delft
+1945): what is written is the unbent state at that load and the lowest mode at a stated size on top, and von Mises'
+stress of both together, linear elastic.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import meshio
+import numpy as np
+import pyvista
+
+from fem.buckling import buckling
+from fem.elasticity import IDENTITY
+from fem.linear import LinearModel
+from fem.linkage import PLATFORM, Member
+from fem.material import Isotropic
+from fem.prestress import prestress
+from meshes.files import replacing
+from meshes.solid import Floats, SolidMesh
+from pipeline.progress import Stage
+from pipeline.validation.case import Case
+from pipeline.validation.stages.linkage import SolidBuckling, solid_linkage
+from pipeline.validation.stages.specimen import Specimen
+
+LENGTH_TO_BEND = 100
+"""Length of the bars over the largest displacement of the mode."""
+
+
+def shape_name(q_deg: float, held: list[str]) -> str:
+    """Name of the file for one angle and way of holding."""
+    return f"linkage_q{q_deg:g}_{'-'.join(held)}.vtu"
+
+
+def linkage_shapes(
+    case: Case, s: Specimen, loads: list[SolidBuckling], folder: Path, stage: Stage
+) -> list[str]:
+    """Write the bent linkage for every critical load, on the mesh of load paths; returns the names."""
+    names = []
+    for it in loads:
+        stage.say(f"q = {it.q_deg:g}°, {' '.join(it.held)} held")
+        model = solid_linkage(case, s, s.path_space, it.q_deg)
+        bend = s.bar.length / LENGTH_TO_BEND
+        fields = bent(model, it.held, it.loads[0], bend)
+        names.append(shape_name(it.q_deg, it.held))
+        write_shape(model, fields, folder / names[-1])
+    return names
+
+
+def bent(model: LinearModel, held: list[str], load: float, bend: float) -> tuple[Floats, ...]:
+    """Node displacements (dofs,) of each member, mm: pushed along -x by `load`, N, and bent by `bend`, mm."""
+    (mode,) = buckling(model, held, 1)
+    unit = prestress(model, "x", held)
+    factor = -load / float(unit.wrench[PLATFORM.index("x")])
+    pairs = zip(unit.displacements, mode.displacements, strict=True)
+    return tuple(factor * pushed + bend * shape for pushed, shape in pairs)
+
+
+def write_shape(model: LinearModel, fields: tuple[Floats, ...], path: Path) -> None:
+    """Both bars in the base frame, with point data displacement (mm) and stress (von Mises, MPa), as a VTU file."""
+    points, cells, moved, stressed, first = [], [], [], [], 0
+    for member, field in zip(model.linkage.members, fields, strict=True):
+        mesh, u = member.space.mesh, field.reshape(-1, 3)
+        points.append(in_base_frame(member, mesh.points))
+        cells.append(mesh.cells + first)
+        moved.append(u @ member.turn.T)
+        stressed.append(von_mises(nodal_stress(mesh, model.material, u)))
+        first += len(mesh.points)
+    data = {
+        "displacement": np.concatenate(moved).astype(np.float32),
+        "stress": np.concatenate(stressed).astype(np.float32),
+    }
+    whole = meshio.Mesh(
+        np.concatenate(points),
+        [(model.linkage.members[0].space.mesh.kind, np.concatenate(cells))],
+        point_data=data,
+    )
+    with replacing(path) as part:
+        meshio.write(part, whole, file_format="vtu")
+
+
+def in_base_frame(member: Member, points: Floats) -> Floats:
+    """(n, 3) of a bar's points."""
+    return np.asarray(member.origin + points @ member.turn.T)
+
+
+def nodal_stress(mesh: SolidMesh, material: Isotropic, u: Floats) -> Floats:
+    """Cauchy stress (n, 3, 3) MPa of small displacements (n, 3) at the nodes, the mean of the cells around each."""
+    grid = pyvista.from_meshio(meshio.Mesh(mesh.points, [(mesh.kind, mesh.cells)]))
+    grid.point_data["u"] = u
+    # Row by row: derivatives of one displacement by x, y, z.
+    gradient = np.asarray(grid.compute_derivative(scalars="u", gradient="g")["g"]).reshape(-1, 3, 3)
+    strain = 0.5 * (gradient + np.swapaxes(gradient, 1, 2))
+    volumetric = np.einsum("naa->n", strain)[:, None, None]
+    return 2.0 * material.shear_modulus * strain + material.lame * volumetric * IDENTITY
+
+
+def von_mises(stress: Floats) -> Floats:
+    """Equivalent stress (n,) of stresses (n, 3, 3)."""
+    deviator = stress - np.einsum("naa->n", stress)[:, None, None] / 3.0 * IDENTITY
+    return np.sqrt(1.5 * np.einsum("nab,nab->n", deviator, deviator))

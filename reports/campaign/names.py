@@ -1,0 +1,61 @@
+"""Channels, units and tests of a campaign as a reader sees them."""
+
+from html import escape
+
+from reports.load import Json
+
+BEFORE, AFTER = "plain virtual springs", "the model"
+
+
+def channel_label(name: str) -> str:
+    """fx as Fx, mz as Mz, the others as they are."""
+    wrench = len(name) == 2 and name[0] in "fm" and name[1] in "xyz"
+    return name.capitalize() if wrench else name
+
+
+def unit_label(unit: str) -> str:
+    """N·mm for Nmm."""
+    return {"Nmm": "N·mm"}.get(unit, unit)
+
+
+def axis_label(name: str, unit: str) -> str:
+    """A channel with its unit, for the title of an axis."""
+    return f"{escape(channel_label(name))}, {unit_label(unit)}"
+
+
+def by_role(page: Json) -> list[Json]:
+    """All tests, those held out last."""
+    return sorted(page["tests"], key=lambda test: test["role"] == "holdout")
+
+
+def test_label(test: Json) -> str:
+    """A test's id; one that is held out says so."""
+    return f"{test['test']} (held out)" if test["role"] == "holdout" else str(test["test"])
+
+
+def channels(page: Json) -> list[str]:
+    """Channels that any test has, in the order of the columns."""
+    order = ["x", "y", "z", "rx", "ry", "rz", "fx", "fy", "fz", "mx", "my", "mz"]
+    found = dict.fromkeys(curve["channel"] for test in page["tests"] for curve in test["curves"])
+    known = [name for name in order if name in found]
+    return [*known, *(name for name in found if name not in known)]
+
+
+def stage_labels(page: Json) -> list[str]:
+    """The stages of the error: plain, then what each adds."""
+    labels, seen = [], set[str]()
+    for stage in page["error"]:
+        new = [name for name in stage["effects"] if name not in seen]
+        seen |= set(new)
+        labels.append(f"+ {' + '.join(new)}" if new else BEFORE)
+    return labels
+
+
+def worst(page: Json, count: int) -> list[tuple[Json, Json]]:
+    """Tests and curves that plain virtual springs miss most, one for each driving quantity and channel first."""
+    every = [(test, curve) for test in page["tests"] for curve in test["curves"]]
+    every.sort(key=lambda it: -(it[1]["rms_before"] or 0.0))
+    first: dict[tuple[str, str], tuple[Json, Json]] = {}
+    for test, curve in every:
+        first.setdefault((test["load"], curve["channel"]), (test, curve))
+    return list(first.values())[:count]

@@ -1,0 +1,173 @@
+"""Static pictures by matplotlib for the Markdown twin of a campaign's page."""
+
+from collections.abc import Sequence
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from reports.campaign.curve import BAND, COLOURS
+from reports.campaign.names import (
+    AFTER,
+    BEFORE,
+    by_role,
+    channel_label,
+    channels,
+    stage_labels,
+    test_label,
+    unit_label,
+    worst,
+)
+from reports.campaign.plots import HELD_OUT, SHADES
+from reports.charts import dress, picture
+from reports.formats import number
+from reports.load import Json
+from reports.style import FAINT, INK
+
+WORST = 6
+"""Curves that are shown as pictures."""
+STYLES = {"before": (BEFORE, "--"), "after": (AFTER, "-")}
+
+
+def draw(page: Json) -> dict[str, bytes]:
+    """All pictures by name."""
+    out = {"waterfall": waterfall(page), "misfit": misfit(page)}
+    out |= {f"curve_{k}": curve(test, it) for k, (test, it) in enumerate(worst(page, WORST), 1)}
+    if page["isolability"] is not None:
+        out["isolability"] = isolability(page["isolability"])
+    return out
+
+
+def waterfall(page: Json) -> bytes:
+    """Error of every stage, fitted and held out."""
+    labels = stage_labels(page)
+    figure = Figure(figsize=(8.6, 1.3 + 0.62 * len(labels)))
+    ax = figure.subplots()
+    for shift, key, name, colour in (
+        (-0.18, "fit", "fitted tests", COLOURS["after"]),
+        (0.18, "holdout", "held-out tests", HELD_OUT),
+    ):
+        places = [(k + shift, stage[key]) for k, stage in enumerate(page["error"]) if stage[key] is not None]
+        if not places:
+            continue
+        ax.barh(
+            [place for place, _ in places],
+            [value for _, value in places],
+            height=0.32,
+            color=colour,
+            label=name,
+            hatch="//" if shift > 0 else "",
+            ec="w",
+        )
+        for y, value in places:
+            ax.text(value * 1.06, y, number(value, 3), va="center", fontsize=9, color=INK)
+    ax.set_xscale("log")
+    ax.set_xlim(0.3, 2.0 * max([3.0, *(stage["fit"] for stage in page["error"])]))
+    ax.axvline(1.0, color=INK, ls="--", lw=1)
+    ax.set_yticks(range(len(labels)), labels)
+    ax.invert_yaxis()
+    ax.set_xlabel("error, sigma (1 is noise)")
+    dress(ax)
+    ax.legend(frameon=False, loc="lower right")
+    return picture(figure)
+
+
+def misfit(page: Json) -> bytes:
+    """Tests by channels before and after."""
+    names, tests = channels(page), by_role(page)
+    figure = Figure(figsize=(2.6 + 0.72 * len(names), 1.6 + 0.27 * len(tests)))
+    axes = figure.subplots(1, 2, sharey=True, gridspec_kw={"wspace": 0.04})
+    grids = [_grid(tests, names, key) for key in ("rms_before", "rms_after")]
+    top = max([1.0, *(float(np.nanmax(grid, initial=1.0)) for grid in grids)])
+    for ax, grid, title in zip(axes, grids, (f"before: {BEFORE}", f"after: {AFTER}"), strict=True):
+        image = ax.imshow(
+            np.log10(np.maximum(grid, 1e-3)), cmap=SHADES, vmin=0.0, vmax=np.log10(top) or 1.0, aspect="auto"
+        )
+        ax.set_title(title, fontsize=10, loc="left", color=INK)
+        ax.set_xticks(range(len(names)), [channel_label(name) for name in names], fontsize=8)
+        for (row, column), value in np.ndenumerate(grid):
+            if value >= 1.5:
+                dark = np.log10(value) > 0.5 * np.log10(top)
+                ax.text(
+                    column,
+                    row,
+                    number(float(value), 2),
+                    ha="center",
+                    va="center",
+                    fontsize=6.5,
+                    color="w" if dark else INK,
+                )
+    axes[0].set_yticks(range(len(tests)), [test_label(test) for test in tests], fontsize=8)
+    bar = figure.colorbar(image, ax=list(axes), fraction=0.02, pad=0.015)
+    bar.set_ticks(range(int(np.log10(top)) + 1), labels=[f"{10**k:g}" for k in range(int(np.log10(top)) + 1)])
+    bar.set_label("misfit, sigma")
+    return picture(figure)
+
+
+def curve(test: Json, it: Json) -> bytes:
+    """One channel of one test."""
+    figure = Figure(figsize=(8.2, 6.0))
+    upper, *lower = figure.subplots(
+        3, 1, sharex=True, gridspec_kw={"height_ratios": [2.6, 1, 1.2], "hspace": 0.12}
+    )
+    loads = _floats(test["loads"])
+    for key, (name, dash) in STYLES.items():
+        upper.plot(loads, _floats(it[key]), color=COLOURS[key], ls=dash, lw=1.6, label=name)
+    upper.errorbar(
+        loads,
+        _floats(it["measured"]),
+        _floats(it["sigma"]),
+        fmt="o",
+        ms=3.2,
+        color=INK,
+        capsize=2,
+        lw=0.9,
+        label="measured",
+    )
+    upper.set_ylabel(f"{channel_label(it['channel'])}, {unit_label(it['unit'])}")
+    upper.set_title(f"{test_label(test)}, q = {test['q_deg']:g}°", fontsize=10, loc="left", color=INK)
+    upper.legend(frameon=False, fontsize=8)
+    for ax, (key, (_, dash)) in zip(lower, STYLES.items(), strict=True):
+        ax.axhspan(-BAND, BAND, color=FAINT, alpha=0.18, lw=0)
+        ax.plot(loads, _floats(it[f"left_{key}"]), color=COLOURS[key], ls=dash, marker="o", ms=3, lw=0.9)
+        ax.set_ylabel(f"left {key},\nsigma", fontsize=9)
+    for ax in (upper, *lower):
+        dress(ax)
+    lower[-1].set_xlabel(
+        f"{channel_label(test['load'])}, {unit_label(test['load_unit'])}, what drives the test"
+    )
+    return picture(figure)
+
+
+def isolability(found: Json) -> bytes:
+    """How alike effects look."""
+    names = found["effects"]
+    figure = Figure(figsize=(2.6 + 0.42 * len(names), 2.2 + 0.34 * len(names)))
+    ax: Axes = figure.subplots()
+    grid = np.array([_floats(row) for row in found["correlation"]])
+    image = ax.imshow(grid, cmap=SHADES, vmin=0.0, vmax=1.0, aspect="auto")
+    for (row, column), value in np.ndenumerate(grid):
+        if value >= 0.9 and row != column:
+            ax.text(
+                column,
+                row,
+                f"{value:.3f}"[1:] if value < 0.9995 else "1",
+                ha="center",
+                va="center",
+                fontsize=6,
+                color="w",
+            )
+    ax.set_xticks(range(len(names)), names, rotation=60, ha="right", fontsize=8)
+    ax.set_yticks(range(len(names)), names, fontsize=8)
+    ax.set_xlabel("could be taken for this effect")
+    figure.colorbar(image, ax=ax, fraction=0.03, pad=0.02).set_label("correlation")
+    return picture(figure)
+
+
+def _grid(tests: Sequence[Json], names: Sequence[str], key: str) -> np.ndarray:
+    by_channel = [{it["channel"]: it[key] for it in test["curves"]} for test in tests]
+    return np.array([_floats([found.get(name) for name in names]) for found in by_channel])
+
+
+def _floats(values: Sequence[float | None]) -> np.ndarray:
+    return np.array([np.nan if value is None else value for value in values], dtype=float)

@@ -1,0 +1,99 @@
+"""campaign.toml with kind = "manipulator": what it makes, the way there and back, and its complaints."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from pipeline.campaign import BadCampaign, read, write
+from pipeline.campaign.reading import DESCRIPTION, MEASUREMENTS
+from pipeline.errors import InputError
+from pipeline.inference.model import Model
+from pipeline.inference.model_file import ModelFile, write_model
+from pipeline.inference.model_reading import read_model
+from pipeline.manipulator.description import SHIPPED
+from tests.pipeline.campaign.example import CSV, TOML
+from tests.pipeline.inference import manipulators
+from vjm.effects import catalogue
+
+Change = Callable[[str], str]
+
+
+@pytest.fixture
+def folder(tmp_path: Path) -> Path:
+    write(tmp_path / "c", manipulators.campaign(weight=40.0))
+    return tmp_path / "c"
+
+
+def test_there_and_back(folder: Path) -> None:
+    before, after = manipulators.campaign(weight=40.0), read(folder)
+    assert after.rig.kind == "manipulator" and after.rig.file == "orthoglide"
+    assert after.rig.manipulator is not None and after.rig.length == 310.0
+    assert after.rig.platform_weight == 40.0
+    for one, other in zip(before.tests, after.tests, strict=True):
+        assert (one.id, one.control, one.rig.point) == (other.id, other.control, other.rig.point)
+        np.testing.assert_array_equal(one.data.displacement, other.data.displacement)
+    # Tests at one point share their rig, so that they are solved together.
+    assert after.tests[0].rig is after.tests[1].rig is not after.tests[2].rig
+
+
+def test_a_file_beside_the_campaign_goes_first(folder: Path) -> None:
+    text = (SHIPPED / "orthoglide.toml").read_text(encoding="utf-8")
+    (folder / "mine.toml").write_text(text.replace('name = "Orthoglide"', 'name = "mine"'), encoding="utf-8")
+    described = folder / DESCRIPTION
+    described.write_text(described.read_text().replace('"orthoglide"', '"mine.toml"'))
+    found = read(folder).rig.manipulator
+    assert found is not None and found.name == "mine"
+
+
+def swapped(old: str, new: str) -> Change:
+    def change(text: str) -> str:
+        assert old in text
+        return text.replace(old, new, 1)
+
+    return change
+
+
+BAD: dict[str, tuple[Change, str]] = {
+    "file": (swapped('"orthoglide"', '"orthoglid"'), "rig.file: orthoglid: No such file or directory"),
+    "no file": (swapped('file = "orthoglide"\n', ""), "rig, file: is missing"),
+    "key": (swapped("file =", "length_mm = 3.0\nfile ="), "rig, length_mm: is not a key of this table"),
+    "weight": (swapped("gravity = [0.0, 0.0, -2.0]\n", ""), "a weight is given without its direction"),
+    "no place": (swapped("at_mm = [0.0, 0.0, 0.0]\n", ""), "test 'free_0': at_mm is missing"),
+    "out of reach": (swapped("[50.0, -40.0, 60.0]", "[50.0, -40.0, 360.0]"), "does not reach this pose"),
+    "angle": (swapped('role = "fit"', 'role = "fit"\nq_deg = 3.0'), "a manipulator has at_mm instead"),
+    "own rig": (swapped('role = "fit"', 'role = "fit"\nrig = { file = "x" }'), "differ in at_mm only"),
+    "gauge": (
+        swapped("[[tests]]", '[[gauges]]\nname = "g"\nstation = 0.5\ndirection = "y"\n\n[[tests]]'),
+        "campaigns have no gauges yet",
+    ),
+}
+
+
+@pytest.mark.parametrize("name", BAD)
+def test_complaints_name_the_place(name: str, folder: Path) -> None:
+    change, said = BAD[name]
+    path = folder / DESCRIPTION
+    path.write_text(change(path.read_text(encoding="utf-8")), encoding="utf-8")
+    with pytest.raises(BadCampaign) as caught:
+        read(folder)
+    assert said.split(": ")[-1] in str(caught.value), str(caught.value)
+    assert DESCRIPTION in str(caught.value)
+
+
+def test_a_parallelogram_has_no_point(tmp_path: Path) -> None:
+    (tmp_path / DESCRIPTION).write_text(TOML.replace("q_deg = 30.0", "q_deg = 30.0\nat_mm = [0.0, 0.0, 0.0]"))
+    (tmp_path / MEASUREMENTS).write_text(CSV)
+    with pytest.raises(BadCampaign, match="at_mm is given, allowed only with kind"):
+        read(tmp_path)
+
+
+def test_a_saved_model_of_a_manipulator_is_that_of_its_parallelograms(tmp_path: Path) -> None:
+    model = Model().with_effects([catalogue()["axis_flexibility"]])
+    write_model(tmp_path / "model.toml", ModelFile(model))
+    assert read_model(tmp_path / "model.toml", kind="manipulator").names == ("axis_flexibility",)
+    with pytest.raises(InputError, match="needs a rig of kind parallelogram, not bar"):
+        read_model(tmp_path / "model.toml", kind="bar")

@@ -1,0 +1,138 @@
+"""Campaigns on a manipulator: readings are its equilibria, derivatives are differences, LIN and FEA are F = K t."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from pipeline.campaign import Campaign
+from pipeline.inference import manipulator_prediction
+from pipeline.inference.frame_prediction import predict_frame
+from pipeline.inference.linear_prediction import predict_linear
+from pipeline.inference.model import Model, Term
+from pipeline.inference.prediction import predict
+from pipeline.inference.program import Program, program
+from pipeline.manipulator.table import vjm_stiffness
+from tests.pipeline.inference import manipulators
+from tests.pipeline.inference.manipulators import LOADS, POINTS, STEPS, WAY
+from vjm.effects import catalogue
+from vjm.manipulator.equilibrium import equilibrium
+from vjm.manipulator.lagrangian import system
+from vjm.manipulator.posture import postures
+
+KNOWN = catalogue()
+SCALE = np.array([1e-3, 1e-3, 1e-3, 1e-5, 1e-5, 1e-5, 1.0, 1.0, 1.0, 50.0, 50.0, 50.0])
+"""About the noise of each channel."""
+
+
+@pytest.fixture(scope="module")
+def small() -> Campaign:
+    return manipulators.campaign()
+
+
+@pytest.fixture(scope="module")
+def cases(small: Campaign) -> Program:
+    return program(small)
+
+
+def model(**values: dict[str, float]) -> Model:
+    return Model(tuple(Term(KNOWN[name], own) for name, own in values.items()))
+
+
+def test_tests_of_one_posture_are_a_group(cases: Program) -> None:
+    assert [group.numbers.tolist() for group in cases.groups] == [[0, 1], [2]]
+    np.testing.assert_array_equal(cases.groups[1].nominal[0, 0], [*POINTS[1], 0.0, 0.0, 0.0])
+
+
+def test_readings_are_the_equilibria_of_the_manipulator(small: Campaign, cases: Program) -> None:
+    """Loads read are true moments, those of the bare solver conjugate to the rotation vector: at 1 mrad and 3 N·m they
+    differ by 1.5 N·mm at most."""
+    found = predict(Model(), cases)
+    assert not found.lost.any()
+    whole = small.rig.manipulator
+    assert whole is not None
+    for rows, point in ((slice(0, 4), POINTS[0]), (slice(8, 12), POINTS[1])):
+        at = postures(whole, np.tile(point, (STEPS.size, 1)))
+        state = equilibrium(system(whole, at), STEPS[:, None] * LOADS)
+        moved = state.pose - at.pose
+        np.testing.assert_allclose(found.values[rows, :6] / SCALE[:6], moved / SCALE[:6], atol=2e-2)
+        np.testing.assert_allclose(found.values[rows, 6:], STEPS[:, None] * LOADS, atol=1e-6)
+    sliding = found.values[4:8]
+    np.testing.assert_allclose(sliding[:, [0, 5]], STEPS[:, None] * WAY[[0, 5]], atol=1e-12)
+    np.testing.assert_allclose(sliding[:, 7:11], STEPS[:, None] * LOADS[1:5], atol=1e-6)
+
+
+def test_derivatives_by_what_is_prescribed_are_differences(cases: Program) -> None:
+    """Steps of a noise each: the curvature over one is a millionth of the slope."""
+    plain = predict(Model(), cases)
+    for k in range(6):
+        shift = np.zeros_like(plain.shift)
+        size = np.where(cases.channels[:, k] < 6, SCALE[k], SCALE[6 + k])
+        shift[:, k] = size
+        ends = [predict(Model(), cases, shift=sign * shift).values for sign in (1.0, -1.0)]
+        slope = (ends[0] - ends[1]) / (2.0 * size[:, None])
+        gap = (slope - plain.by_inputs[..., k]) * size[:, None] / SCALE
+        assert np.max(np.abs(gap)) < 1e-4
+
+
+@pytest.mark.parametrize("name", ["modulus_error", "base_compliance", "load_offset"])
+def test_derivatives_by_numbers_are_differences(cases: Program, name: str) -> None:
+    effect = KNOWN[name]
+    first = effect.parameters[0]
+    one = model(**{name: effect.typicals})
+    found = predict(one, cases)
+    step = 0.01 * first.typical
+    ends = [
+        predict(
+            model(**{name: effect.typicals | {first.name: first.null + first.typical + side}}), cases
+        ).values
+        for side in (step, -step)
+    ]
+    slope = (ends[0] - ends[1]) / (2.0 * step)
+    gap = np.abs(slope - found.by_free[..., 0]) * first.typical / SCALE
+    assert np.max(np.abs(slope)) > 0.0 and np.max(gap) < 1e-3 * max(
+        1.0, np.max(np.abs(slope) * first.typical / SCALE)
+    )
+
+
+def test_effects_reach_the_whole_manipulator(cases: Program) -> None:
+    """Softer bars let the platform move more, in every direction that is loaded."""
+    plain = predict(Model(), cases, slopes=False).values
+    soft = predict(model(modulus_error={"scale": 0.7}), cases, slopes=False).values
+    assert np.all(np.abs(soft[:4, :6]) > np.abs(plain[:4, :6]))
+
+
+def test_friction_remembers_the_steps_before(cases: Program) -> None:
+    """The last step comes after a reversal: alone it would read otherwise."""
+    rough = model(joint_friction={"torque_Nmm": 50.0, "presliding_rad": 1e-5})
+    whole = predict(rough, cases, slopes=False)
+    assert not whole.lost.any()
+    alone = predict(rough, cases.only(np.array([3])), slopes=False)
+    assert np.max(np.abs(whole.values[3, :6] - alone.values[0, :6]) / SCALE[:6]) > 0.1
+
+
+def test_states_and_blocks_change_nothing(cases: Program, monkeypatch: pytest.MonkeyPatch) -> None:
+    whole = predict(model(modulus_error={"scale": 0.9}), cases)
+    again = predict(model(modulus_error={"scale": 0.9}), cases, start=whole)
+    np.testing.assert_allclose(again.values / SCALE, whole.values / SCALE, atol=1e-6)
+    monkeypatch.setattr(manipulator_prediction, "TOGETHER", 3)
+    parts = predict(model(modulus_error={"scale": 0.9}), cases)
+    np.testing.assert_allclose(parts.values / SCALE, whole.values / SCALE, atol=1e-6)
+
+
+def test_lin_and_fea_are_a_constant_stiffness_under_a_known_weight() -> None:
+    """What is read obeys F + W = K t, K that at rest of springs; the frame has the same K to rounding."""
+    weighted = program(manipulators.campaign(weight=40.0))
+    lin = predict_linear(weighted)
+    fea = predict_frame(weighted, lin)
+    np.testing.assert_allclose(fea.values / SCALE, lin.values / SCALE, atol=1e-6)
+    whole = weighted.campaign.rig.manipulator
+    assert whole is not None
+    for rows, point in ((slice(0, 8), POINTS[0]), (slice(8, 12), POINTS[1])):
+        k = vjm_stiffness(whole, point)
+        carried = lin.values[rows, 6:] + np.array([0.0, 0.0, -40.0, 0.0, 0.0, 0.0])
+        np.testing.assert_allclose((lin.values[rows, :6] @ k) / SCALE[6:], carried / SCALE[6:], atol=1e-6)
+    np.testing.assert_allclose(lin.values[4:8, 0], STEPS * WAY[0], atol=1e-12)
+    springs = predict(Model(), weighted, slopes=False)
+    # Loads of a hundredth of what buckles a leg: springs that know their geometry differ by a per cent.
+    np.testing.assert_allclose(springs.values[:, :6], lin.values[:, :6], rtol=0.03, atol=2e-4)

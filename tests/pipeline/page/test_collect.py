@@ -1,0 +1,131 @@
+"""What a page shows is what the other commands say, and nothing is written where it must not be."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import cache
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from pipeline.add.fitting import add
+from pipeline.answer import Answer, Candidate
+from pipeline.campaign import write
+from pipeline.compare.error import Discrepancy
+from pipeline.errors import InputError
+from pipeline.inference.model import Model
+from pipeline.inference.prediction import predict
+from pipeline.inference.program import program
+from pipeline.inference.suitable import known_effects
+from pipeline.page.collect import Subject, collect, proposed
+from pipeline.page.command import report_campaign
+from pipeline.page.record import Page
+from pipeline.page.words import why
+from tests.conftest import Done
+from tests.pipeline.bench import bench
+
+EFFECTS = ("bar_geometric_nonlinearity", "modulus_error")
+
+
+@cache
+def softened() -> tuple[Answer, Model]:
+    known = known_effects().effects
+    found = add(bench("modulus_error.scale", 0.95), Model(), [known[name] for name in EFFECTS])
+    return found.answer, found.model
+
+
+@cache
+def page() -> Page:
+    _, model = softened()
+    return collect(Subject(bench("modulus_error.scale", 0.95), model, known_effects(), {}))
+
+
+def test_the_stages_end_at_the_errors_that_add_says() -> None:
+    """Apart from inputs that are linearised once more here, which moves chi-square by a part in a thousand."""
+    answer, _ = softened()
+    first, middle, last = page().error
+    assert first.effects == () and middle.effects == EFFECTS[:1] and last.effects == EFFECTS
+    assert first.fit > middle.fit > last.fit
+    assert last.fit == pytest.approx(answer.error[-1].fit, rel=1e-3)
+    assert last.holdout == pytest.approx(answer.error[-1].holdout, rel=1e-2)
+    assert first.fit == pytest.approx(answer.error[0].fit, rel=1e-2)
+
+
+def test_curves_hold_what_was_measured_and_what_is_left() -> None:
+    campaign = bench("modulus_error.scale", 0.95)
+    cases = program(campaign)
+    plain = Discrepancy(cases, predict(Model(), cases, slopes=False))
+    for test, number in zip(page().tests, range(len(campaign.tests)), strict=True):
+        rows = np.flatnonzero(cases.test == number)
+        assert test.error_before == pytest.approx(plain.rms(cases.test == number), rel=0.02)
+        assert len(test.curves) == cases.predicted[rows].any(axis=0).sum()
+        for curve in test.curves:
+            left = np.subtract(curve.measured, curve.after) / np.array(curve.sigma)
+            # Seven digits of readings that are up to 1e5 sigmas large.
+            np.testing.assert_allclose(left, np.array(curve.left_after, dtype=float), atol=0.02)
+            assert curve.rms_after == pytest.approx(np.sqrt(np.mean(np.square(curve.left_after))))
+
+
+def test_the_page_survives_json_and_says_what_was_held_out() -> None:
+    text = page().model_dump_json()
+    assert Page.model_validate_json(text) == page()
+    assert [t.test for t in page().tests if t.role == "holdout"] == ["axial_held_q+15"]
+    assert any("axial_held_q+15" in said for said in page().assumptions)
+    assert any("modulus_error" in said for said in page().sources)
+    assert page().headline.startswith("within_noise: ")
+
+
+def test_an_answer_brings_its_model_and_its_words() -> None:
+    answer, model = softened()
+    tried = (
+        Candidate(effect="modulus_error", fit=0.98, evidence=0.0),
+        Candidate(effect="load_offset", screen=9.0),
+    )
+    told = answer.model_copy(update={"candidates": tried, "verdict": "identified"})
+    assert proposed(Model(), told, known_effects()).values.tolist() == model.values.tolist()
+    found = collect(Subject(bench("modulus_error.scale", 0.95), Model(), known_effects(), {}, told))
+    assert found.proposed == EFFECTS and found.headline == answer.sentences[0]
+    assert found.candidates[0].chosen and found.candidates[0].why == "chosen"
+    assert "explains too little: 9 sigma" in found.candidates[1].why
+
+
+@pytest.mark.parametrize(
+    ("candidate", "said"),
+    [
+        (Candidate(effect="load_offset", fit=1.5, evidence=80.0), "BIC 80 behind: excluded"),
+        (Candidate(effect="load_offset", fit=0.99, evidence=4.0), "BIC 4 behind: not needed"),
+        (Candidate(effect="base_compliance", fit=0.98, evidence=1.0), "fits as well"),
+        (Candidate(effect="load_offset"), "does not show"),
+    ],
+)
+def test_each_loser_has_its_reason(candidate: Candidate, said: str) -> None:
+    answer = softened()[0].model_copy(update={"alternatives": (("base_compliance",),)})
+    assert said in why(candidate, answer)
+
+
+def test_a_report_inside_the_campaign_is_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    write(tmp_path / "bench", bench())
+    monkeypatch.chdir(tmp_path)
+    for inside in (Path("bench"), Path("bench/report"), Path("bench/../bench/a/b"), tmp_path / "bench"):
+        with pytest.raises(InputError, match="is inside the campaign"):
+            report_campaign(Path("bench"), inside)
+    assert sorted(p.name for p in (tmp_path / "bench").iterdir()) == ["campaign.toml", "measurements.csv"]
+
+
+def test_report_from_the_command_line(pipeline_command: Callable[..., Done], tmp_path: Path) -> None:
+    """Of a campaign, of what was saved, with the same bytes; an answer about another campaign is refused."""
+    folder = tmp_path / "bench"
+    write(folder, bench())
+    before = {p.name: p.read_bytes() for p in folder.iterdir()}
+    done = pipeline_command("report", "bench", cwd=tmp_path)
+    out = tmp_path / "results" / "small"
+    assert done.code == 0 and done.out == "report: results/small/index.html\n", done.err
+    drawn = {p: p.read_bytes() for p in out.rglob("*") if p.is_file()}
+    assert {p.name for p in drawn} >= {"page.json", "index.html", "report.md", "waterfall.png", "misfit.png"}
+    done = pipeline_command("report", "results/small", "--quiet", cwd=tmp_path)
+    assert done.code == 0 and {p: p.read_bytes() for p in drawn} == drawn
+    assert {p.name: p.read_bytes() for p in folder.iterdir()} == before
+    (tmp_path / "other.json").write_text(softened()[0].model_copy(update={"campaign": "other"}).text())
+    done = pipeline_command("report", "bench", "--answer", "other.json", cwd=tmp_path)
+    assert done.code == 2 and "is about the campaign 'other', allowed is one about 'small'" in done.err

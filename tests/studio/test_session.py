@@ -1,0 +1,163 @@
+"""The studio without a browser: the same models and sentences as on the command line, and nothing is lost."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from time import monotonic, sleep
+
+import pytest
+
+from pipeline.add.command import add_effects
+from pipeline.campaign import write
+from pipeline.errors import InputError
+from pipeline.inference.model_reading import read_model_file
+from pipeline.page.command import report_campaign
+from pipeline.studio.session import Session
+from tests.conftest import Done
+from tests.pipeline.bench import bench
+
+PATIENCE = 120.0
+"""Seconds; two cores are shared."""
+
+
+@pytest.fixture(scope="module")
+def session() -> Iterator[Session]:
+    it = Session()
+    yield it
+    it.close()
+
+
+@pytest.fixture
+def folder(tmp_path: Path) -> Path:
+    write(tmp_path / "bench", bench("modulus_error.scale", 0.95))
+    return tmp_path / "bench"
+
+
+def until(session: Session, done: Callable[[Session], bool]) -> None:
+    end = monotonic() + PATIENCE
+    while not done(session):
+        assert monotonic() < end, (session.busy, session.complaint, session.remark)
+        sleep(0.02)
+        session.poll()
+
+
+def idle(session: Session) -> bool:
+    return session.busy is None
+
+
+def opened(session: Session, folder: Path) -> Session:
+    session.open(folder)
+    until(session, idle)
+    return session
+
+
+def test_add_remove_and_save_are_those_of_the_command_line(
+    session: Session, folder: Path, tmp_path: Path
+) -> None:
+    it = opened(session, folder)
+    assert it.page is not None and it.page.effects == () and not it.dirty and not it.complaint
+    plain = it.page.error[0].fit
+    it.add(["bar_geometric_nonlinearity", "load_offset"])
+    until(it, idle)
+    it.remove("load_offset")
+    until(it, idle)
+    it.add(["modulus_error"])
+    until(it, idle)
+    assert it.page.effects == ("bar_geometric_nonlinearity", "modulus_error") and it.dirty
+    assert it.page.error[-1].fit < 1.2 < plain and it.page.verdict == "within_noise"
+    assert sorted(p.name for p in folder.iterdir()) == ["campaign.toml", "measurements.csv"]
+    it.save()
+    assert not it.dirty and it.remark == f"saved: {folder / 'model.toml'}"
+    saved = read_model_file(folder / "model.toml")
+    write(tmp_path / "other", bench("modulus_error.scale", 0.95))
+    add_effects(tmp_path / "other", saved.model.names, quiet=True)
+    other = read_model_file(tmp_path / "other" / "model.toml")
+    # Both end where no step promises a thousandth of chi-square, from different sides.
+    std = other.uncertainty["modulus_error.scale"].std
+    assert std is not None and abs(saved.model.values[0] - other.model.values[0]) < 0.1 * std
+    it.export(tmp_path / "out")
+    until(it, idle)
+    assert it.remark == f"report: {tmp_path / 'out' / 'index.html'}"
+    assert json.loads((tmp_path / "out" / "page.json").read_text())["effects"] == list(saved.model.names)
+
+
+def test_a_complaint_is_the_sentence_of_the_command_line(
+    session: Session, folder: Path, tmp_path: Path
+) -> None:
+    text = (folder / "campaign.toml").read_text()
+    (folder / "campaign.toml").write_text(text.replace("length_mm", "lenght_mm", 1))
+    with pytest.raises(InputError) as caught:
+        report_campaign(folder, tmp_path / "out")
+    it = opened(session, folder)
+    assert it.complaint == str(caught.value) and "lenght_mm" in it.complaint
+    assert opened(session, tmp_path / "nowhere").complaint.startswith(
+        f"{tmp_path / 'nowhere'}: does not exist"
+    )
+
+
+def test_a_campaign_that_is_edited_is_read_again_and_the_work_is_kept(session: Session, folder: Path) -> None:
+    it = opened(session, folder)
+    it.add(["bar_geometric_nonlinearity"])
+    until(it, idle)
+    whole = (folder / "measurements.csv").read_text()
+    (folder / "measurements.csv").write_text(whole + "nonsense\n")
+    until(it, lambda s: bool(s.complaint))
+    assert "measurements.csv" in it.complaint and it.page is not None
+    assert it.page.effects == ("bar_geometric_nonlinearity",)
+    text = (folder / "campaign.toml").read_text()
+    (folder / "measurements.csv").write_text(whole)
+    (folder / "campaign.toml").write_text(text.replace('name = "small"', 'name = "renamed"'))
+    until(it, lambda s: s.busy is None and s.page is not None and s.page.campaign == "renamed")
+    assert it.page.effects == ("bar_geometric_nonlinearity",) and it.dirty and not it.complaint
+
+
+def test_two_studios_do_not_overwrite_each_other_unsaid(session: Session, folder: Path) -> None:
+    other = Session()
+    try:
+        for it, name in ((session, "bar_geometric_nonlinearity"), (other, "load_offset")):
+            opened(it, folder).add([name])
+            until(it, idle)
+        other.save()
+        kept = (folder / "model.toml").read_bytes()
+        session.save()
+        assert "was changed since it was read" in session.complaint
+        assert (folder / "model.toml").read_bytes() == kept and session.dirty
+        session.save()
+        assert read_model_file(folder / "model.toml").model.names == ("bar_geometric_nonlinearity",)
+    finally:
+        other.close()
+
+
+def test_a_cancelled_diagnosis_changes_nothing_and_the_next_task_works(
+    session: Session, folder: Path
+) -> None:
+    it = opened(session, folder)
+    before = it.page
+    it.diagnose()
+    until(it, lambda s: ":" in s.progress)
+    it.add(["load_offset"])
+    assert "is not finished, allowed is to cancel it" in it.complaint
+    it.cancel()
+    assert it.busy is None and it.page is before and "cancelled" in it.remark
+    it.add(["load_offset"])
+    until(it, idle)
+    assert it.page is not None and it.page.effects == ("load_offset",)
+
+
+def test_a_process_that_dies_is_said_and_replaced(session: Session, folder: Path) -> None:
+    it = opened(session, folder)
+    it.diagnose()
+    until(it, lambda s: ":" in s.progress)
+    it._worker._process.kill()
+    until(it, idle)
+    assert "has ended" in it.complaint
+    assert opened(it, folder).page is not None and not it.complaint
+
+
+def test_the_command_line_refuses_what_the_page_would(
+    pipeline_command: Callable[..., Done], tmp_path: Path
+) -> None:
+    done = pipeline_command("studio", "nowhere", "--no-browser", cwd=tmp_path)
+    assert done.code == 2 and done.err.startswith("error: nowhere: does not exist, allowed is a folder with")

@@ -1,0 +1,90 @@
+"""Physical effects on a whole manipulator: each parallelogram has them as it would on the bench.
+
+What an effect does to bars and hinges it does to every parallelogram of every leg; what happens between the base and
+the ground, or at the sensors, happens once, at the base frame and at the platform point.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from vjm.effects.base import Effect, Values
+from vjm.frames import exp
+from vjm.manipulator.parts import AsBuilt, Frame, Leg, Manipulator, Parallelogram, Part
+from vjm.mechanisms.assembly import Alteration, as_built
+from vjm.mechanisms.parallelogram import Parallelogram as Bench
+
+
+def with_effect(manipulator: Manipulator, effect: Effect, values: Values) -> Manipulator:
+    """The manipulator with the effect; itself where all values are null.
+
+    values: by parameter name, complete. Drives and inverse kinematics still go by the drawing. ValueError for a
+    manipulator without a parallelogram, and for an effect that it cannot have.
+    """
+    rig = bench(manipulator)
+    if effect.absent(values):
+        return manipulator
+    changed = effect.apply(rig, values)
+    if not isinstance(changed, Bench):
+        raise ValueError(f"{effect.name} makes something else of a parallelogram")
+    return like_bench(manipulator, changed)
+
+
+def linkages(manipulator: Manipulator) -> list[Parallelogram]:
+    """Its parallelograms, leg after leg."""
+    return [part for leg in manipulator.legs for part in leg.parts if isinstance(part, Parallelogram)]
+
+
+def like_bench(manipulator: Manipulator, rig: Bench) -> Manipulator:
+    """The manipulator with what has been made of its `bench`, done to every parallelogram."""
+    first = bench(manipulator)
+    more = rig.alterations[len(first.alterations) :]
+    turned = exp(rig.mount) @ exp(manipulator.mount).T
+    tilted = bool(np.any(rig.mount != manipulator.mount))
+
+    def changed(part: Part) -> Part:
+        if not isinstance(part, Parallelogram):
+            return part
+        drawn, model = part.as_built, rig.bar
+        if model is None or model is first.bar:
+            model = drawn.model
+        links = as_built(part.link, 2, (_as_it_is(drawn), *more))
+        return replace(part, bars="pair", built=AsBuilt(links, model, rig.hinges, rig.wider, rig.line_load))
+
+    legs = tuple(
+        Leg(leg.name, (*((Frame(rotation=turned),) if tilted else ()), *map(changed, leg.parts)))
+        for leg in manipulator.legs
+    )
+    return replace(manipulator, legs=legs, sensors=rig.sensors, mount=rig.mount)
+
+
+def bench(manipulator: Manipulator) -> Bench:
+    """The first parallelogram as a rig of the bench at q = 0, with what stands around it; effects act on that.
+
+    ValueError for a manipulator without a parallelogram.
+    """
+    parts = linkages(manipulator)
+    if not parts:
+        raise ValueError(f"effects need a parallelogram, {manipulator.name} has none")
+    part, built = parts[0], parts[0].as_built
+    return Bench(
+        part.length,
+        part.width,
+        part.bar_stiffness,
+        bar=built.model,
+        hinges=built.hinges,
+        alterations=(_as_it_is(built),),
+        wider=built.wider,
+        mount=manipulator.mount,
+        line_load=built.line_load,
+        gravity=manipulator.gravity,
+        sensors=manipulator.sensors,
+        fibre_y=part.fibre_y,
+        fibre_z=part.fibre_z,
+    )
+
+
+def _as_it_is(built: AsBuilt) -> Alteration:
+    return lambda number, _: built.links[number]
