@@ -72,7 +72,7 @@ def require_egl() -> None:
         ctypes.CDLL("libEGL.so.1")
     except OSError:
         raise ReportError(
-            "the shapes in modes/ cannot be drawn without libEGL.so.1; on Debian the package libegl1 has it"
+            "shapes in space cannot be drawn without libEGL.so.1; on Debian the package libegl1 has it"
         ) from None
     os.environ.setdefault("VTK_DEFAULT_OPENGL_WINDOW", "vtkEGLRenderWindow")
 

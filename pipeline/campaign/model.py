@@ -39,12 +39,12 @@ class UniformBar:
 class Rig:
     """What is on the bench: two bars of a parallelogram, or one bar, or a whole manipulator.
 
-    Of a bar one of `bar_stiffness` and `bar` is given. length: mm between the hinges. width: mm between the bars; None for a bar. bar_stiffness: (6, 6) of one bar
-    at its tip, base clamped, bar frame. base, tip: supports of a bar. gravity: direction in the base frame as it
-    was given, of any length; None where no weight is known. line_weight: N/mm along each bar. platform_weight: N.
-    reference_temperature: °C. fibre_y, fibre_z: mm from the bar's axis to its outermost fibres.
-    manipulator, file: a manipulator and the file that describes it; its length is then the characteristic one.
-    point: where its unloaded platform stands in a test, mm.
+    Of a bar one of `bar_stiffness` and `bar` is given. length: mm between the hinges. width: mm between the bars; None
+    for a bar. bar_stiffness: (6, 6) of one bar at its tip, base clamped, bar frame. base, tip: supports of a bar.
+    gravity: direction in the base frame as it was given, of any length; None where no weight is known. line_weight:
+    N/mm along each bar. platform_weight: N. reference_temperature: °C. fibre_y, fibre_z: mm from the bar's axis to its
+    outermost fibres. manipulator, file: a manipulator and the file that describes it; its length is then the
+    characteristic one. point: where its unloaded platform stands in a test, mm.
     """
 
     kind: Kind

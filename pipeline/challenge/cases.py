@@ -37,7 +37,7 @@ ROUND: tuple[Kind, ...] = (
 """Kinds of the cases of a round: of 600, 150 are clean."""
 ALWAYS = "bar_geometric_nonlinearity"
 """On every bench, so nothing that could be hidden."""
-SMALLEST, LARGEST = 0.03, 3.0
+SMALLEST, LARGEST = 0.05, 5.0
 """Sizes of what is hidden, in typical sizes."""
 STEPS = (8, 10, 12)
 

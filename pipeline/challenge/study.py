@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Hashable, Iterator, Sequence
 from pathlib import Path
 
 from pipeline import trials
@@ -15,7 +15,7 @@ Task = tuple[int, str]
 def run(numbers: Sequence[int], store: Path, workers: int) -> Iterator[Outcome]:
     """The outcomes of these cases, those in the store first. Numbers, not the order of work, decide what a case is."""
     here = commit()
-    wanted = {number: (number, here) for number in numbers}
+    wanted: dict[Hashable, Task] = {number: (number, here) for number in numbers}
     return trials.run(wanted, _one, Outcome, lambda it: it.number, store, workers)
 
 

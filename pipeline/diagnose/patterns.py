@@ -53,11 +53,25 @@ def scores(found: Fit) -> list[Pattern]:
         sizes, whole_sizes = np.linalg.norm(left, axis=0), np.linalg.norm(columns, axis=0)
         seen = sizes > FLAT * np.maximum(whole_sizes, 1e-300)
         for k in np.flatnonzero(seen):
-            score = float(left[:, k] @ residual / sizes[k])
+            score = _steady(left[:, k], residual)
             largest = float(np.abs(errors[..., k]).max())
             words = f"{column_name(channel, whole.campaign.gauges)} {named[k][0]}"
             out.append(Pattern(channel, words, score, score / float(sizes[k]) * largest))
     return sorted(out, key=lambda it: -abs(it.score))
+
+
+def _steady(column: Array, residual: Array) -> float:
+    """Sigmas by which a residual (N,) follows a column (N,), without the one reading that says most for it.
+
+    A faulty sensor shows in many readings; near a kink of the model a single one may be off by far.
+    """
+    parts, size = column * residual, float(column @ column)
+    total = float(parts.sum())
+    best = int(np.argmax(parts * np.sign(total)))
+    rest = size - float(column[best]) ** 2
+    whole = total / np.sqrt(size)
+    without = (total - float(parts[best])) / np.sqrt(rest) if rest > FLAT**2 * size else 0.0
+    return float(np.sign(total) * max(0.0, min(abs(whole), without * np.sign(total))))
 
 
 def _acting(found: Fit, channel: int, errors: Array) -> Array:

@@ -22,6 +22,9 @@ MOST = 5
 """Effects in a set."""
 ENOUGH = 24
 """Fits after which a search that has found nothing good goes on no further."""
+FAR, SLOW = 4.0, 0.7
+"""Sigmas from which an explanation is far from one; growth that leaves more than this part of chi-square is slow. What
+is far from explained and falls slowly is not explained by more effects: so it ends as unknown."""
 LEADERS = 7
 """Candidates of which pairs are looked at."""
 DOUBT, KINKED = 0.15, 0.6
@@ -91,8 +94,11 @@ def search(shelf: Shelf) -> Found:
         better = _pruned(shelf, _grown(shelf, best))
         if cost(shelf, better) >= cost(shelf, best):
             break
+        slow = shelf.fit(better).chi_square > SLOW * shelf.fit(best).chi_square
         best = better
-    return with_rivals(shelf, best)
+        if slow and shelf.fit(best).rms > FAR:
+            break
+    return Found(shelf, best, ()) if shelf.fit(best).rms > FAR else with_rivals(shelf, best)
 
 
 def _is_noise(shelf: Shelf, names: Names) -> bool:
@@ -152,6 +158,9 @@ def _doubt(shelf: Shelf, names: Names) -> float:
 def _grown(shelf: Shelf, start: Names) -> Names:
     """The best set with one effect more, or two; the same if none is better."""
     if len(start) >= MOST or len(shelf.fits) >= ENOUGH:
+        return start
+    here = shelf.fit(start)
+    if here.rms > FAR and _estimates(shelf, start, (1, 2))[0].cost > SLOW * here.chi_square:
         return start
     more = [start, *(e.names for k in (1, 2) for e in _competing(shelf, start, k)[:2])]
     return min(more, key=lambda names: cost(shelf, names))

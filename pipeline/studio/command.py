@@ -21,12 +21,15 @@ def studio(folder: Path | None, port: int, browser: bool, effects_from: Sequence
         if find_spec(name) is None:
             raise InputError(f"the studio needs the package {name}: make setup installs it")
     from pipeline.studio.view import Studio
+    from reports.errors import ReportError
 
     # The server reads the command line for options of its own, and would take an address from there.
     sys.argv = sys.argv[:1]
-    Studio(folder, tuple(Path(file).resolve() for file in effects_from)).serve(
-        port, lambda at: _ready(at, browser)
-    )
+    try:
+        page = Studio(folder, tuple(Path(file).resolve() for file in effects_from))
+    except ReportError as error:
+        raise InputError(str(error)) from error
+    page.serve(port, lambda at: _ready(at, browser))
 
 
 def _ready(port: int, browser: bool) -> None:

@@ -50,8 +50,9 @@ class Studio:
     def __init__(self, folder: Path | None, effects_from: tuple[Path, ...] = ()) -> None:
         self.server: Any = get_server("parastiff", client_type="vue3")
         self.state = self.server.state
-        self.session = Session(self._show, effects_from)
+        # First: where nothing can be drawn no process is started.
         self.scene = Scene()
+        self.session = Session(self._show, effects_from)
         self._shown: Page | None = None
         self._framed = ""
         self.state.trame__title = "parastiff studio"

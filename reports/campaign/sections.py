@@ -12,8 +12,8 @@ from reports.load import Json
 Pictures = Mapping[str, bytes]
 MAP = "misfit"
 """Name of the map; a click on it chooses the curve."""
-READINGS = 30_000
-"""Readings that the page draws, some 80 bytes each; of more steps some are left out."""
+READINGS = 20_000
+"""Readings that the page draws, some 110 bytes each; of more steps some are left out."""
 CAPTION = "Measured, plain virtual springs and the model; below, what each leaves in sigmas."
 
 
@@ -70,7 +70,7 @@ def curves(page: Json, pictures: Pictures) -> Section:
     readings = sum(len(test["steps"]) * len(test["curves"]) for test in page["tests"])
     stride = max(1, ceil(readings / READINGS))
     if stride > 1:
-        caption += f" Of so many steps each {stride}th is drawn; all are in page.json."
+        caption += f" Of so many steps one in {stride} is drawn; all are in page.json."
     plots_of = {
         (test_label(test), channel_label(it["channel"])): curve.figure(*curve.thinned(test, it, stride))
         for test in page["tests"]

@@ -2,20 +2,25 @@
 
 from __future__ import annotations
 
+import copy
 import json
 import re
+from collections import defaultdict
 from pathlib import Path
 from time import perf_counter
 from typing import Any
 
+import numpy as np
 import pytest
 
 from pipeline.inference.model import Model
 from pipeline.inference.suitable import known_effects
 from pipeline.page.collect import Subject, collect
 from pipeline.page.record import Isolability
-from reports.campaign import draw
+from reports.blocks import Explorer
+from reports.campaign import draw, sections
 from reports.errors import ReportError
+from reports.page import render
 from tests.pipeline.bench import bench
 from tests.reports.browser import NEEDS_BROWSER, browser, watched
 from tests.reports.test_validation import Page
@@ -114,6 +119,28 @@ def test_a_bad_file_is_one_sentence(tmp_path: Path, content: str | None, said: s
     with pytest.raises(ReportError, match=said) as caught:
         draw(tmp_path)
     assert "page.json" in str(caught.value) and not (tmp_path / "index.html").exists()
+
+
+def test_a_campaign_of_very_many_steps_is_thinned_and_says_so(record: dict[str, Any]) -> None:
+    """Ten times what may be drawn, all digits different as noise makes them."""
+    noise = np.random.default_rng(5)
+    long = copy.deepcopy(record)
+    count = 10 * sections.READINGS // sum(len(test["curves"]) for test in long["tests"])
+    for test in long["tests"]:
+        test["steps"], test["loads"] = list(range(count)), noise.standard_normal(count).round(6).tolist()
+        for it in test["curves"]:
+            fresh = {
+                key: noise.standard_normal(count).round(6).tolist()
+                for key, v in it.items()
+                if isinstance(v, list)
+            }
+            it.update(fresh)
+    made = sections.build(long, defaultdict(bytes))
+    text = render("long", made)
+    assert "one in 10 is drawn" in text and len(text.encode()) < 8e6
+    (explorer,) = [block for section in made for block in section.blocks if isinstance(block, Explorer)]
+    drawn = sum(len(plot["data"][0]["x"]) for plot in explorer.plots.values())
+    assert 0.9 * sections.READINGS < drawn < 1.1 * sections.READINGS
 
 
 @NEEDS_BROWSER

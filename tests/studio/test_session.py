@@ -14,6 +14,7 @@ from pipeline.campaign import write
 from pipeline.errors import InputError
 from pipeline.inference.model_reading import read_model_file
 from pipeline.page.command import report_campaign
+from pipeline.studio.command import studio
 from pipeline.studio.session import Session
 from tests.conftest import Done
 from tests.pipeline.bench import bench
@@ -161,3 +162,15 @@ def test_the_command_line_refuses_what_the_page_would(
 ) -> None:
     done = pipeline_command("studio", "nowhere", "--no-browser", cwd=tmp_path)
     assert done.code == 2 and done.err.startswith("error: nowhere: does not exist, allowed is a folder with")
+
+
+def test_without_libegl_the_package_is_named(monkeypatch: pytest.MonkeyPatch) -> None:
+    def missing(name: str) -> None:
+        raise OSError(name)
+
+    # The studio clears the command line for the server.
+    monkeypatch.setattr("sys.argv", ["pytest"])
+    monkeypatch.setattr("reports.shapes.ctypes.CDLL", missing)
+    monkeypatch.setattr("reports.shapes.sys.platform", "linux")
+    with pytest.raises(InputError, match="libegl1"):
+        studio(None, 0, browser=False)

@@ -91,20 +91,29 @@ def leg_stiffness(leg: Leg, coordinates: Array) -> tuple[Array, np.ndarray]:
     for part, moving, first in plan.linkages:
         spring[:, first : first + 5, first : first + 5] = pseudo_rigid_springs(part, coordinates[:, moving])
     theta, q = jacobian[..., plan.virtual], jacobian[..., plan.passive]
-    out, regular = np.zeros((count, 6, 6)), np.ones(count, dtype=bool)
+    # A leg that moves without load overflows here and is found out below.
+    with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
+        out, regular = _eliminated(theta, q, spring)
+    out[~regular] = 0.0
+    size = np.sqrt(np.abs(np.diagonal(out, axis1=-2, axis2=-1)))
+    unit = size[:, :, None] * size[:, None, :] + np.max(size, axis=-1)[:, None, None] ** 2 * 1e-9
+    gap = np.max(np.abs(out - np.swapaxes(out, -1, -2)) / np.maximum(unit, 1e-300), axis=(-2, -1))
+    regular &= gap < _ASYMMETRY
+    return 0.5 * (out + np.swapaxes(out, -1, -2)), regular
+
+
+def _eliminated(theta: Array, q: Array, spring: Array) -> tuple[Array, np.ndarray]:
+    """(B, 6, 6) without virtual and passive coordinates, and whether it is finite (B,); one by one if need be."""
+    out, regular = np.zeros((len(theta), 6, 6)), np.ones(len(theta), dtype=bool)
     try:
         out[:] = eliminate(theta, q, spring)
     except np.linalg.LinAlgError:
-        for k in range(count):
+        for k in range(len(theta)):
             try:
                 out[k] = eliminate(theta[k], q[k], spring[k])
             except np.linalg.LinAlgError:
                 regular[k] = False
-    size = np.sqrt(np.abs(np.diagonal(out, axis1=-2, axis2=-1)))
-    unit = size[:, :, None] * size[:, None, :] + np.max(size, axis=-1)[:, None, None] ** 2 * 1e-9
-    gap = np.max(np.abs(out - np.swapaxes(out, -1, -2)) / np.maximum(unit, 1e-300), axis=(-2, -1))
-    regular &= np.all(np.isfinite(out), axis=(-2, -1)) & (gap < _ASYMMETRY)
-    return 0.5 * (out + np.swapaxes(out, -1, -2)), regular
+    return out, regular & np.all(np.isfinite(out), axis=(-2, -1))
 
 
 def pseudo_rigid_springs(part: Parallelogram, q: Array) -> Array:

@@ -13,7 +13,7 @@ from pipeline.manipulator.sweep import RESULT
 from pipeline.manipulator.table_record import Table1
 from tests.pipeline.manipulator.test_description import OTHER
 
-SMALL = ("--points", "3,3,2", "--chunk", "5", "--low", "-40,-40,0", "--high", "40,40,0")
+SMALL = ("--no-pictures", "--points", "3,3,2", "--chunk", "5", "--low", "-40,-40,0", "--high", "40,40,0")
 
 
 def output(*arguments: str, code: int = 0) -> str:
@@ -91,7 +91,8 @@ def test_another_wrench_or_effect_is_another_sweep(tmp_path: Path) -> None:
     flat = ("--out", str(tmp_path), "--points", "1", "--low", "0,0,0", "--high", "0,0,0", "--no-pictures")
     text = output("sweep", *flat, "--effect", "modulus_error=0.8", "--wrench", "100,0,0")
     assert "error of the lowest K_tran by the effect" in text and "displacement under the wrench" in text
-    for changed in (("--effect", "modulus_error=0.7"), ("--wrench", "100,1,0"), ()):
+    softer, pushed = ("--effect", "modulus_error=0.8"), ("--wrench", "100,0,0")
+    for changed in ((*softer, "--wrench", "100,1,0"), ("--effect", "modulus_error=0.7", *pushed), pushed):
         assert "is of another sweep" in output("sweep", *flat, *changed, code=2)
 
 

@@ -12,12 +12,13 @@ import pytest
 
 from pipeline.errors import InputError
 from pipeline.executors import Serial, executor
-from pipeline.manipulator.description import Description, read
+from pipeline.manipulator.description import Description, describe, read
 from pipeline.manipulator.grid import Grid
 from pipeline.manipulator.mapping import coarse, critical_at, critical_map
-from pipeline.manipulator.question import FOUND, REST, UNREACHED
+from pipeline.manipulator.question import FOUND, REST, SINGULAR, UNREACHED
 from pipeline.manipulator.sweep import HEAD, RESULT, sweep
 from pipeline.manipulator.table import measured, vjm_stiffness
+from tests.pipeline.manipulator.test_description import OTHER
 
 GRID = Grid((-60.0, -60.0, -60.0), (60.0, 60.0, 60.0), (4, 4, 3))
 
@@ -97,6 +98,14 @@ def test_points_out_of_reach_are_marked(orthoglide: Description, tmp_path: Path)
     done = sweep(orthoglide, Grid((0.0, 0.0, 0.0), (0.0, 0.0, 320.0), (1, 1, 3)), tmp_path, Serial())
     assert done.values[:, 3].tolist() == [FOUND, FOUND, UNREACHED]
     assert not done.values[2, 4:].any()
+
+
+def test_an_arm_that_moves_without_load_is_marked(tmp_path: Path) -> None:
+    """Without a warning, too: a leg of one spring leaves five motions free."""
+    arm = describe(OTHER, "other.toml")
+    done = sweep(arm, Grid((0.0, 0.0, 50.0), (100.0, 0.0, 50.0), (2, 1, 1)), tmp_path, Serial())
+    assert done.values[:, 3].tolist() == [UNREACHED, SINGULAR]
+    assert not done.values[:, 4:].any()
 
 
 def test_critical_forces_between_nodes(orthoglide: Description) -> None:

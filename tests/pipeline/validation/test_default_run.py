@@ -70,6 +70,14 @@ def test_second_run_reuses_everything_and_gives_the_same(clean_run: CleanRun) ->
     assert sum(quick.values()) - quick.get("report", 0.0) < 0.1 * sum(slow.values())
 
 
+def test_table_1_stands_in_result_story_and_report(result: Result, clean_run: CleanRun) -> None:
+    (table,) = result.orthoglide
+    assert (len(table.unknowns), table.fitted, table.predicted) == (3, 3, 7)
+    assert sum("7 cells are predicted" in sentence for sentence in result.story) == 1
+    text = (clean_run.out / "report.md").read_text(encoding="utf-8")
+    assert "Whole Orthoglide (Table 1)" in text and text.count("| predicted |") == 7
+
+
 def test_solid_bar_meets_the_paper(result: Result) -> None:
     assert result.bar.worst_entry_error is not None and result.bar.worst_entry_error < 0.03
     limit = eight_entries(np.array(result.bar.convergence.extrapolated))
