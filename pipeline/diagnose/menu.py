@@ -91,6 +91,9 @@ def _shapes(campaign: Campaign) -> tuple[Shape, ...]:
     if campaign.rig.tip == "free":
         return FREE_BAR
     control = next(t.control for t in campaign.tests)
+    if set(control) - {_D, _F, SUPPORT}:
+        # What drives a gauge is on no menu: how far it may go is not known from forces.
+        return ()
     return (replace(HELD_BAR[0], control=control),)
 
 

@@ -73,6 +73,8 @@ class _Share:
 def best_next_test(fits: Sequence[Fit], whole: Program) -> NextTest | None:
     """The best of the menu; two together where no single one parts all; None if nothing parts any."""
     choices = menu(whole.campaign)
+    if not choices:
+        return None
     cases = program(replace(whole.campaign, tests=tuple(c.test for c in choices)))
     seen = [_foreseen(found, cases) for found in fits]
     pairs = [(k, n) for n in range(len(seen)) for k in range(n)]

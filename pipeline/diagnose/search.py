@@ -22,6 +22,9 @@ MOST = 5
 """Effects in a set."""
 ENOUGH = 24
 """Fits after which a search that has found nothing good goes on no further."""
+FEW, NEARLY, BEAM = 60, 0.9, 6
+"""Rows up to which a fit costs so little that every rival is fitted that promises a tenth of what it stands for, and
+the sets that are grown side by side."""
 FAR, SLOW = 4.0, 0.7
 """Sigmas from which an explanation is far from one; growth that leaves more than this part of chi-square is slow. What
 is far from explained and falls slowly is not explained by more effects: so it ends as unknown."""
@@ -89,6 +92,10 @@ def search(shelf: Shelf) -> Found:
         # curvature of a large effect looks like another.
         if not any(_is_noise(shelf, names) for names in starts):
             starts += [e.names for e in _competing(shelf, root, 2)]
+    if _few(shelf):
+        # Each fit about which others are looked for costs little, and the largest misfits are the most curved.
+        for names in sorted(set(starts) - set(roots), key=lambda names: cost(shelf, names))[:BEAM]:
+            starts += [e.names for e in _competing(shelf, names, 1, alone=True)]
     best = min(starts, key=lambda names: cost(shelf, names))
     while True:
         better = _pruned(shelf, _grown(shelf, best))
@@ -99,6 +106,10 @@ def search(shelf: Shelf) -> Found:
         if slow and shelf.fit(best).rms > FAR:
             break
     return Found(shelf, best, ()) if shelf.fit(best).rms > FAR else with_rivals(shelf, best)
+
+
+def _few(shelf: Shelf) -> bool:
+    return int(shelf.whole.fitted.sum()) <= FEW
 
 
 def _is_noise(shelf: Shelf, names: Names) -> bool:
@@ -138,11 +149,12 @@ def _estimates(shelf: Shelf, start: Names, counts: Iterable[int]) -> list[Estima
     return sorted(out, key=lambda e: e.cost)
 
 
-def _competing(shelf: Shelf, start: Names, count: int) -> list[Estimate]:
-    """Those sets that may turn out best: fitted."""
+def _competing(shelf: Shelf, start: Names, count: int, alone: bool = False) -> list[Estimate]:
+    """Those sets that may turn out best: fitted. alone: best of those that grow from this start."""
     here = cost(shelf, start)
     every = [e for e in _estimates(shelf, start, (count,)) if e.names != start]
-    best = min([here, *(cost(shelf, n) for n in shelf.fits), *(e.cost for e in every)])
+    known = [] if alone else [cost(shelf, n) for n in shelf.fits]
+    best = min([here, *known, *(e.cost for e in every)])
     hoped = {e.names: e.cost - _doubt(shelf, e.names - start) * max(here - e.cost, 0.0) for e in every}
     within = [e for e in every if e.cost < here and hoped[e.names] < best + 2 * APART]
     within = sorted(within, key=lambda e: hoped[e.names])[:WIDTH]
@@ -204,18 +216,20 @@ def with_rivals(shelf: Shelf, best: Names) -> Found:
     for name in [n for n in best if shelf.candidates[n].parameters]:
         start = best - {name}
         gap = cost(shelf, start) - cost(shelf, best)
-        limit = cost(shelf, best) + max(25.0, DOUBT * gap)
+        few = _few(shelf)
+        limit = cost(shelf, best) + max(25.0, (NEARLY if few else DOUBT) * gap)
         near = [
             e
             for e in _estimates(shelf, start, (1,))
             if e.names not in (start, best) and _raw(shelf, e) < limit
         ]
-        for e in near[:WIDTH]:
+        for e in near[: None if few else WIDTH]:
             shelf.fit(e.names, e.probes)
     winner = min(shelf.fits, key=lambda names: cost(shelf, names))
     if winner != best:
         return with_rivals(shelf, winner)
-    rivals = [n for n in shelf.fits if len(n) <= len(best) and n != best and not excluded(shelf, n, best)]
+    simple = [n for n in shelf.fits if len(n) <= len(best) or taken(shelf, n) <= taken(shelf, best)]
+    rivals = [n for n in simple if n != best and not excluded(shelf, n, best)]
     minimal = [n for n in rivals if not any(other < n for other in rivals) and not n < best and not best < n]
     return Found(shelf, best, tuple(sorted(minimal, key=lambda n: badness(shelf, n))))
 

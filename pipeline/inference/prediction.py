@@ -14,6 +14,7 @@ from pipeline.inference.manipulator_prediction import predict_manipulator
 from pipeline.inference.manipulator_states import States
 from pipeline.inference.model import Model
 from pipeline.inference.program import INPUTS, Group, Program
+from vjm.effects.bar_initial_bow import BarInitialBow
 from vjm.effects.base import Rig, for_bars
 from vjm.effects.thermal_expansion import DRIVE
 from vjm.equilibrium import Equilibrium, drive_values, equilibrium, stack
@@ -24,6 +25,10 @@ from vjm.slides import with_slides
 
 Array = NDArray[np.float64]
 _KELVIN = 1.0
+_GAUGES = 12
+"""Channels from which on readings are those of gauges."""
+_SLIGHT = 1e-3
+"""Bow, in lengths of a bar, from which straight bars find the branch on which they bend."""
 NEAR_KINKS = 1e-3
 """Of its typical size, over which a number with kinks is differentiated."""
 
@@ -117,12 +122,39 @@ def _group(
         state, by = _history(mechanism, group, inputs, asked, begin, order)
     else:
         state = equilibrium(mechanism, group.targets, group.channels[:, None], begin, drives=inputs)
+        state = _branched(mechanism, group, inputs, state)
         by = by_parameters(state, asked, order=order).readings
     values = state.readings
     values[..., :6] -= group.nominal
     warm = by[..., -1:] if DRIVE in drives else np.zeros((*values.shape, 1))
     by_inputs = np.concatenate([by[..., :6], warm], axis=-1)
     return _Part(values, by_inputs, by[..., 6 : 6 + len(free)], state)
+
+
+def _branched(mechanism: Rig, group: Group, inputs: dict[str, Array], state: Equilibrium) -> Equilibrium:
+    """Rows that a gauge drives and that were lost, once more from bowed bars: straight ones bend only past a
+    bifurcation, and from rest no load moves the gauge."""
+    lost = ~state.converged | (state.unstable > 0)
+    if not lost.any() or np.all(group.channels < _GAUGES):
+        return state
+    bowed = BarInitialBow().apply(
+        mechanism, {"bow_y_mm": _SLIGHT * mechanism.length, "bow_z_mm": _SLIGHT * mechanism.length}
+    )
+    bent = equilibrium(bowed, group.targets, group.channels[:, None], drives=inputs)
+    if bent.unknowns.shape != state.unknowns.shape:
+        return state
+    again = equilibrium(
+        mechanism, group.targets, group.channels[:, None], replace(bent, mechanism=mechanism), drives=inputs
+    )
+    better = lost & again.converged & (again.unstable == 0)
+    parts = {}
+    for each in fields(state):
+        if each.name != "mechanism":
+            old, new = getattr(state, each.name), getattr(again, each.name)
+            parts[each.name] = np.where(
+                better.reshape(better.shape + (1,) * (old.ndim - better.ndim)), new, old
+            )
+    return replace(state, **parts)
 
 
 def _begin(

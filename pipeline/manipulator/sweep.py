@@ -28,13 +28,15 @@ _AHEAD, _NODES = 2, 5
 
 @dataclass(frozen=True, eq=False)
 class Sweep:
-    """A finished sweep: its folder, grid and columns, and how many chunks were computed now and how many there."""
+    """A finished sweep: its folder, grid and columns, how many chunks were computed now and how many there, and how
+    many postures were computed now."""
 
     folder: Path
     grid: Grid
     columns: tuple[str, ...]
     computed: int
     found: int
+    postures: int
 
     @property
     def values(self) -> Array:
@@ -73,7 +75,8 @@ def sweep(
             _write(_file(folder, number), values)
             progress(total - len(missing) + done, total)
     _join(folder, grid, total, len(asked.columns))
-    return Sweep(folder, grid, asked.columns, len(missing), total - len(missing))
+    postures = sum(min(chunk, grid.size - k * chunk) for k in missing)
+    return Sweep(folder, grid, asked.columns, len(missing), total - len(missing), postures)
 
 
 def _bounded(

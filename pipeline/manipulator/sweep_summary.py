@@ -37,9 +37,8 @@ def summary(done: Sweep, seconds: float) -> list[str]:
             if name in done.columns:
                 k = done.columns.index(name)
                 lines.append(f"{title}: {low[k]:.4g} to {high[k]:.4g} {unit}".rstrip())
-    if done.computed:
-        share = done.computed / (done.computed + done.found) * done.grid.size
-        lines.append(f"{share:.0f} postures in {seconds:.1f} s, {share / seconds:.0f} a second")
+    if done.postures:
+        lines.append(f"{done.postures} postures in {seconds:.1f} s, {done.postures / seconds:.0f} a second")
     return [*lines, f"sweep: {done.folder}"]
 
 

@@ -36,6 +36,8 @@ def best_next(
 ) -> Worth | None:
     """The best of the menu; None if none adds anything."""
     choices = menu(campaign)
+    if not choices:
+        return None
     offered = seen(replace(campaign, tests=tuple(c.test for c in choices)), model, candidates, say)
     now = visible(so_far, candidates)
     here = score(now)

@@ -45,7 +45,7 @@ def orthoglide() -> Description:
 def whole(orthoglide: Description, tmp_path_factory: pytest.TempPathFactory) -> Path:
     folder = tmp_path_factory.mktemp("whole")
     done = sweep(orthoglide, GRID, folder, Serial(), chunk=10)
-    assert (done.computed, done.found) == (5, 0)
+    assert (done.computed, done.found, done.postures) == (5, 0, GRID.size)
     return folder
 
 
@@ -68,6 +68,8 @@ def test_killed_and_resumed_is_the_same_file(orthoglide: Description, whole: Pat
     assert not (tmp_path / RESULT).exists()
     again = sweep(orthoglide, GRID, tmp_path, Serial(), chunk=10)
     assert again.computed + again.found == 5 and 0 < again.found < 5
+    # The last chunk, of eight points, was not there yet.
+    assert again.postures == 10 * again.computed - 2
     assert (tmp_path / RESULT).read_bytes() == (whole / RESULT).read_bytes()
     assert sorted(p.name for p in tmp_path.iterdir()) == sorted(p.name for p in whole.iterdir())
     assert sweep(orthoglide, GRID, tmp_path, Killed(0), chunk=10).computed == 0
