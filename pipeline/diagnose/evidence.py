@@ -26,6 +26,16 @@ PLAUSIBLE = 20.0
 heavy ruler as well as its weight does, and is not what is meant by a tilt."""
 
 
+SIDES = 25.0
+"""Chi-square that a kink can take up: every row that fits badly may lie on its other side. A play of half a
+micrometre took up 20 of 680 on a bench that had none."""
+
+
+def sided(effect: Effect) -> bool:
+    """Whether rows choose the side of a kink by themselves; along a history they do not."""
+    return not effect.smooth and not effect.history
+
+
 def numbers(effect: Effect) -> int:
     """Degrees of freedom that an effect takes: one for an effect that is there or not."""
     return max(1, len(effect.parameters))
@@ -41,4 +51,6 @@ def entry(effect: Effect, candidates: int) -> float:
 
     Bonferroni's bound. An effect with kinks had several looks, one at each probe.
     """
-    return _threshold(numbers(effect), max(candidates, 1) * max(1, len(effect.probes)))
+    return (SIDES if sided(effect) else 0.0) + _threshold(
+        numbers(effect), max(candidates, 1) * max(1, len(effect.probes))
+    )

@@ -22,9 +22,9 @@ MOST = 5
 """Effects in a set."""
 ENOUGH = 24
 """Fits after which a search that has found nothing good goes on no further."""
-FEW, NEARLY, BEAM = 60, 0.9, 6
+FEW, NEARLY, BEAM = 60, 0.9, 3
 """Rows up to which a fit costs so little that every rival is fitted that promises a tenth of what it stands for, and
-the sets that are grown side by side."""
+the sets that are grown by everything, side by side."""
 FAR, SLOW = 4.0, 0.7
 """Sigmas from which an explanation is far from one; growth that leaves more than this part of chi-square is slow. What
 is far from explained and falls slowly is not explained by more effects: so it ends as unknown."""
@@ -93,9 +93,11 @@ def search(shelf: Shelf) -> Found:
         if not any(_is_noise(shelf, names) for names in starts):
             starts += [e.names for e in _competing(shelf, root, 2)]
     if _few(shelf):
-        # Each fit about which others are looked for costs little, and the largest misfits are the most curved.
-        for names in sorted(set(starts) - set(roots), key=lambda names: cost(shelf, names))[:BEAM]:
-            starts += [e.names for e in _competing(shelf, names, 1, alone=True)]
+        # Fits cost little, and what is far from a solution is too curved for first-order estimates: all are made.
+        root = _root(shelf, min(starts, key=lambda names: cost(shelf, names)))
+        like = {names for names in starts if names not in roots and _root(shelf, names) == root}
+        for names in sorted(like, key=lambda names: cost(shelf, names))[:BEAM]:
+            starts += [e.names for e in _estimates(shelf, names, (1,)) if e.names != names]
     best = min(starts, key=lambda names: cost(shelf, names))
     while True:
         better = _pruned(shelf, _grown(shelf, best))
@@ -110,6 +112,11 @@ def search(shelf: Shelf) -> Found:
 
 def _few(shelf: Shelf) -> bool:
     return int(shelf.whole.fitted.sum()) <= FEW
+
+
+def _root(shelf: Shelf, names: Names) -> Names:
+    """Those effects of a set that are there or not."""
+    return frozenset(name for name in names if not shelf.candidates[name].parameters)
 
 
 def _is_noise(shelf: Shelf, names: Names) -> bool:
@@ -149,12 +156,11 @@ def _estimates(shelf: Shelf, start: Names, counts: Iterable[int]) -> list[Estima
     return sorted(out, key=lambda e: e.cost)
 
 
-def _competing(shelf: Shelf, start: Names, count: int, alone: bool = False) -> list[Estimate]:
-    """Those sets that may turn out best: fitted. alone: best of those that grow from this start."""
+def _competing(shelf: Shelf, start: Names, count: int) -> list[Estimate]:
+    """Those sets that may turn out best: fitted."""
     here = cost(shelf, start)
     every = [e for e in _estimates(shelf, start, (count,)) if e.names != start]
-    known = [] if alone else [cost(shelf, n) for n in shelf.fits]
-    best = min([here, *known, *(e.cost for e in every)])
+    best = min([here, *(cost(shelf, n) for n in shelf.fits), *(e.cost for e in every)])
     hoped = {e.names: e.cost - _doubt(shelf, e.names - start) * max(here - e.cost, 0.0) for e in every}
     within = [e for e in every if e.cost < here and hoped[e.names] < best + 2 * APART]
     within = sorted(within, key=lambda e: hoped[e.names])[:WIDTH]
@@ -195,7 +201,7 @@ def _dispensable(shelf: Shelf, names: Names, name: str) -> bool:
     One that is there or not is, unless what is there would be a hopeless root without it.
     """
     if not shelf.candidates[name].parameters:
-        root = frozenset(n for n in names if not shelf.candidates[n].parameters)
+        root = _root(shelf, names)
         return shelf.fit(root - {name}).chi_square < HOPELESS * shelf.fit(root).chi_square
     found = shelf.fit(names)
     mine = np.array([each.effect == name for each in found.model.free], dtype=bool)
