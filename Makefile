@@ -1,6 +1,8 @@
 VENV := .venv
 PYTHON := $(VENV)/bin/python
 STAMP := $(VENV)/.ready
+# One thread a process: the arrays of most tests are small, and threads of two processes are in each other's way.
+ALONE := OMP_NUM_THREADS=1 MKL_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1
 
 .PHONY: setup run test proofs coverage check example clean
 
@@ -22,10 +24,10 @@ check: $(STAMP)
 	$(VENV)/bin/mypy
 
 test: setup check
-	$(PYTHON) -m pytest -n 2 -m "not long"
+	$(ALONE) $(PYTHON) -m pytest -n 2 -m "not long"
 
 proofs: $(STAMP)
-	$(PYTHON) -m pytest -n 2 -m long
+	$(ALONE) $(PYTHON) -m pytest -n 2 -m long
 
 # Many benches for every effect: hours; what was finished is kept, so that it may be stopped and started again.
 coverage: $(STAMP)

@@ -26,9 +26,9 @@ def page(it: Scored) -> str:
         *(f"| {g.name} | {g.wanted} | {g.share} |" for g in it.goals),
         "",
         "right: exactly what was hidden, or nothing where nothing was, or unknown where nothing known explains it · "
-        "in set: one of the named sets is right · part: some of two effects, nothing else · missed: nothing was named · "
-        "undecided: unknown where the catalogue explains it, or several sets where it does not · wrong: a name of what "
-        "was not there.",
+        "in set: one of the named sets is right · part: some of two effects, nothing else · missed: nothing was named "
+        "· undecided: unknown where the catalogue explains it, or several sets where it does not · wrong: a name of "
+        "what was not there.",
         "",
         *_table("kind", it.kinds),
         "## Single effects by size and confusability",

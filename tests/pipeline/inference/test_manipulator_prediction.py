@@ -62,6 +62,7 @@ def test_readings_are_the_equilibria_of_the_manipulator(small: Campaign, cases: 
     np.testing.assert_allclose(sliding[:, 7:11], STEPS[:, None] * LOADS[1:5], atol=1e-6)
 
 
+@pytest.mark.long
 def test_derivatives_by_what_is_prescribed_are_differences(cases: Program) -> None:
     """Steps of a noise each: the curvature over one is a millionth of the slope."""
     plain = predict(Model(), cases)
@@ -75,7 +76,14 @@ def test_derivatives_by_what_is_prescribed_are_differences(cases: Program) -> No
         assert np.max(np.abs(gap)) < 1e-4
 
 
-@pytest.mark.parametrize("name", ["modulus_error", "base_compliance", "load_offset"])
+@pytest.mark.parametrize(
+    "name",
+    [
+        "load_offset",
+        pytest.param("modulus_error", marks=pytest.mark.long),
+        pytest.param("base_compliance", marks=pytest.mark.long),
+    ],
+)
 def test_derivatives_by_numbers_are_differences(cases: Program, name: str) -> None:
     effect = KNOWN[name]
     first = effect.parameters[0]
