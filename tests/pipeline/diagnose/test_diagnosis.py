@@ -54,7 +54,6 @@ def test_friction_is_named() -> None:
     assert abs(value - 200.0) < 3 * std
 
 
-@pytest.mark.xdist_group("axial")
 def test_axial_tests_alone_cannot_tell() -> None:
     """Modulus, axis and base look alike along x: a set with the truth in it, and a test that tells."""
     it = axial()
@@ -69,7 +68,6 @@ def test_axial_tests_alone_cannot_tell() -> None:
     assert any(s.startswith("Next test: ") for s in said)
 
 
-@pytest.mark.xdist_group("axial")
 def test_the_record_of_an_ambiguous_case() -> None:
     answer = json.loads(answer_of(axial()).text())
     assert answer["verdict"] == "ambiguous"

@@ -14,8 +14,6 @@ from pipeline.validation.entries import eight_entries
 from pipeline.validation.result import Result
 from tests.conftest import CleanRun
 
-pytestmark = pytest.mark.xdist_group("clean run")
-
 # Identified K_b of the reference bar, measured with this project on the default mesh (18 183 unknowns).
 REGRESSION = {
     "K11": 21961.6,
