@@ -22,7 +22,7 @@ MOST = 5
 """Effects in a set."""
 ENOUGH = 24
 """Fits after which a search that has found nothing good goes on no further."""
-FEW, NEARLY, BEAM = 24, 0.9, 3
+FEW, NEARLY, BEAM = 20, 0.9, 3
 """Rows up to which a fit costs so little that every rival is fitted that promises a tenth of what it stands for, and
 the sets that are grown by everything, side by side."""
 FAR, SLOW = 4.0, 0.7
