@@ -56,6 +56,7 @@ def test_only_tests_without_readings_are_foreseen() -> None:
     assert foreseen(half)[1] == tuple(t.id for t in whole.tests[1:])
 
 
+@pytest.mark.long
 def test_before_and_after_measuring_the_sizes_are_the_same(tmp_path: Path) -> None:
     """Signatures are of the model, so noise in what is prescribed moves them by its own size only."""
     after = sizes(planned(bench(ids=MIXED), tmp_path / "after"))

@@ -1,0 +1,19 @@
+"""A few cases of the challenge, whole: measured on finite elements, diagnosed, judged."""
+
+from __future__ import annotations
+
+import pytest
+
+from pipeline.challenge.outcome import outcome
+
+
+@pytest.mark.parametrize(
+    ("number", "score"),
+    [
+        (8, "right"),  # nothing hidden, few tests
+        (22, "right"),  # a soft base
+        (27, "in set"),  # longer bars or warmer ones, at one temperature
+    ],
+)
+def test_cases_are_answered_as_they_were(number: int, score: str) -> None:
+    assert outcome(number, "").score == score
