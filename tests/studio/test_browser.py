@@ -14,6 +14,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from playwright.sync_api import TimeoutError as PlaywrightTimeout
 
 from pipeline.campaign import write
 from pipeline.inference.model_reading import read_model_file
@@ -21,7 +22,7 @@ from tests.conftest import ROOT
 from tests.pipeline.bench import bench
 from tests.reports.browser import NEEDS_BROWSER, browser
 
-PATIENCE = 60_000
+PATIENCE, TRIES = 60_000, 12
 """Milliseconds; two cores are shared."""
 pytestmark = NEEDS_BROWSER
 
@@ -55,9 +56,18 @@ def opened(found: Any, url: str, requests: list[str] | None = None) -> Any:
 
 def added(page: Any, effect: str) -> None:
     """Without a mouse."""
-    page.locator("#effect").focus()
-    page.keyboard.type(effect)
-    page.locator(".v-list-item", has_text=effect).first.wait_for()
+    item = page.locator(".v-list-item", has_text=effect).first
+    for _ in range(TRIES):
+        page.locator("#effect").focus()
+        page.keyboard.press("ControlOrMeta+A")
+        page.keyboard.type(effect)
+        # What is typed while the page is being drawn again goes nowhere, as for a person.
+        try:
+            item.wait_for(timeout=PATIENCE / TRIES)
+            break
+        except PlaywrightTimeout:
+            continue
+    item.wait_for()
     page.keyboard.press("ArrowDown")
     page.keyboard.press("Enter")
     page.locator("#add:enabled").press("Enter")
