@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import re
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 import numpy as np
@@ -44,21 +44,24 @@ def simulate(out: Path, effects: Sequence[str], seed: int, quiet: bool = False) 
         name = re.sub(r"\s+", " ", out.resolve().name)
         campaign = measure(name, rig, bench_plan(), SENSORS, paths, int(noise.integers(2**63)), GAUGES)
     answer = {
-        "campaign": campaign.name,
         "effects": list(values),
         "parameters": paths,
         "seed": seed,
         "rig": "parallelogram of the paper's Eq. 12",
         "truth": "geometrically exact frame finite elements: bar_geometric_nonlinearity is always there",
-        "versions": versions(),
-        "commit": commit(),
     }
+    seal(out, campaign, answer)
+    return campaign
+
+
+def seal(out: Path, campaign: Campaign, answer: Mapping[str, object]) -> None:
+    """Write the campaign, its answer beside it with what made it, and say where both are."""
     write(out, campaign)
+    whole = {"campaign": campaign.name, **answer, "versions": versions(), "commit": commit()}
     with replacing(sealed(out)) as part:
-        part.write_text(json.dumps(answer, indent=1) + "\n", encoding="utf-8")
+        part.write_text(json.dumps(whole, indent=1) + "\n", encoding="utf-8")
     rows = sum(test.data.steps.size for test in campaign.tests)
     print(f"{out}: {len(campaign.tests)} tests, {rows} load steps; the answer is sealed in {sealed(out)}")
-    return campaign
 
 
 def bench_rig() -> Rig:

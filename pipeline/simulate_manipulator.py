@@ -2,19 +2,16 @@
 
 from __future__ import annotations
 
-import json
 import re
 from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
 
-from meshes.files import replacing
-from pipeline.campaign import Campaign, Rig, write
+from pipeline.campaign import Campaign, Rig
 from pipeline.manipulator.description import SHIPPED, read
 from pipeline.progress import Progress
-from pipeline.provenance import commit, versions
-from pipeline.simulate import require_free, sealed
+from pipeline.simulate import require_free, seal
 from pipeline.virtual.hidden import hidden
 from pipeline.virtual.manipulator import measure_manipulator, plan
 from vjm.effects import catalogue
@@ -35,18 +32,11 @@ def simulate_manipulator(
         tests = plan(described.manipulator, described.home)
         campaign = measure_manipulator(name, rig, tests, values, int(noise.integers(2**63)))
     answer = {
-        "campaign": campaign.name,
         "effects": list(values),
         "parameters": {f"{name}.{p}": value for name, own in values.items() for p, value in own.items()},
         "seed": seed,
         "rig": f"manipulator {described.manipulator.name}",
         "truth": "linear frame finite elements at each posture",
-        "versions": versions(),
-        "commit": commit(),
     }
-    write(out, campaign)
-    with replacing(sealed(out)) as part:
-        part.write_text(json.dumps(answer, indent=1) + "\n", encoding="utf-8")
-    rows = sum(test.data.steps.size for test in campaign.tests)
-    print(f"{out}: {len(campaign.tests)} tests, {rows} load steps; the answer is sealed in {sealed(out)}")
+    seal(out, campaign, answer)
     return campaign

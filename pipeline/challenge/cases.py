@@ -26,7 +26,7 @@ from pipeline.virtual.plan import SENSORS, bench_plan
 from vjm.effects import catalogue
 
 Kind = Literal["clean", "single", "pair", "outside", "untold"]
-SEED = 20_261_121
+SEED = 20_261_122
 ROUND: tuple[Kind, ...] = (
     *("clean", "single", "single", "outside"),
     *("clean", "single", "pair", "untold"),

@@ -41,7 +41,8 @@ SHARES = (1.0, 0.7, 0.5, 0.35)
 class Outcome(Record):
     """A case and its score. sizes: mu, sigmas by which each hidden effect shows. gamma: 1 / sqrt(1 - rho), by effect,
     of the rival that looks most like it. sets: the answer, without what every bench has. inside: whether the 95 %
-    intervals hold the truth, of right answers. holdout: whitened RMS of each held-out test."""
+    intervals hold the truth, of right answers. holdout: whitened RMS of each held-out test. code: digest of what
+    answered."""
 
     number: int
     kind: Kind
@@ -59,6 +60,7 @@ class Outcome(Record):
     error: str = ""
     seconds: float
     commit: str
+    code: str
 
     @property
     def size(self) -> float:
@@ -71,7 +73,7 @@ class Outcome(Record):
         return max(self.gamma.values(), default=1.0)
 
 
-def outcome(number: int, commit: str) -> Outcome:
+def outcome(number: int, commit: str, code: str) -> Outcome:
     """The outcome of the case of that number."""
     began = process_time()
     it, found, without = _measured(number)
@@ -86,6 +88,7 @@ def outcome(number: int, commit: str) -> Outcome:
         "rows": sum(t.data.steps.size for t in campaign.tests),
         "sizes": {name: float(np.linalg.norm(d)) for name, d in sizes.items()},
         "commit": commit,
+        "code": code,
     }
     try:
         answer = diagnose(campaign, Model(), catalogue())

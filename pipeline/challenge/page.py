@@ -19,7 +19,8 @@ def page(it: Scored) -> str:
         "",
         f"{it.cases} virtual benches of the frame finite elements, seed {SEED}: nothing hidden, one effect, two, what "
         "no effect of the catalogue explains, and plans that cannot tell; rigs, bars, sensors, tests and sizes drawn "
-        "at random. The diagnosis knows none of that. `python -m pipeline challenge` does it again.",
+        "at random. The diagnosis knows none of that. Again, with the code of "
+        f"{', '.join(each[:12] for each in it.commits)}: `python -m pipeline challenge --cases {it.cases}`.",
         "",
         "| goal | wanted | found (95 % bounds, Clopper-Pearson) |",
         "|---|---|---|",

@@ -7,16 +7,19 @@ from pathlib import Path
 
 from pipeline import trials
 from pipeline.challenge.outcome import Outcome, outcome
-from pipeline.provenance import commit
+from pipeline.provenance import code_digest, commit
 
-Task = tuple[int, str]
+Task = tuple[int, str, str]
 
 
 def run(numbers: Sequence[int], store: Path, workers: int) -> Iterator[Outcome]:
-    """The outcomes of these cases, those in the store first. Numbers, not the order of work, decide what a case is."""
-    here = commit()
-    wanted: dict[Hashable, Task] = {number: (number, here) for number in numbers}
-    return trials.run(wanted, _one, Outcome, lambda it: it.number, store, workers)
+    """The outcomes of these cases, those in the store first. Numbers, not the order of work, decide what a case is.
+
+    An outcome counts for the code that it was made with: a score is that of one program.
+    """
+    here, code = commit(), code_digest()
+    wanted: dict[Hashable, Task] = {(number, code): (number, here, code) for number in numbers}
+    return trials.run(wanted, _one, Outcome, lambda it: (it.number, it.code), store, workers)
 
 
 def _one(task: Task) -> Outcome:

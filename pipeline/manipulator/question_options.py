@@ -7,12 +7,13 @@ from pathlib import Path
 import numpy as np
 
 from pipeline.campaign.names import unknown_name
+from pipeline.effect_options import number_asked, parameter_asked
 from pipeline.errors import InputError
 from pipeline.inference.suitable import known_effects
 from pipeline.manipulator.box import numbers
 from pipeline.manipulator.loaded import with_true_moments
 from pipeline.manipulator.question import Question
-from vjm.effects.base import Effect, Parameter
+from vjm.effects.base import Effect
 from vjm.effects.thermal_expansion import DRIVE
 from vjm.manipulator.effects import with_effect
 from vjm.manipulator.loops import looped
@@ -68,33 +69,10 @@ def sizes_of(asked: Sequence[str], known: Mapping[str, Effect]) -> Sizes:
                 raise InputError(f"--effect {text}: {why}")
             out[name] = effect.typicals
             continue
-        parameter = _parameter(text, effect, wanted)
+        parameter = parameter_asked(text, effect, wanted)
         own = out.setdefault(name, dict(effect.nulls))
-        own[parameter.name] = _number(text, value, parameter)
+        own[parameter.name] = number_asked(text, value, parameter)
     return out
-
-
-def _parameter(text: str, effect: Effect, name: str) -> Parameter:
-    names = [p.name for p in effect.parameters]
-    if not names:
-        raise InputError(f"--effect {text}: {effect.name} is there or not, allowed is its name alone")
-    if name and name not in names:
-        raise InputError(f"--effect {text}: {effect.name} has no {name!r}, {unknown_name(name, names)}")
-    return effect.parameters[names.index(name) if name else 0]
-
-
-def _number(text: str, value: str, parameter: Parameter) -> float:
-    try:
-        number = float(value)
-    except ValueError:
-        number = np.nan
-    if not isfinite(number) or not parameter.low <= number <= parameter.high:
-        unit = "" if parameter.unit == "1" else f" {parameter.unit}"
-        raise InputError(
-            f"--effect {text}: {parameter.name} is {value.strip() or 'empty'}, "
-            f"allowed are numbers from {parameter.low:g} to {parameter.high:g}{unit}"
-        )
-    return number
 
 
 def _changed(manipulator: Manipulator, sizes: Sizes, known: Mapping[str, Effect]) -> Manipulator:

@@ -1,5 +1,6 @@
 """The schema of a manipulator file: what each table may hold, in the units of the file."""
 
+from abc import ABC, abstractmethod
 from typing import Annotated, Any, ClassVar, Literal
 
 import numpy as np
@@ -107,14 +108,14 @@ class LegTable(Placed):
         return Frame(-back @ np.array(self.ends_at_mm), back)
 
 
-class PartTable(Table):
+class PartTable(Table, ABC):
     """One part of a chain."""
 
     part: str
 
+    @abstractmethod
     def made(self) -> Part:
         """The part, in mm and rad."""
-        raise NotImplementedError
 
 
 class RigidTable(Placed):

@@ -3,17 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from math import isfinite
 
 import numpy as np
 
 from fem.frame.errors import Errors
 from pipeline.campaign import Rig
 from pipeline.campaign.names import unknown_name
+from pipeline.effect_options import number_asked, parameter_asked
 from pipeline.errors import InputError
 from pipeline.inference.rigs import mechanism_of
 from pipeline.virtual.bench import as_frame
-from vjm.effects.base import Effect, Parameter
+from vjm.effects.base import Effect
 
 FACTOR = 2.0
 """An effect without a value is up to so many times larger or smaller than its typical size."""
@@ -41,8 +41,8 @@ def hidden(
         if not equals and dot:
             raise InputError(f"--effect {text}: has no value, allowed is {left}=VALUE")
         if equals:
-            chosen = _parameter(text, effect, parameter)
-            own[chosen.name] = _number(text, value, chosen)
+            chosen = parameter_asked(text, effect, parameter)
+            own[chosen.name] = number_asked(text, value, chosen)
         elif new:
             own |= _drawn(effect, rig, generator)
         else:
@@ -57,29 +57,6 @@ def _simulable(text: str, effect: Effect, rig: Rig) -> None:
         effect.apply(mechanism_of(rig, ()), effect.typicals)
     except ValueError as error:
         raise InputError(f"--effect {text}: the virtual bench cannot have {effect.name}: {error}") from error
-
-
-def _parameter(text: str, effect: Effect, name: str) -> Parameter:
-    names = [p.name for p in effect.parameters]
-    if not names:
-        raise InputError(f"--effect {text}: {effect.name} is there or not, allowed is its name alone")
-    if name and name not in names:
-        raise InputError(f"--effect {text}: {effect.name} has no {name!r}, {unknown_name(name, names)}")
-    return effect.parameters[names.index(name) if name else 0]
-
-
-def _number(text: str, value: str, parameter: Parameter) -> float:
-    try:
-        number = float(value)
-    except ValueError:
-        number = np.nan
-    if not isfinite(number) or not parameter.low <= number <= parameter.high:
-        unit = "" if parameter.unit == "1" else f" {parameter.unit}"
-        raise InputError(
-            f"--effect {text}: {parameter.name} is {value.strip() or 'empty'}, "
-            f"allowed are numbers from {parameter.low:g} to {parameter.high:g}{unit}"
-        )
-    return number
 
 
 def _drawn(effect: Effect, rig: Rig, generator: np.random.Generator) -> dict[str, float]:

@@ -16,4 +16,4 @@ from pipeline.challenge.outcome import outcome
     ],
 )
 def test_cases_are_answered_as_they_were(number: int, score: str) -> None:
-    assert outcome(number, "").score == score
+    assert outcome(number, "", "").score == score
