@@ -135,7 +135,7 @@ class Equilibrium:
             for chain, r, x, past in parts
         ]
 
-    def member(self, index: int | tuple[int | slice, ...] | slice | np.ndarray) -> Equilibrium:
+    def member(self, index: int | tuple[int | slice | np.ndarray, ...] | slice | np.ndarray) -> Equilibrium:
         """One state of the batch, or several."""
         return Equilibrium(self.mechanism, *(np.asarray(part[index]) for part in _arrays(self)))
 

@@ -180,7 +180,9 @@ def _grown(shelf: Shelf, start: Names) -> Names:
     here = shelf.fit(start)
     if here.rms > FAR and _estimates(shelf, start, (1, 2))[0].cost > SLOW * here.chi_square:
         return start
-    more = [start, *(e.names for k in (1, 2) for e in _competing(shelf, start, k)[:2])]
+    # Where noise is all that is left, two that show only together have nothing to show.
+    counts = (1,) if _is_noise(shelf, start) else (1, 2)
+    more = [start, *(e.names for k in counts for e in _competing(shelf, start, k)[:2])]
     return min(more, key=lambda names: cost(shelf, names))
 
 

@@ -19,13 +19,16 @@ from pipeline.inference.residual import Residual
 Array = NDArray[np.float64]
 STEPS = 40
 PROMISE = 1e-3
-"""Of chi-square, of which noise makes one for every number: a step of 0.03 standard errors."""
+"""Of chi-square, of which noise makes one for every number, a step of 0.03 standard errors; where the model leaves
+more than noise, in its mean square."""
 VAIN = 0.05
 """Of chi-square, a fifth of a standard error: a smaller promise that is not kept is left, as happens at kinks."""
 NEAR = 0.1
 """Of their sigmas: so near to the inputs that fit best a fit must have been linearised to end there."""
 SETTLE = 3
 """Times that a fit is linearised anew before it ends."""
+LOSING, LOSSES = 1.0, 8
+"""Damping after a step on which rows lost their equilibrium, and how often that may be before a fit ends where it is."""
 TINY = 1e-12
 
 
@@ -111,6 +114,11 @@ class Objective:
             self._known = (key, *found)
         return self._known[1], self._known[2]
 
+    @property
+    def lost(self) -> int:
+        """Rows without an equilibrium where it was last."""
+        return 0 if self.last is None else int(self.last.lost.sum())
+
     def residuals(self, values: Array) -> Array:
         """(N,)"""
         it = self.at(values)[1]
@@ -176,13 +184,16 @@ def _descend(aim: Objective, watch: Callable[[str], None] | None, plausible: flo
         return np.vstack([aim.jacobian(values) * scale, pull])
 
     values = np.clip(aim.model.values, *bounds)
-    damping, settled = 0.0, 0
+    damping: float = 0.0
+    least: float = 0.0
+    settled, losses = 0, 0
     here = residuals(values)
-    slopes = jacobian(values)
+    slopes, lost = jacobian(values), aim.lost
     for _ in range(STEPS):
         step = _step(slopes, here, (bounds - values) / scale, damping)
         promise = here @ here - np.sum((here + slopes @ step) ** 2)
-        if not promise > PROMISE:
+        unit = max(1.0, float(here @ here) / here.size)
+        if not promise > PROMISE * unit:
             if settled == SETTLE or aim.unsettled(values) <= NEAR:
                 break
             settled += 1
@@ -195,11 +206,15 @@ def _descend(aim: Objective, watch: Callable[[str], None] | None, plausible: flo
         if watch is not None:
             watch(f"{aim.count} evaluations, chi-square {min(here @ here, there @ there):.5g}")
         if gain > 0.1 * promise:
-            values, here, slopes = tried, there, jacobian(tried)
-            damping = damping / 10.0 if damping > 1e-3 else 0.0
+            values, here, slopes, lost = tried, there, jacobian(tried), aim.lost
+            damping = max(damping / 10.0 if damping > 1e-3 else 0.0, least)
+            least /= 10.0
         else:
-            damping = max(10.0 * damping, 1e-2)
-        if damping > 1e6 or (gain <= 0.0 and promise < VAIN):
+            # Beyond what the linkage bears every row costs many tries: back at once, and no soon return.
+            losing = aim.lost > lost
+            damping = max(10.0 * damping, LOSING if losing else 1e-2)
+            least, losses = (damping, losses + 1) if losing else (least, losses)
+        if damping > 1e6 or losses == LOSSES or (gain <= 0.0 and promise < VAIN * unit):
             break
     return values
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, fields, replace
+from dataclasses import dataclass, replace
 from functools import cache
 from typing import cast
 
@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pipeline.campaign.names import COORDINATES
+from pipeline.inference.history import history, put
 from pipeline.inference.manipulator_prediction import predict_manipulator
 from pipeline.inference.manipulator_states import States
 from pipeline.inference.model import Model
@@ -17,7 +18,7 @@ from pipeline.inference.program import INPUTS, Group, Program
 from vjm.effects.bar_initial_bow import BarInitialBow
 from vjm.effects.base import Rig, for_bars
 from vjm.effects.thermal_expansion import DRIVE
-from vjm.equilibrium import Equilibrium, drive_values, equilibrium, stack
+from vjm.equilibrium import Equilibrium, drive_values, equilibrium
 from vjm.lagrangian import layout
 from vjm.mechanism import initial_memory
 from vjm.sensitivity import TARGETS, AnyDirection, Direction, DriveDirection, by_parameters
@@ -119,7 +120,7 @@ def _group(
         asked.append(DriveDirection(DRIVE, _KELVIN))
     begin = _begin(mechanism, group, inputs, start)
     if initial_memory(mechanism).size:
-        state, by = _history(mechanism, group, inputs, asked, begin, order)
+        state, by = history(mechanism, group, inputs, asked, begin, order)
     else:
         state = equilibrium(mechanism, group.targets, group.channels[:, None], begin, drives=inputs)
         state = _branched(mechanism, group, inputs, state)
@@ -147,14 +148,7 @@ def _branched(mechanism: Rig, group: Group, inputs: dict[str, Array], state: Equ
         mechanism, group.targets, group.channels[:, None], replace(bent, mechanism=mechanism), drives=inputs
     )
     better = lost & again.converged & (again.unstable == 0)
-    parts = {}
-    for each in fields(state):
-        if each.name != "mechanism":
-            old, new = getattr(state, each.name), getattr(again, each.name)
-            parts[each.name] = np.where(
-                better.reshape(better.shape + (1,) * (old.ndim - better.ndim)), new, old
-            )
-    return replace(state, **parts)
+    return put(state, better, again.member(better))
 
 
 def _begin(
@@ -181,37 +175,6 @@ def _shifted(group: Group, shift: Array) -> Group:
     whole = np.zeros((*group.rise.shape, INPUTS))
     whole[group.real] = shift
     return replace(group, targets=group.targets + whole[..., :6], rise=group.rise + whole[..., 6])
-
-
-def _history(
-    mechanism: Rig,
-    group: Group,
-    inputs: dict[str, Array],
-    asked: list[AnyDirection],
-    start: Equilibrium | None,
-    order: int,
-) -> tuple[Equilibrium, Array]:
-    """Step after step, all tests together, the memory and its derivatives handed on."""
-    state, slope = None, np.zeros((1, len(asked)))
-    states, by = [], []
-    for step in range(group.targets.shape[1]):
-        now = {name: value[:, step] for name, value in inputs.items()}
-        memory = initial_memory(mechanism) if state is None else state.next_memory
-        begin = state if start is None else start.member((slice(None), step))
-        state = equilibrium(
-            mechanism, group.targets[:, step], group.channels, begin, drives=now, memory=memory
-        )
-        found = by_parameters(state, asked, memory_slope=slope if step else 0.0, order=order)
-        slope = found.memory
-        states.append(state)
-        by.append(found.readings)
-    return _by_test(stack(states)), np.stack(by, axis=1)
-
-
-def _by_test(state: Equilibrium) -> Equilibrium:
-    """A state (steps, tests) as one (tests, steps)."""
-    parts = {f.name: getattr(state, f.name) for f in fields(state) if f.name != "mechanism"}
-    return replace(state, **{name: np.moveaxis(part, 0, 1) for name, part in parts.items()})
 
 
 def _direction(model: Model, number: int, group: Group, program: Program) -> Direction:
