@@ -33,6 +33,11 @@ proofs: $(STAMP)
 coverage: $(STAMP)
 	$(PYTHON) -m pipeline.coverage
 
+# Other ways to predict beyond the fitted loads, on the benches of the challenge: hours, to be stopped and started too.
+.PHONY: extrapolation
+extrapolation: $(STAMP)
+	$(PYTHON) -m pipeline.extrapolation
+
 # The shipped campaign, measured again on the virtual bench; what it hides stands here and in its sealed answer.
 example: $(STAMP)
 	rm -f examples/bench/campaign.toml examples/bench/measurements.csv examples/bench.sealed.json

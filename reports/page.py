@@ -4,6 +4,7 @@ import base64
 import json
 from collections.abc import Sequence
 from pathlib import Path
+from typing import Any
 
 import plotly.io
 from jinja2 import Environment, FileSystemLoader, StrictUndefined
@@ -29,6 +30,7 @@ def render(title: str, sections: Sequence[Section], template: str = "validation.
     environment.filters["block_kind"] = lambda block: type(block).__name__
     environment.filters["picture"] = picture
     environment.filters["explorer"] = explorer
+    environment.filters["height"] = height
     page = environment.get_template(template)
     return page.render(title=title, sections=sections, plotlyjs=Markup(get_plotlyjs())) + "\n"
 
@@ -36,14 +38,24 @@ def render(title: str, sections: Sequence[Section], template: str = "validation.
 def picture(figure: Figure) -> Markup:
     """The plot, else the drawing, else the picture, as HTML."""
     if figure.plot is not None:
-        html = plotly.io.to_html(
-            figure.plot, include_plotlyjs=False, full_html=False, div_id=f"plot-{figure.name}", config=CONFIG
-        )
-        return Markup(html)
+        return plotted(f"plot-{figure.name}", figure.plot)
     if figure.svg:
         return Markup(figure.svg)
     data = base64.b64encode(figure.png).decode("ascii")
     return Markup('<img alt="{}" src="data:image/png;base64,{}">').format(figure.caption, data)
+
+
+def plotted(name: str, plot: Any) -> Markup:
+    """The place of a plot, as high as it will be, and what plotly.js draws there, as JSON."""
+    said = {**json.loads(plotly.io.to_json(plot)), "config": CONFIG}
+    place = '<div id="{0}" class="plot" style="min-height: {1}px"></div>'
+    data = '<script type="application/json" class="plot-data" data-plot="{0}">{2}</script>'
+    return Markup(place + data).format(name, said["layout"]["height"], _json(said))
+
+
+def height(block: Explorer) -> int:
+    """Pixels of the plot that is shown first."""
+    return int(block.plots[block.first]["layout"]["height"])
 
 
 def explorer(block: Explorer) -> Markup:
@@ -57,5 +69,9 @@ def explorer(block: Explorer) -> Markup:
         "linked": block.linked,
         "config": CONFIG,
     }
+    return _json(said)
+
+
+def _json(said: Any) -> Markup:
     # A closing tag inside a script element would end it.
     return Markup(json.dumps(said, ensure_ascii=False, separators=(",", ":")).replace("</", "<\\/"))

@@ -7,11 +7,16 @@ from collections.abc import Iterator
 import numpy as np
 
 from pipeline.campaign.names import COORDINATES
+from pipeline.diagnose.description import descriptions
 from pipeline.diagnose.diagnosis import Diagnosis, in_words
 from pipeline.diagnose.evidence import APART
 from pipeline.diagnose.menu import Choice
 from pipeline.diagnose.refuse import judge
+from pipeline.inference.driving import column_name
 from vjm.effects.base import Effect
+
+CARRIES = 0.7
+"""Part of the misfit that may be left of a test, for the others to foretell it."""
 
 
 def sentences(it: Diagnosis) -> tuple[str, ...]:
@@ -79,6 +84,7 @@ def _left(it: Diagnosis) -> Iterator[str]:
         yield f"By its order along the load paths the rest is noise, but {size}."
     if it.verdict == "unknown":
         yield from _why_not(it)
+        yield from _described(it)
 
 
 def _why_not(it: Diagnosis) -> Iterator[str]:
@@ -89,6 +95,21 @@ def _why_not(it: Diagnosis) -> Iterator[str]:
         found = shelf.fit(names)
         worst = min(judge(found).checks, key=lambda check: check.p_value)
         yield f"{_and(shelf.order(names))} leaves {found.rms:.3g} sigma: {worst.words}."
+
+
+def _described(it: Diagnosis) -> Iterator[str]:
+    for each in descriptions(it.fit):
+        channel = column_name(each.channel, it.campaign.gauges)
+        inputs = ", ".join(each.inputs) or "nothing that was prescribed"
+        carries = (
+            f"known from the other tests it would be {each.elsewhere:.3g}"
+            if each.elsewhere < CARRIES * each.rms
+            else "which the other tests do not foretell"
+        )
+        yield (
+            f"A description, not physics (Gaussian process): the rest of {channel}, {each.rms:.3g} sigma, varies with "
+            f"{inputs}; {carries}."
+        )
 
 
 def _rivals(it: Diagnosis) -> Iterator[str]:

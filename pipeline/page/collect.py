@@ -20,7 +20,7 @@ from pipeline.inference.suitable import Known, check_suitable
 from pipeline.page.curves import rig_of, tests_of
 from pipeline.page.record import CandidatePage, EffectPage, Isolability, Page, Sigma
 from pipeline.page.stages import Stages, stages
-from pipeline.page.words import READING, SOURCES, assumptions, why
+from pipeline.page.words import SOURCES, assumptions, reading, why
 from pipeline.provenance import commit, versions
 
 Say = Callable[[str], None]
@@ -79,7 +79,7 @@ def collect(it: Subject, commands: tuple[str, ...] = (), say: Say = lambda _: No
             for e in catalogue
         ),
         sigmas=_sigmas(it.campaign, cases),
-        assumptions=(*assumptions(whole, model.names, known), *READING),
+        assumptions=(*assumptions(whole, model.names, known), *reading(whole.rig.kind)),
         sources=(*SOURCES, *dict.fromkeys(f"{e.name}: {e.source}." for e in catalogue)),
         commands=commands,
         versions=versions(),
@@ -99,6 +99,8 @@ def proposed(model: Model, answer: Answer, known: Known) -> Model:
 
 def headline(answer: Answer, found: Stages, diagnosed: bool) -> str:
     """The verdict in one sentence."""
+    if not found.before.program.predicted.any():
+        return "not measured yet: no reading that a model predicts; plan says what these tests can show."
     if diagnosed and answer.sentences:
         return answer.sentences[0]
     if len(found.error) > 1:

@@ -21,7 +21,7 @@ from pipeline.inference.model_file import NAME as MODEL
 from pipeline.inference.model_reading import read_model_file
 from pipeline.inference.suitable import known_effects
 from pipeline.page.collect import Subject, collect
-from pipeline.page.isolability import isolability
+from pipeline.page.isolability import isolability, isolability_anew
 from pipeline.page.record import NAME, Page
 from pipeline.progress import Progress, Stage
 
@@ -77,7 +77,8 @@ def report_campaign(
     subject = Subject(campaign, model, known, uncertainty)
     progress = Progress(quiet)
     if answer is not None:
-        subject = _answered(subject, read_answer(answer), answer)
+        with progress.stage("what could be taken for what") as stage:
+            subject = _answered(subject, read_answer(answer), answer, stage)
     elif diagnosing:
         with progress.stage("looking for what is missing") as stage:
             subject = diagnosed(subject, stage)
@@ -136,8 +137,9 @@ def read_answer(path: Path) -> Answer:
         raise InputError(f"{path} is no saved answer: {place}: {first['msg']}") from error
 
 
-def _answered(it: Subject, answer: Answer, path: Path) -> Subject:
-    """With a saved answer, if it is about this campaign and these effects."""
+def _answered(it: Subject, answer: Answer, path: Path, stage: Stage) -> Subject:
+    """With a saved answer, if it is about this campaign and these effects; one that looked for candidates has none of
+    how alike they are, which is found here."""
     if answer.campaign != it.campaign.name:
         raise InputError(
             f"{path} is about the campaign {answer.campaign!r}, allowed is one about {it.campaign.name!r}"
@@ -147,7 +149,10 @@ def _answered(it: Subject, answer: Answer, path: Path) -> Subject:
             raise InputError(
                 f"{path} names the effect {name!r}, which is unknown; allowed with --effects-from"
             )
-    return Subject(it.campaign, it.model, it.known, it.uncertainty, answer)
+    alike = None
+    if answer.candidates:
+        alike = isolability_anew(it.campaign, it.model, it.known.effects, answer.added, stage.say)
+    return Subject(it.campaign, it.model, it.known, it.uncertainty, answer, alike)
 
 
 def _outside(out: Path, folder: Path) -> None:

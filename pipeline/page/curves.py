@@ -11,6 +11,7 @@ from pipeline.campaign import Campaign, Test
 from pipeline.campaign.names import COORDINATES
 from pipeline.compare.error import Discrepancy
 from pipeline.inference.driving import column_name, driving, unit_of
+from pipeline.page.legs import legs
 from pipeline.page.record import Curve, Numbers, Rig, TestPage
 
 Array = NDArray[np.float64]
@@ -21,7 +22,15 @@ DIGITS = 7
 def rig_of(it: Campaign | Test) -> Rig:
     """What is drawn of a rig."""
     rig = it.rig
-    return Rig(kind=rig.kind, length_mm=rig.length, width_mm=rig.width)
+    if rig.manipulator is None or rig.point is None:
+        return Rig(kind=rig.kind, length_mm=rig.length, width_mm=rig.width)
+    return Rig(
+        kind=rig.kind,
+        length_mm=rig.length,
+        width_mm=None,
+        place_mm=numbers(rig.point),
+        lines=legs(rig.manipulator, rig.point),
+    )
 
 
 def tests_of(before: Discrepancy, after: Discrepancy) -> tuple[TestPage, ...]:

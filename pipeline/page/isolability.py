@@ -2,13 +2,22 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
+
 import numpy as np
 
+from pipeline.campaign import Campaign
 from pipeline.diagnose.apart import multiple_correlation
-from pipeline.diagnose.diagnosis import Diagnosis
+from pipeline.diagnose.diagnosis import Diagnosis, suitable
 from pipeline.diagnose.picture import Picture
+from pipeline.diagnose.shelf import Shelf
+from pipeline.diagnose.signatures import Say
+from pipeline.inference.model import Model
+from pipeline.inference.program import program
+from pipeline.inference.sigmas import completed
 from pipeline.page.curves import numbers
 from pipeline.page.record import Isolability, Numbers
+from vjm.effects.base import Effect
 
 SHOWS = 0.1
 """Sigmas of all readings together below which an effect of its typical size is invisible: noise alone makes one."""
@@ -16,9 +25,21 @@ SHOWS = 0.1
 
 def isolability(found: Diagnosis) -> Isolability:
     """Correlations about the model with those chosen effects that are there or not, each at its typical size."""
-    shelf = found.shelf
-    root = frozenset(name for name in found.sets[0] if not shelf.candidates[name].parameters)
-    about = shelf.picture(root)
+    return _of(found.shelf, found.sets[0])
+
+
+def isolability_anew(
+    campaign: Campaign, model: Model, known: Mapping[str, Effect], added: Sequence[str], say: Say
+) -> Isolability:
+    """The same from what a saved answer says that it added to the model; a quarter of a minute."""
+    whole = completed(campaign)
+    candidates, _ = suitable(whole, model, known)
+    shelf = Shelf(program(whole), model, candidates, say)
+    return _of(shelf, [name for name in added if name in candidates]).model_copy(update={"anew": True})
+
+
+def _of(shelf: Shelf, added: Sequence[str]) -> Isolability:
+    about = shelf.picture(frozenset(name for name in added if not shelf.candidates[name].parameters))
     names = tuple(shelf.order(frozenset(about.signatures)))
     rows = tuple(_row(about, name, names) for name in names)
     return Isolability(about=about.fit.model.names, effects=names, correlation=rows)

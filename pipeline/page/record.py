@@ -15,12 +15,22 @@ Numbers = tuple[float | None, ...]
 NAME = "page.json"
 
 
+class Line(Record):
+    """Points of a manipulator, mm, base frame, unloaded. share: how far each follows the platform, 0 to 1."""
+
+    points: tuple[Numbers, ...]
+    share: tuple[float, ...]
+
+
 class Rig(Record):
-    """What is drawn of the rig. width_mm: None for a bar."""
+    """What is drawn of the rig. width_mm: None but for a parallelogram. Of a manipulator in a test also place_mm,
+    where its unloaded platform stands, base frame, and lines of its legs there."""
 
     kind: str
     length_mm: float
     width_mm: float | None
+    place_mm: Numbers | None = None
+    lines: tuple[Line, ...] = ()
 
 
 class Curve(Record):
@@ -84,11 +94,13 @@ class CandidatePage(Record):
 
 class Isolability(Record):
     """How alike effects look in these tests: correlation[i][j] of effect i with the best that effect j can do,
-    both free of what the model `about` can move; 1 cannot be told apart. None: effect i does not show."""
+    both free of what the model `about` can move; 1 cannot be told apart. None: effect i does not show. anew: found
+    for the page, not by the diagnosis itself."""
 
     about: tuple[str, ...]
     effects: tuple[str, ...]
     correlation: tuple[Numbers, ...]
+    anew: bool = False
 
 
 class EffectPage(Record):

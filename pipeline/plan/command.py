@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 
 from pipeline.add.command import starting_model
-from pipeline.campaign import read
+from pipeline.campaign import Campaign, read
 from pipeline.command import usable
 from pipeline.diagnose.diagnosis import in_words, suitable
+from pipeline.diagnose.signatures import Say
+from pipeline.inference.model import Model
 from pipeline.inference.sigmas import completed
 from pipeline.inference.suitable import check_suitable, known_effects
 from pipeline.plan.isolability import matrix, visible
@@ -19,8 +21,33 @@ from pipeline.plan.record import Plan, plan_record
 from pipeline.plan.seen import seen
 from pipeline.plan.table import show
 from pipeline.progress import Progress
+from vjm.effects.base import Effect
 
 LARGE = "bar_geometric_nonlinearity"
+
+
+def plan_of(campaign: Campaign, model: Model, known: Mapping[str, Effect], say: Say = lambda _: None) -> Plan:
+    """What the tests of a campaign show about a model with large deflection added. InputError for effects that the
+    campaign cannot have."""
+    check_suitable([term.effect for term in model.terms], campaign)
+    whole, unmeasured = foreseen(campaign)
+    whole = completed(whole)
+    candidates, refused = suitable(whole, model, known)
+    if LARGE in candidates:
+        # Signatures depend on the loads as in reality, whether or not that was found to matter yet.
+        model = model.with_effects([candidates.pop(LARGE)])
+    now = seen(whole, model, candidates, say)
+    found = visible(now, candidates)
+    names, alike = matrix(now)
+    fitted = replace(whole, tests=tuple(t for t in whole.tests if t.role == "fit"))
+    # The menu of tests is one of parallelograms and bars.
+    worth = (
+        None
+        if whole.rig.manipulator is not None
+        else best_next(fitted, model, candidates, now, lambda text: say(f"the next test: {text}"))
+    )
+    words = None if worth is None else in_words(worth.choice)
+    return plan_record(whole.name, found, names, alike, worth, words, unmeasured, refused)
 
 
 def plan_campaign(
@@ -30,28 +57,13 @@ def plan_campaign(
     json: Path | None = None,
     quiet: bool = False,
 ) -> Plan:
-    """Look at the plan of a campaign with the model it has, large deflection added. InputError for bad input."""
+    """Look at the plan of a campaign with the model it has. InputError for bad input."""
     campaign = read(folder)
     model, known = starting_model(campaign, folder, model_file, known_effects(effects_from))
     if json is not None:
         usable(json.parent, f"--json {json}")
-    check_suitable([term.effect for term in model.terms], campaign)
-    whole, unmeasured = foreseen(campaign)
-    whole = completed(whole)
-    candidates, refused = suitable(whole, model, known.effects)
-    if LARGE in candidates:
-        # Signatures depend on the loads as in reality, whether or not that was found to matter yet.
-        model = model.with_effects([candidates.pop(LARGE)])
-    progress = Progress(quiet)
-    with progress.stage("what the tests show") as stage:
-        now = seen(whole, model, candidates, stage.say)
-        found = visible(now, candidates)
-        names, alike = matrix(now)
-    with progress.stage("the next test") as stage:
-        fitted = replace(whole, tests=tuple(t for t in whole.tests if t.role == "fit"))
-        worth = best_next(fitted, model, candidates, now, stage.say)
-    words = None if worth is None else in_words(worth.choice)
-    plan = plan_record(whole.name, found, names, alike, worth, words, unmeasured, refused)
+    with Progress(quiet).stage("what the tests show") as stage:
+        plan = plan_of(campaign, model, known.effects, stage.say)
     if json is not None:
         plan.write(json)
     show(plan, quiet)

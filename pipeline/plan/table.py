@@ -25,9 +25,9 @@ def show(plan: Plan, quiet: bool) -> None:
             out.print(f"{name} cannot be looked for: {escape(why)}")
     if plan.unmeasured:
         out.print(
-            f"Not measured yet, sensors as in [noise]: {escape(', '.join(plan.unmeasured))}.", soft_wrap=True
+            escape(f"Not measured yet, sensors as in [noise]: {', '.join(plan.unmeasured)}."), soft_wrap=True
         )
-    for sentence in _next(plan):
+    for sentence in following(plan):
         out.print(escape(sentence))
 
 
@@ -87,7 +87,8 @@ def _cell(value: float) -> str:
     return f"[bold]{text}[/bold]" if value >= ALIKE else text
 
 
-def _next(plan: Plan) -> list[str]:
+def following(plan: Plan) -> list[str]:
+    """The next test in words, and what it is good for."""
     if plan.next_test is None:
         return ["No further test of the usual kinds adds anything to these."]
     newly = plan.next_test["newly"]

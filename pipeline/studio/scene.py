@@ -17,6 +17,8 @@ from reports.style import FAINT, INK
 TOP = 100.0
 """Sigmas of the darkest colour; the lightest is noise."""
 SHADES = "cividis_r"
+THICK = {"parallelogram": 1.0, "bar": 1.0, "manipulator": 2.0}
+"""A manipulator is some bars wide."""
 
 
 class Scene:
@@ -32,16 +34,20 @@ class Scene:
         """Draw a step; returns what is seen, in words."""
         data = test.model_dump()
         scale = scale_of(data)
-        misfit = test.misfit_after[step]
+        misfit = test.misfit_after[step] if test.curves else 1.0
         self._add("nominal", data, None, scale, FAINT, 1.5)
         self._add("measured", data, test.measured_pose[step], scale, colour(misfit), 4.0)
         self._add("predicted", data, test.predicted_pose[step], scale, INK, 1.2)
-        said = "no prediction" if misfit is None else f"misfit of this step {misfit:.3g} sigma"
+        said = "no prediction" if misfit is None else f"misfit {misfit:.3g} sigma"
+        if not test.curves:
+            said = "nothing measured"
         return f"step {test.steps[step]}, displacements × {scale:g}, {said}"
 
     def _add(self, name: str, data: Any, pose: Any, scale: float, shade: str, radius: float) -> None:
         parts = [pyvista.lines_from_points(points) for points in lines(data, pose, scale)]
-        tubes = pyvista.merge(parts).tube(radius=radius * data["rig"]["length_mm"] / 310.0)
+        tubes = pyvista.merge(parts).tube(
+            radius=radius * THICK[data["rig"]["kind"]] * data["rig"]["length_mm"] / 310.0
+        )
         self.plotter.add_mesh(tubes, name=name, color=shade, render=False, reset_camera=False)
 
 

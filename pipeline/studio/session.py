@@ -13,6 +13,7 @@ from pipeline.errors import InputError
 from pipeline.inference.model_file import NAME
 from pipeline.page.command import RESULTS
 from pipeline.page.record import Isolability, Page
+from pipeline.plan.record import Plan
 from pipeline.studio.work import Done, Kind, Task
 from pipeline.studio.worker import Event, Refused, Said, Worker
 
@@ -22,6 +23,7 @@ TITLES: dict[Kind, str] = {
     "add": "adding",
     "remove": "removing",
     "diagnose": "looking for what is missing",
+    "plan": "looking at what these tests show",
     "export": "drawing the report",
 }
 
@@ -47,6 +49,8 @@ class Session:
         self.answer: Answer | None = None
         self.isolability: Isolability | None = None
         self.diagnosed: Page | None = None
+        self.plan: Plan | None = None
+        self.planned: Page | None = None
         self.names: tuple[tuple[str, str], ...] = ()
         self.dirty = False
         self.complaint = self.remark = self.progress = ""
@@ -80,6 +84,10 @@ class Session:
     def diagnose(self) -> None:
         """Look for what is missing, from the model as it stands."""
         self._change("diagnose", ())
+
+    def look_ahead(self) -> None:
+        """Look at what the tests show about the model as it stands, measured or not, and which comes next."""
+        self._change("plan", ())
 
     def export(self, out: Path | None = None) -> None:
         """Draw the report of the model as it stands, outside of the campaign."""
@@ -178,13 +186,15 @@ class Session:
             self.folder, self._seen = task.folder, self._pending[0]
             if task.model is None:
                 self._on_disk, self.dirty = self._pending[1], False
-                self.answer = self.isolability = None
+                self.answer = self.isolability = self.plan = None
         if done.page is not None:
             self.model, self._kept, self.page, self.names = done.model, done.kept, done.page, done.names
             self.dirty = self.dirty or task.kind in ("add", "remove")
         if done.answer is not None:
             self.answer, self.isolability = done.answer, done.isolability
             self.diagnosed = self.page
+        if done.plan is not None:
+            self.plan, self.planned = done.plan, self.page
         if done.written is not None:
             self.remark = f"report: {done.written}"
 

@@ -9,8 +9,9 @@ from pipeline.answer import Answer, Value
 from pipeline.campaign.reading import DESCRIPTION
 from pipeline.page.record import Page, TestPage
 from pipeline.page.words import why
+from pipeline.studio.planning import planning
 from pipeline.studio.session import Session
-from reports.campaign.names import channel_label, test_label
+from reports.campaign.names import channel_label, measured, test_label
 from reports.formats import number
 
 DEEP = 3
@@ -40,6 +41,8 @@ def panel(session: Session) -> dict[str, Any]:
         "sentences": [] if answer is None else list(answer.sentences[1:]),
         "named": list(named),
         "errors": "" if page is None else _errors(page),
+        "measured": page is not None and measured(page.model_dump()),
+        **planning(session),
     }
 
 

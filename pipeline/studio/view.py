@@ -10,15 +10,17 @@ from trame.app import get_server
 from trame.decorators import TrameApp, change
 
 from pipeline.page.record import Page
+from pipeline.plan.record import Plan
 from pipeline.studio.drop import Dropped, lay
 from pipeline.studio.layout import Actions, build
 from pipeline.studio.scene import Scene
 from pipeline.studio.session import Session
 from pipeline.studio.state import campaigns, channels, panel, test_of, tests
-from reports.campaign import curve, plots
+from reports.campaign import curve, matrix, plots
 from reports.campaign.names import channel_label, test_label, worst
 
-HEIGHT = 364
+HEIGHT, MAP, MATRIX, NARROW = 330, 290, 400, 222
+"""Pixels of the plots."""
 SECONDS = 0.1
 """Between two looks at what the worker has sent."""
 EMPTY: dict[str, Any] = {
@@ -32,6 +34,7 @@ EMPTY: dict[str, Any] = {
     "step": 0,
     "steps": 0,
     "seen": "",
+    "tab": "data",
 }
 
 
@@ -54,6 +57,7 @@ class Studio:
         self.scene = Scene()
         self.session = Session(self._show, effects_from)
         self._shown: Page | None = None
+        self._foreseen: Plan | None = None
         self._framed = ""
         self.state.trame__title = "parastiff studio"
         self.state.update({**EMPTY, **panel(self.session), "campaigns": campaigns(Path.cwd())})
@@ -65,6 +69,7 @@ class Studio:
             "save": session.save,
             "export": session.export,
             "diagnose": session.diagnose,
+            "plan": session.look_ahead,
             "cancel": session.cancel,
             "pick": self._pick,
         }
@@ -102,11 +107,17 @@ class Studio:
             self._shown = page
             self.state.folder = str(self.session.folder)
             self._draw(page)
+        plan = self.session.plan
+        if plan is not self._foreseen:
+            self._foreseen = plan
+            self.state.tab = "data" if plan is None else "plan"
+            if plan is not None:
+                self.views["alike"].update(matrix.numbered(plan.names, plan.alike, MATRIX))
 
     def _draw(self, page: Page) -> None:
         record = page.model_dump()
         self.views["waterfall"].update(small(plots.waterfall(record)))
-        self.views["map"].update(dense(plots.misfit_map(record, ("after",), 304)))
+        self.views["map"].update(dense(plots.misfit_map(record, ("after",), MAP)))
         self.state.tests = tests(page)
         if self.state.test not in self.state.tests:
             test, it = (
@@ -179,9 +190,12 @@ class Studio:
 def small(figure: Any) -> Any:
     """A plot for the narrow column."""
     decades = [1, 10, 100, 1000, 10000]
-    figure.update_layout(height=210, margin={"l": 10, "r": 46, "t": 18, "b": 66}, font={"size": 11})
-    figure.update_xaxes(tickvals=decades, ticktext=[str(it) for it in decades], title_font_size=11)
-    figure.update_layout(legend={"y": -0.42, "font": {"size": 11}})
+    figure.update_layout(height=NARROW, margin={"l": 10, "r": 46, "t": 18, "b": 80}, font={"size": 11})
+    figure.update_xaxes(
+        tickvals=decades, ticktext=[str(it) for it in decades], title_font_size=11, title_standoff=4
+    )
+    legend = {"xref": "container", "yref": "container", "x": 0.0, "y": 0.0, "yanchor": "bottom"}
+    figure.update_layout(legend={**legend, "font": {"size": 11}})
     return figure
 
 

@@ -20,10 +20,12 @@ from pipeline.page.collect import Subject, collect
 from pipeline.page.command import write_page
 from pipeline.page.isolability import isolability
 from pipeline.page.record import Isolability, Page
+from pipeline.plan.command import plan_of
+from pipeline.plan.record import Plan
 from pipeline.provenance import commit, versions
 
 Say = Callable[[str], None]
-Kind = Literal["open", "add", "remove", "diagnose", "export"]
+Kind = Literal["open", "add", "remove", "diagnose", "plan", "export"]
 
 
 @dataclass(frozen=True)
@@ -54,6 +56,7 @@ class Done:
     page: Page | None = None
     answer: Answer | None = None
     isolability: Isolability | None = None
+    plan: Plan | None = None
     names: tuple[tuple[str, str], ...] = ()
     written: Path | None = None
 
@@ -74,6 +77,8 @@ def do(task: Task, say: Say) -> Done:
         found = diagnose(campaign, model, known.effects, say)
         answer = answer_of(found, sentences(found))
         return Done("diagnose", answer=answer, isolability=isolability(found))
+    if task.kind == "plan":
+        return Done("plan", plan=plan_of(campaign, model, known.effects, say))
     if task.kind == "export":
         return _exported(task, subject, say)
     if task.kind == "add":

@@ -11,7 +11,7 @@ from typing import Any
 import plotly.graph_objects as go
 from plotly.subplots import make_subplots
 
-from reports.campaign.names import AFTER, BEFORE, axis_label, test_label
+from reports.campaign.names import AFTER, BEFORE, axis_label, place, test_label
 from reports.formats import number
 from reports.load import Json
 from reports.plots import style
@@ -41,10 +41,8 @@ def figure(test: Json, curve: Json, height: int = HEIGHT) -> dict[str, Any]:
     traces.append(_measured(test, curve))
     traces += [_left(test, curve, key, axis) for key, axis in (("before", "2"), ("after", "3"))]
     layout = json.loads(_layout(height))
-    title = (
-        f"{escape(test_label(test))}, q = {test['q_deg']:g}°: {axis_label(curve['channel'], curve['unit'])}"
-    )
-    layout["title"]["text"] = title
+    channel = axis_label(curve["channel"], curve["unit"])
+    layout["title"]["text"] = f"{escape(test_label(test))}, {place(test)}: {channel}"
     layout["xaxis3"]["title"]["text"] = f"{axis_label(test['load'], test['load_unit'])} (drives the test)"
     layout["yaxis"]["title"]["text"] = axis_label(curve["channel"], curve["unit"])
     return {"data": traces, "layout": layout}

@@ -1,7 +1,8 @@
 """The linkage as lines, deformed as much as can be seen: for a view that can be turned.
 
 Lengths in mm, base frame. Bars are drawn through their ends and as they are held there: out of the plane clamped at
-the base and turned with the platform at the tip; in the plane they turn freely.
+the base and turned with the platform at the tip; in the plane they turn freely. The legs of a manipulator stay up to
+their first passive joint and are straight from there to the moved platform.
 """
 
 from collections.abc import Sequence
@@ -15,8 +16,8 @@ from reports.load import Json
 
 Floats = npt.NDArray[np.float64]
 POINTS = 25
-PLATFORM = 0.2
-"""Of its characteristic length, the half size of a manipulator's platform: its legs are not drawn."""
+PLATFORM = 0.06
+"""Of its characteristic length, the half size of the cross that a manipulator's platform is drawn as."""
 SHARE = 0.15
 """Of the bars' length, that the largest displacement of a test is drawn with."""
 
@@ -27,8 +28,7 @@ def lines(test: Json, pose: Sequence[float | None] | None, scale: float) -> list
     known = np.zeros(6) if pose is None else np.array([value or 0.0 for value in pose]) * scale
     turn = Rotation.from_rotvec(known[3:])
     if rig["kind"] == "manipulator":
-        arms = PLATFORM * rig["length_mm"] * np.eye(3)
-        return [known[:3] + turn.apply(np.array([-arm, arm])) for arm in arms]
+        return _manipulator(rig, known[:3], turn)
     along = np.array([np.cos(q), 0.0, -np.sin(q)])
     tip = rig["length_mm"] * along + known[:3]
     half = 0.5 * (rig["width_mm"] or 0.0)
@@ -38,6 +38,18 @@ def lines(test: Json, pose: Sequence[float | None] | None, scale: float) -> list
     slope = float(np.clip(turn.apply(along)[1], -0.8, 0.8))
     bars = [_bar(np.array([0.0, 0.0, side]), end, slope) for side, end in zip(sides, ends, strict=True)]
     return [*bars, np.array(ends)] if len(ends) > 1 else bars
+
+
+def _manipulator(rig: Json, shift: Floats, turn: Rotation) -> list[Floats]:
+    """The legs, each point as far as it follows the platform, and a cross for the platform."""
+    at = np.array(rig["place_mm"])
+    drawn = []
+    for line in rig["lines"]:
+        points = np.array(line["points"])
+        taken = at + shift + turn.apply(points - at)
+        drawn.append(points + np.array(line["share"])[:, None] * (taken - points))
+    arms = PLATFORM * rig["length_mm"] * np.eye(3)
+    return [*drawn, *(at + shift + turn.apply(np.array([-arm, arm])) for arm in arms)]
 
 
 def scale_of(test: Json) -> float:

@@ -33,6 +33,19 @@ def test_label(test: Json) -> str:
     return f"{test['test']} (held out)" if test["role"] == "holdout" else str(test["test"])
 
 
+def place(test: Json) -> str:
+    """Where the rig stands in a test."""
+    point = test["rig"].get("place_mm")
+    if point is None:
+        return f"q = {test['q_deg']:g}°"
+    return f"platform at ({', '.join(f'{value:g}' for value in point)}) mm"
+
+
+def measured(page: Json) -> bool:
+    """Whether there is a reading that a model predicts."""
+    return any(test["curves"] for test in page["tests"])
+
+
 def channels(page: Json) -> list[str]:
     """Channels that any test has, in the order of the columns."""
     order = ["x", "y", "z", "rx", "ry", "rz", "fx", "fy", "fz", "mx", "my", "mz"]

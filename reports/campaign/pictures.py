@@ -13,6 +13,8 @@ from reports.campaign.names import (
     by_role,
     channel_label,
     channels,
+    measured,
+    place,
     stage_labels,
     test_label,
     unit_label,
@@ -31,7 +33,7 @@ STYLES = {"before": (BEFORE, "--"), "after": (AFTER, "-")}
 
 def draw(page: Json) -> dict[str, bytes]:
     """All pictures by name."""
-    out = {"waterfall": waterfall(page), "misfit": misfit(page)}
+    out = {"waterfall": waterfall(page), "misfit": misfit(page)} if measured(page) else {}
     out |= {f"curve_{k}": curve(test, it) for k, (test, it) in enumerate(worst(page, WORST), 1)}
     if page["isolability"] is not None:
         out["isolability"] = isolability(page["isolability"])
@@ -62,7 +64,8 @@ def waterfall(page: Json) -> bytes:
         for y, value in places:
             ax.text(value * 1.06, y, number(value, 3), va="center", fontsize=9, color=INK)
     ax.set_xscale("log")
-    ax.set_xlim(0.3, 2.0 * max([3.0, *(stage["fit"] for stage in page["error"])]))
+    errors = [stage[key] or 0.0 for stage in page["error"] for key in ("fit", "holdout")]
+    ax.set_xlim(0.3, 2.0 * max([3.0, *errors]))
     ax.axvline(1.0, color=INK, ls="--", lw=1)
     ax.set_yticks(range(len(labels)), labels)
     ax.invert_yaxis()
@@ -122,10 +125,10 @@ def curve(test: Json, it: Json) -> bytes:
         color=INK,
         capsize=2,
         lw=0.9,
-        label="measured",
+        label="measured, ± 1 sigma",
     )
     upper.set_ylabel(f"{channel_label(it['channel'])}, {unit_label(it['unit'])}")
-    upper.set_title(f"{test_label(test)}, q = {test['q_deg']:g}°", fontsize=10, loc="left", color=INK)
+    upper.set_title(f"{test_label(test)}, {place(test)}", fontsize=10, loc="left", color=INK)
     upper.legend(frameon=False, fontsize=8)
     for ax, (key, (_, dash)) in zip(lower, STYLES.items(), strict=True):
         ax.axhspan(-BAND, BAND, color=FAINT, alpha=0.18, lw=0)

@@ -125,35 +125,6 @@ def _shades(top: float) -> dict[str, Any]:
     return {"colorscale": SHADES, "cmin": 0.0, "cmax": top, "colorbar": bar}
 
 
-def isolability(found: Json) -> go.Figure:
-    """How alike effects look: rows explained by columns."""
-    names = [escape(name) for name in found["effects"]]
-    plot = go.Figure()
-    plot.add_heatmap(
-        z=found["correlation"],
-        x=names,
-        y=names,
-        text=[
-            ["" if v is None else f"{v:.3f}"[1:] if v < 0.9995 else "1" for v in row]
-            for row in found["correlation"]
-        ],
-        texttemplate="%{text}",
-        textfont={"size": 9},
-        hovertemplate="%{y} as %{x}: %{z:.4f}<extra></extra>",
-        colorscale=SHADES,
-        zmin=0.0,
-        zmax=1.0,
-        xgap=1,
-        ygap=1,
-        colorbar={"title": {"text": "correlation"}, "thickness": 12},
-    )
-    plot.update_xaxes(
-        title_text="could be taken for this effect", tickangle=-50, automargin=True, showgrid=False
-    )
-    plot.update_yaxes(title_text="this effect", autorange="reversed", automargin=True, showgrid=False)
-    return style(plot, 260 + 26 * len(names), margin={"l": 20, "r": 20, "t": 20, "b": 20})
-
-
 def _grid(tests: list[Json], names: list[str], key: str) -> list[list[float | None]]:
     by_channel = [{curve["channel"]: curve[key] for curve in test["curves"]} for test in tests]
     return [[found.get(name) for name in names] for found in by_channel]

@@ -4,8 +4,8 @@ from collections.abc import Iterator, Mapping
 from math import ceil
 
 from reports.blocks import Block, Bullets, Code, Explorer, Figure, Lead, Section, Tables, Text
-from reports.campaign import curve, plots, tables
-from reports.campaign.names import channel_label, test_label, worst
+from reports.campaign import curve, matrix, plots, tables
+from reports.campaign.names import channel_label, measured, test_label, worst
 from reports.formats import number
 from reports.load import Json
 
@@ -19,7 +19,9 @@ CAPTION = "Measured, plain virtual springs and the model; below, what each leave
 
 def build(page: Json, pictures: Pictures) -> list[Section]:
     """All sections; pictures: PNG by name."""
-    parts = [verdict(page), waterfall(page, pictures), misfit(page, pictures), curves(page, pictures)]
+    parts = [verdict(page)]
+    if measured(page):
+        parts += [waterfall(page, pictures), misfit(page, pictures), curves(page, pictures)]
     parts += [Section("held-out", "Tests held out", list(held_out(page)))]
     parts += [Section("candidates", "What could be missing", list(candidates(page, pictures)))]
     if page["parameters"]:
@@ -76,8 +78,6 @@ def curves(page: Json, pictures: Pictures) -> Section:
         for test in page["tests"]
         for it in test["curves"]
     }
-    if not plots_of:
-        return Section("curves", "Measured and predicted", [Text("No channel of any test is predicted.")])
     top, it = worst(page, 1)[0]
     first = (test_label(top), channel_label(it["channel"]))
     drawn = [Figure(name, CAPTION, png=png) for name, png in pictures.items() if name[:6] == "curve_"]
@@ -107,7 +107,9 @@ def candidates(page: Json, pictures: Pictures) -> Iterator[Block]:
             "of a row does, at its typical size, with the best that the effect of a column can do. Dark, near 1: these "
             "tests cannot tell them apart unless the effect is large. An empty row does not show at its typical size."
         )
-        yield Figure("isolability", caption, plots.isolability(found), png=pictures["isolability"])
+        if found.get("anew"):
+            caption += " Computed for this page: the saved answer does not hold it."
+        yield Figure("isolability", caption, matrix.isolability(found), png=pictures["isolability"])
 
 
 def parameters(page: Json) -> Iterator[Block]:

@@ -1,7 +1,7 @@
 """Tables of a campaign's page."""
 
 from reports.blocks import Cell, Column, Table, table
-from reports.campaign.names import channel_label, stage_labels, unit_label
+from reports.campaign.names import channel_label, place, stage_labels, unit_label
 from reports.formats import DASH, count, number
 from reports.load import Json
 from reports.tables_record import pairs
@@ -58,7 +58,7 @@ def tests(page: Json, role: str) -> Table:
     """Every test of a role before and after."""
     columns = [
         Column("test", numeric=False),
-        Column("q", "°"),
+        Column("place", numeric=False) if _moves(page) else Column("q", "°"),
         Column("driven by", numeric=False),
         Column("steps"),
         Column("before", "sigma"),
@@ -69,7 +69,7 @@ def tests(page: Json, role: str) -> Table:
             Cell(
                 test["test"], f"{test['lost_after']} steps without prediction" if test["lost_after"] else ""
             ),
-            Cell(f"{test['q_deg']:g}".replace("-", "−")),
+            Cell(place(test) if _moves(page) else f"{test['q_deg']:g}".replace("-", "−")),
             Cell(f"{channel_label(test['load'])}, {unit_label(test['load_unit'])}"),
             Cell(str(len(test["steps"]))),
             Cell(sigma(test["error_before"])),
@@ -183,6 +183,11 @@ def next_test(found: Json) -> Table:
 def versions(page: Json) -> Table:
     """Versions and commit."""
     return pairs("Versions", "package", "version", {**page["versions"], "commit": page["commit"]})
+
+
+def _moves(page: Json) -> bool:
+    """Whether tests differ in where the platform stands, and not in an angle."""
+    return any(test["rig"].get("place_mm") is not None for test in page["tests"])
 
 
 def _probability(value: float | None) -> str:

@@ -17,12 +17,12 @@
   const show = () => {
     const [, , found] = said.plots.find(([row, column]) => row === rows.value && column === columns.value);
     const whole = full(found);
-    Plotly.react(plot, whole.data, whole.layout, said.config);
+    return Plotly.react(plot, whole.data, whole.layout, said.config);
   };
   const choose = (row, column) => {
     rows.value = row;
     fill(columns, said.plots.filter(([name]) => name === row).map(([, name]) => name), column);
-    show();
+    return show();
   };
   const step = (by) => {
     const at = said.plots.findIndex(([row, column]) => row === rows.value && column === columns.value);
@@ -34,12 +34,12 @@
   columns.addEventListener("change", show);
   back.addEventListener("click", () => step(-1));
   on.addEventListener("click", () => step(1));
-  choose(...said.first);
+  drawLater.push({ place: plot, draw: () => choose(...said.first) });
   const map = document.getElementById(said.linked);
-  if (map && map.on) map.on("plotly_click", (event) => {
+  if (map) map.addEventListener("drawn", () => map.on("plotly_click", (event) => {
     const [y, x] = event.points[0].customdata;
     if (!said.plots.some(([row, column]) => row === y && column === x)) return;
     choose(y, x);
     here.scrollIntoView({ behavior: "smooth", block: "start" });
-  });
+  }));
 })();

@@ -42,11 +42,15 @@ def test_a_turned_platform_takes_the_bar_with_it() -> None:
     assert slopes[-1] == pytest.approx(np.sin(0.1), rel=0.05) and abs(slopes[0]) < 0.005
 
 
-def test_what_is_not_measured_does_not_move_and_a_manipulator_is_its_platform() -> None:
+def test_what_is_not_measured_does_not_move() -> None:
     (bar,) = lines(loaded("bar", 0.0, []), [None] * 6, 100.0)
     assert abs(bar[:, 1:]).max() == 0.0
-    arms = lines(loaded("manipulator", 0.0, []), [1.0, 0.0, 0.0, 0.0, 0.0, 0.0], 3.0)
-    assert len(arms) == 3 and all(arm.mean(axis=0).tolist() == [3.0, 0.0, 0.0] for arm in arms)
+
+
+def test_a_platform_is_a_cross_where_it_stands() -> None:
+    rig = {"kind": "manipulator", "length_mm": LENGTH, "place_mm": [5.0, 0.0, 0.0], "lines": []}
+    arms = lines({"rig": rig, "q_deg": 0.0}, [1.0, 0.0, 0.0, 0.0, 0.0, 0.0], 3.0)
+    assert len(arms) == 3 and all(arm.mean(axis=0).tolist() == [8.0, 0.0, 0.0] for arm in arms)
 
 
 @pytest.mark.parametrize("largest", [1e-4, 0.02, 0.9, 6.0, 500.0])

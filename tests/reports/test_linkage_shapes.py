@@ -43,7 +43,7 @@ def test_every_stored_shape_is_in_the_page_with_its_load(tmp_path: Path) -> None
     # Some 9 % of the bars' length, rounded: 0.09 310 / 3.1 = 9.
     assert shapes[0].scale == 9.0 and shapes[0].stress.max() == pytest.approx(72.0, rel=0.01)
     for shape in shapes:
-        assert json.dumps(shape.title)[1:-1] in text
+        assert json.dumps(shape.title, ensure_ascii=False)[1:-1] in text
     assert "von Mises stress, MPa" in text and 'id="plot-stress"' in text
     markdown = (folder / "report.md").read_text(encoding="utf-8")
     assert re.search(r"!\[stress\]\(pictures/stress\.png\)", markdown)

@@ -17,11 +17,22 @@ import pytest
 from playwright.sync_api import TimeoutError as PlaywrightTimeout
 
 from pipeline.campaign import write
+from pipeline.errors import InputError
 from pipeline.inference.model_reading import read_model_file
+from pipeline.page.command import report_campaign
+from pipeline.plan.command import plan_campaign
+from pipeline.plan.table import following
 from tests.conftest import ROOT
 from tests.pipeline.bench import bench
+from tests.pipeline.inference import manipulators
 from tests.reports.browser import NEEDS_BROWSER, browser
+from tests.studio.ahead import unmeasured
 
+FOCUS = """() => {
+  const it = document.activeElement, look = getComputedStyle(it);
+  const name = it.id || it.getAttribute("role") || it.closest("[id]")?.id || it.tagName;
+  return [name, look.outlineStyle !== "none" && parseFloat(look.outlineWidth) >= 2];
+}"""
 PATIENCE, TRIES = 60_000, 12
 """Milliseconds; two cores are shared."""
 pytestmark = NEEDS_BROWSER
@@ -74,6 +85,19 @@ def added(page: Any, effect: str) -> None:
     page.get_by_role("button", name=f"Remove {effect}").wait_for()
 
 
+def focused(page: Any) -> list[str]:
+    """Names of what the tab key comes to until it is back at the page; each can be seen to have the focus."""
+    names: list[str] = []
+    while len(names) < 40:
+        page.keyboard.press("Tab")
+        name, seen = page.evaluate(FOCUS)
+        if name == "BODY":
+            break
+        names.append(name)
+        assert seen, names
+    return names
+
+
 def sigma(page: Any) -> float:
     """The error of the model that is shown."""
     found = re.search(r"→ ([\d.]+) sigma", page.locator("#errors").text_content())
@@ -124,6 +148,54 @@ def test_open_add_and_save_with_a_browser_that_is_killed_on_the_way(tmp_path: Pa
     saved = read_model_file(tmp_path / "rig" / "model.toml")
     assert saved.model.names == ("bar_geometric_nonlinearity", "modulus_error")
     assert requests and outside(requests) == []
+
+
+def test_plan_before_measuring_a_dropped_mistake_and_a_manipulator_without_a_mouse(tmp_path: Path) -> None:
+    """What is dropped is complained about as on the command line, and what was open stays."""
+    write(tmp_path / "ahead", unmeasured())
+    write(tmp_path / "arms", manipulators.campaign())
+    write(tmp_path / "bad", unmeasured())
+    described = tmp_path / "bad" / "campaign.toml"
+    described.write_text(described.read_text().replace("length_mm", "lenght_mm"))
+    with studio(tmp_path, "ahead") as url, browser() as found:
+        page = opened(found, url)
+        page.locator("#headline", has_text="not measured yet").wait_for()
+        order = focused(page)
+        assert order == [
+            "folder",
+            "open",
+            "drop",
+            "export",
+            "effect",
+            "plan",
+            "tab_data",
+            "scene",
+            "slider",
+            "test",
+        ]
+        page.locator("#tab_data").press("ArrowRight")
+        page.keyboard.press("Enter")
+        page.locator("div", has_text="measured or not, and which test comes next").last.wait_for()
+        assert page.locator("#diagnose").is_disabled() and page.locator("#save").is_disabled()
+        page.locator("#plan").press("Space")
+        said = following(plan_campaign(tmp_path / "ahead", quiet=True))
+        page.locator("#next_test", has_text=said[0]).wait_for()
+        assert page.locator("#sizes tbody tr").count() > 20
+        assert page.locator("#planned .js-plotly-plot .ytick").count() > 10
+        page.locator("#drop").set_input_files([described, tmp_path / "bad" / "measurements.csv"])
+        page.locator("#complaint", has_text="lenght_mm").wait_for()
+        with pytest.raises(InputError) as caught:
+            report_campaign(tmp_path / "results" / "dropped" / "ahead", tmp_path / "out")
+        complaint = page.locator("#complaint").inner_text().strip()
+        assert complaint.replace(f"{tmp_path}/", "") == str(caught.value).replace(f"{tmp_path}/", "")
+        assert page.locator("#headline", has_text="not measured yet").count() == 1
+        page.locator("#folder").fill("arms")
+        page.locator("#folder").press("Tab")
+        page.locator("#open").press("Enter")
+        page.locator(".gtitle", has_text="platform at (").wait_for()
+        page.locator("#tab_data").press("Enter")
+        page.get_by_role("slider").press("End")
+        page.locator("#seen", has_text="step 3, displacements ×").wait_for()
 
 
 @pytest.mark.long

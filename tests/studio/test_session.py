@@ -14,10 +14,13 @@ from pipeline.campaign import write
 from pipeline.errors import InputError
 from pipeline.inference.model_reading import read_model_file
 from pipeline.page.command import report_campaign
+from pipeline.plan.command import plan_campaign
 from pipeline.studio.command import studio
 from pipeline.studio.session import Session
+from pipeline.studio.state import panel
 from tests.conftest import Done
 from tests.pipeline.bench import bench
+from tests.studio.ahead import unmeasured
 
 PATIENCE = 120.0
 """Seconds; two cores are shared."""
@@ -145,6 +148,29 @@ def test_a_cancelled_diagnosis_changes_nothing_and_the_next_task_works(
     it.add(["load_offset"])
     until(it, idle)
     assert it.page is not None and it.page.effects == ("load_offset",)
+
+
+def test_a_plan_before_measuring_is_that_of_the_command_line(
+    session: Session, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    write(tmp_path / "ahead", unmeasured())
+    it = opened(session, tmp_path / "ahead")
+    assert it.headline.startswith("not measured yet") and it.plan is None
+    assert not panel(it)["measured"] and not panel(it)["planned"]
+    it.look_ahead()
+    until(it, lambda s: ":" in s.progress)
+    it.cancel()
+    assert it.plan is None and it.busy is None and "looking at what these tests show: cancelled" in it.remark
+    it.look_ahead()
+    until(it, idle)
+    assert it.plan == plan_campaign(tmp_path / "ahead", quiet=True) and it.planned is it.page
+    shown, said = panel(it), capsys.readouterr().out
+    assert "Not measured yet, sensors as in [noise]: axial, lateral." in said
+    assert shown["following"][0] in " ".join(said.split()) and "Not measured yet" in shown["about"]
+    assert len(shown["sizes"]) == len(it.plan.sizes) and any(row["alike"] for row in shown["sizes"])
+    it.add(["modulus_error"])
+    until(it, idle)
+    assert "has changed since: Plan looks again" in panel(it)["about"]
 
 
 def test_a_process_that_dies_is_said_and_replaced(session: Session, folder: Path) -> None:

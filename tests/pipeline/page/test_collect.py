@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import defaultdict
 from collections.abc import Callable
 from functools import cache
 from pathlib import Path
@@ -13,17 +14,24 @@ from pipeline.add.fitting import add
 from pipeline.answer import Answer, Candidate
 from pipeline.campaign import write
 from pipeline.compare.error import Discrepancy
+from pipeline.diagnose.diagnosis import diagnose
 from pipeline.errors import InputError
 from pipeline.inference.model import Model
 from pipeline.inference.prediction import predict
 from pipeline.inference.program import program
 from pipeline.inference.suitable import known_effects
 from pipeline.page.collect import Subject, collect, proposed
-from pipeline.page.command import report_campaign
+from pipeline.page.command import report_campaign, write_page
+from pipeline.page.isolability import isolability, isolability_anew
 from pipeline.page.record import Page
 from pipeline.page.words import why
+from reports.blocks import Table
+from reports.campaign.sections import build
 from tests.conftest import Done
 from tests.pipeline.bench import bench
+from tests.pipeline.diagnose.bench import bench as small_bench
+from tests.pipeline.inference import manipulators
+from tests.studio.ahead import unmeasured
 
 EFFECTS = ("bar_geometric_nonlinearity", "modulus_error")
 
@@ -88,6 +96,36 @@ def test_an_answer_brings_its_model_and_its_words() -> None:
     assert found.proposed == EFFECTS and found.headline == answer.sentences[0]
     assert found.candidates[0].chosen and found.candidates[0].why == "chosen"
     assert "explains too little: 9 sigma" in found.candidates[1].why
+
+
+def test_a_saved_answer_is_shown_with_the_matrix_that_the_diagnosis_had() -> None:
+    every = known_effects().effects
+    few = {name: every[name] for name in (*EFFECTS, "axis_flexibility", "load_offset", "joint_friction")}
+    campaign = small_bench("modulus_error.scale", 0.95, ids=("axial_held_q+0", "lateral_q+0"))
+    found = diagnose(campaign, Model(), few)
+    first, anew = isolability(found), isolability_anew(campaign, Model(), few, found.sets[0], lambda _: None)
+    assert first.about == ("bar_geometric_nonlinearity",) and not first.anew and anew.anew
+    assert anew.model_copy(update={"anew": False}) == first
+    at = first.effects.index("axis_flexibility")
+    assert 0.99 < (first.correlation[at][first.effects.index("modulus_error")] or 0.0) < 1.0
+
+
+def test_a_page_about_a_manipulator_says_where_it_stands() -> None:
+    found = collect(Subject(manipulators.campaign(), Model(), known_effects(), {}))
+    assert [t.rig.place_mm for t in found.tests[1:]] == [(0.0, 0.0, 0.0), (50.0, -40.0, 60.0)]
+    assert found.tests[0].rig.lines and not found.rig.lines
+    sections = {s.anchor: s for s in build(found.model_dump(), defaultdict(bytes))}
+    rows = [row for block in sections["misfit"].blocks if isinstance(block, Table) for row in block.rows]
+    assert [row[1].text for row in rows][-1] == "platform at (50, -40, 60) mm"
+    assert "unloaded bars at q" not in " ".join(found.assumptions)
+
+
+def test_before_anything_is_measured_the_page_says_so(tmp_path: Path) -> None:
+    found = collect(Subject(unmeasured(), Model(), known_effects(), {}))
+    assert found.headline.startswith("not measured yet") and not any(t.curves for t in found.tests)
+    write_page(found, tmp_path)
+    text = (tmp_path / "report.md").read_text(encoding="utf-8")
+    assert "not measured yet" in text and "waterfall" not in text
 
 
 @pytest.mark.parametrize(
