@@ -8,7 +8,17 @@ from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
-PACKAGES = ("parastiff", "numpy", "scipy", "scikit-fem", "gmsh", "meshio", "pyvista", "pypardiso")
+PACKAGES = (
+    "parastiff",
+    "numpy",
+    "scipy",
+    "scikit-fem",
+    "gmsh",
+    "meshio",
+    "pyvista",
+    "pypardiso",
+    "scikit-learn",
+)
 
 
 @cache

@@ -77,8 +77,8 @@ def outcome(number: int, commit: str, code: str) -> Outcome:
     """The outcome of the case of that number."""
     began = process_time()
     it, found, without = _measured(number)
-    campaign = _read(it, found, it.seed)
-    sizes = {name: _shows(it, only, without) for name, only in _each(it, found, without).items()}
+    campaign = campaign_of(it, found, it.seed)
+    sizes = {name: shows(it, only, without) for name, only in each_alone(it, found, without).items()}
     common = {
         "number": number,
         "kind": it.kind,
@@ -148,7 +148,7 @@ def _measured(number: int) -> tuple[Case, list[Readings], list[Readings]]:
     raise RuntimeError(f"case {number} at {SHARES[-1]:g} of its loads: {last}")
 
 
-def _each(it: Case, found: list[Readings], without: list[Readings]) -> Mapping[str, list[Readings]]:
+def each_alone(it: Case, found: list[Readings], without: list[Readings]) -> Mapping[str, list[Readings]]:
     """Readings with each effect alone; the fault is one."""
     if it.fault:
         return {it.fault[0]: found}
@@ -165,15 +165,16 @@ def _each(it: Case, found: list[Readings], without: list[Readings]) -> Mapping[s
     return alone
 
 
-def _read(it: Case, found: list[Readings], seed: int | None) -> Campaign:
+def campaign_of(it: Case, found: list[Readings], seed: int | None) -> Campaign:
+    """The campaign that the case's sensors write of exact readings; seed: None for no noise."""
     bench = it.bench
     return read_out(f"case {it.number}", bench.rig, bench.plan, bench.noise, seed, found, GAUGES)
 
 
-def _shows(it: Case, found: list[Readings], without: list[Readings]) -> Array:
+def shows(it: Case, found: list[Readings], without: list[Readings]) -> Array:
     """(N,) whitened difference of the fitted readings that are predicted, less what prescribed ones answer for."""
-    cases = program(_read(it, without, None))
-    change = program(_read(it, found, None)).measured - cases.measured
+    cases = program(campaign_of(it, without, None))
+    change = program(campaign_of(it, found, None)).measured - cases.measured
     reference = predict(Model().with_effects([catalogue()[ALWAYS]]), cases, slopes=False)
     inputs = np.take_along_axis(change, cases.channels, axis=1)
     change = change - np.einsum("rck,rk->rc", reference.by_inputs[..., :6], inputs)

@@ -75,7 +75,12 @@ def diagnose(
     whole = completed(campaign)
     check_suitable([term.effect for term in model.terms], whole)
     candidates, refused = suitable(whole, model, known)
-    shelf = Shelf(program(whole), model, candidates, say)
+    cases = program(whole)
+    if not (cases.predicted & cases.fitted[:, None]).any():
+        raise InputError(
+            f"{campaign.name}: no fitted test has a reading that a model predicts, so nothing to diagnose"
+        )
+    shelf = Shelf(cases, model, candidates, say)
     found = search(shelf)
     judgement = judge(shelf.fit(found.best))
     sets = sorted((found.best, *found.rivals), key=lambda n: _simplicity(shelf, n))

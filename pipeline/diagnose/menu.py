@@ -68,7 +68,12 @@ class Choice:
 
 
 def menu(campaign: Campaign) -> list[Choice]:
-    """Every shape at the campaign's angles and at 0, 15, 30 and -30 degrees, as far as it went; some also warmer."""
+    """Every shape at the campaign's angles and at 0, 15, 30 and -30 degrees, as far as it went; some also warmer.
+
+    None for a manipulator: its postures are a choice of its own.
+    """
+    if campaign.rig.manipulator is not None:
+        return []
     heat = any(t.data.temperature is not None for t in campaign.tests)
     out: list[Choice] = []
     for angle in _angles(campaign):

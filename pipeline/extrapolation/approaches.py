@@ -9,10 +9,10 @@ from time import process_time
 from pipeline.challenge.cases import ALWAYS
 from pipeline.diagnose.diagnosis import Diagnosis, diagnose, suitable
 from pipeline.diagnose.shelf import Shelf
+from pipeline.discrepancy.gaussian import gaussian
 from pipeline.extrapolation.bench import Measured
 from pipeline.extrapolation.correction import corrected
 from pipeline.extrapolation.forward import forward
-from pipeline.extrapolation.gaussian import gaussian
 from pipeline.extrapolation.polynomial import polynomial
 from pipeline.extrapolation.yardstick import Error, Yardstick, yardstick
 from pipeline.inference.model import Model

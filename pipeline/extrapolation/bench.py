@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from fem.frame.bench import Readings
 from pipeline.campaign import Campaign
 from pipeline.challenge.cases import Case, case
-from pipeline.challenge.outcome import SHARES, _each, _read, _shows
+from pipeline.challenge.outcome import SHARES, campaign_of, each_alone, shows
 from pipeline.inference.driving import driving
 from pipeline.inference.program import Program, program
 from pipeline.virtual.bench import read_out, true_readings
@@ -58,7 +58,9 @@ def measured_case(it: Case, share: float = 1.0) -> Measured:
     without = true_readings(it.bench.rig, plan, {}, GAUGES)
     found = true_readings(it.bench.rig, plan, it.hidden, GAUGES) if it.hidden else without
     inside, outside = _counted(asked, len(plan))
-    return Measured(it, share, _read(it, found, it.seed), asked, inside, outside, _sizes(it, found, without))
+    return Measured(
+        it, share, campaign_of(it, found, it.seed), asked, inside, outside, _sizes(it, found, without)
+    )
 
 
 def between(test: PlannedTest) -> PlannedTest:
@@ -96,5 +98,5 @@ def _counted(asked: Program, count: int) -> tuple[Mask, Mask]:
 
 
 def _sizes(it: Case, found: list[Readings], without: list[Readings]) -> dict[str, float]:
-    alone = _each(it, found, without)
-    return {name: float(np.linalg.norm(_shows(it, only, without))) for name, only in alone.items()}
+    alone = each_alone(it, found, without)
+    return {name: float(np.linalg.norm(shows(it, only, without))) for name, only in alone.items()}

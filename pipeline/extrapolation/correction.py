@@ -11,7 +11,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from pipeline.extrapolation.regressors import Samples, regressors, samples
+from pipeline.discrepancy.regressors import Samples, regressors, samples
 from pipeline.inference.prediction import Prediction
 from pipeline.inference.program import Program
 from pipeline.inference.residual import whitening

@@ -8,8 +8,8 @@ from sklearn.linear_model import Ridge
 from sklearn.model_selection import KFold
 from sklearn.preprocessing import PolynomialFeatures
 
+from pipeline.discrepancy.regressors import Samples
 from pipeline.extrapolation.correction import Learned
-from pipeline.extrapolation.regressors import Samples
 
 Array = NDArray[np.float64]
 DEGREES = (1, 2, 3)

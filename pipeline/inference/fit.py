@@ -28,7 +28,9 @@ NEAR = 0.1
 SETTLE = 3
 """Times that a fit is linearised anew before it ends."""
 LOSING, LOSSES = 1.0, 8
-"""Damping after a step on which rows lost their equilibrium, and how often that may be before a fit ends where it is."""
+"""Damping after a step on which rows lost their equilibrium, and how often that may be before a fit ends there."""
+HELD = 0.1
+"""Of the number that shows most, in typical sizes each: a damped step takes no other for less."""
 TINY = 1e-12
 
 
@@ -117,7 +119,7 @@ class Objective:
     @property
     def lost(self) -> int:
         """Rows without an equilibrium where it was last."""
-        return 0 if self.last is None else int(self.last.lost.sum())
+        return 0 if self._known is None else int(self._known[1].lost.sum())
 
     def residuals(self, values: Array) -> Array:
         """(N,)"""
@@ -129,6 +131,15 @@ class Objective:
         it = self.at(values)[1]
         self._known = (b"", self._known[1], it) if self._known is not None else None
         return self.residuals(values)
+
+    @property
+    def place(self) -> tuple[Prediction | None, tuple[bytes, Prediction, Residual] | None]:
+        """Where it was last, to come back to by `back`."""
+        return self.last, self._known
+
+    def back(self, place: tuple[Prediction | None, tuple[bytes, Prediction, Residual] | None]) -> None:
+        """Go on from there: a step that was not taken may have ended on another branch."""
+        self.last, self._known = place
 
     def unsettled(self, values: Array) -> float:
         """By how many of its sigmas an input that fits best is off the one near which the model was linearised."""
@@ -188,7 +199,7 @@ def _descend(aim: Objective, watch: Callable[[str], None] | None, plausible: flo
     least: float = 0.0
     settled, losses = 0, 0
     here = residuals(values)
-    slopes, lost = jacobian(values), aim.lost
+    slopes, lost, place = jacobian(values), aim.lost, aim.place
     for _ in range(STEPS):
         step = _step(slopes, here, (bounds - values) / scale, damping)
         promise = here @ here - np.sum((here + slopes @ step) ** 2)
@@ -198,7 +209,7 @@ def _descend(aim: Objective, watch: Callable[[str], None] | None, plausible: flo
                 break
             settled += 1
             aim.again(values)
-            here, slopes = residuals(values), jacobian(values)
+            here, slopes, place = residuals(values), jacobian(values), aim.place
             continue
         tried = np.clip(values + scale * step, *bounds)
         there = residuals(tried)
@@ -206,7 +217,7 @@ def _descend(aim: Objective, watch: Callable[[str], None] | None, plausible: flo
         if watch is not None:
             watch(f"{aim.count} evaluations, chi-square {min(here @ here, there @ there):.5g}")
         if gain > 0.1 * promise:
-            values, here, slopes, lost = tried, there, jacobian(tried), aim.lost
+            values, here, slopes, lost, place = tried, there, jacobian(tried), aim.lost, aim.place
             damping = max(damping / 10.0 if damping > 1e-3 else 0.0, least)
             least /= 10.0
         else:
@@ -214,6 +225,7 @@ def _descend(aim: Objective, watch: Callable[[str], None] | None, plausible: flo
             losing = aim.lost > lost
             damping = max(10.0 * damping, LOSING if losing else 1e-2)
             least, losses = (damping, losses + 1) if losing else (least, losses)
+            aim.back(place)
         if damping > 1e6 or losses == LOSSES or (gain <= 0.0 and promise < VAIN * unit):
             break
     return values
@@ -224,7 +236,9 @@ def _step(slopes: Array, residuals: Array, box: Array, damping: float) -> Array:
     orthogonal, triangle = np.linalg.qr(slopes)
     size = np.linalg.norm(triangle, axis=0)
     size = np.where(size > 0, size, 1.0)
-    matrix = np.vstack([triangle, np.sqrt(damping) * np.diag(size)]) / size
+    # Numbers that hardly show are damped like those that do: they would go far before their curvature is seen.
+    held = np.maximum(size, HELD * size.max(initial=0.0))
+    matrix = np.vstack([triangle, np.sqrt(damping) * np.diag(held)]) / size
     right = np.concatenate([-(orthogonal.T @ residuals), np.zeros(size.size)])
     low, high = np.minimum(box[0], 0.0) * size, np.maximum(box[1], 0.0) * size
     found = lsq_linear(matrix, right, bounds=(low - TINY, high + TINY), method="bvls", tol=1e-14)

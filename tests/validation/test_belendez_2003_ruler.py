@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 
 from pipeline.campaign import Campaign, Data, Noise, Rig, Test, UniformBar
+from pipeline.diagnose.diagnosis import diagnose
 from pipeline.inference.model import Model, Term
 from pipeline.inference.prediction import predict
 from pipeline.inference.program import program
@@ -83,3 +84,11 @@ def test_one_effect_at_a_time_is_misled_and_both_together_explain_it() -> None:
     assert both.model.values[0] == pytest.approx(WEIGHT, rel=0.05)
     error = both.prediction.values[:, 2] + DEFLECTION
     assert np.sqrt(np.mean(error**2)) < 2.5
+
+
+def test_without_a_hint_both_are_named() -> None:
+    """One at a time is misled; from the plain model with the whole catalogue both are found, and nothing else."""
+    found = diagnose(campaign(), Model(), EFFECTS)
+    assert found.verdict == "identified"
+    assert set(found.sets[0]) == {LARGE, HEAVY}
+    assert found.fit.rms < 1.0

@@ -10,8 +10,8 @@ from pipeline.challenge.outcome import outcome
 @pytest.mark.parametrize(
     ("number", "score"),
     [
-        (8, "right"),  # nothing hidden, few tests
-        (22, "right"),  # a soft base
+        (8, "right"),  # nothing hidden
+        (22, "right"),  # bars of different stiffness
         (27, "in set"),  # longer bars or warmer ones, at one temperature
     ],
 )

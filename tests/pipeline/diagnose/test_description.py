@@ -13,7 +13,9 @@ from vjm.effects import catalogue
 
 
 def described(campaign: Campaign) -> list[Description]:
-    return descriptions(fit(Model().with_effects([catalogue()["bar_geometric_nonlinearity"]]), program(campaign)))
+    return descriptions(
+        fit(Model().with_effects([catalogue()["bar_geometric_nonlinearity"]]), program(campaign))
+    )
 
 
 def test_cross_talk_goes_with_the_axial_force() -> None:

@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 
 from pipeline.challenge.cases import ALWAYS
+from pipeline.discrepancy.regressors import regressors
 from pipeline.extrapolation.bench import between, beyond
 from pipeline.extrapolation.correction import corrected
-from pipeline.extrapolation.regressors import regressors
 from pipeline.extrapolation.yardstick import true_model, yardstick
 from pipeline.inference.driving import driving
 from pipeline.inference.model import Model

@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from pipeline.extrapolation.gaussian import gaussian
+from pipeline.discrepancy.gaussian import gaussian
+from pipeline.discrepancy.regressors import Samples
 from pipeline.extrapolation.polynomial import polynomial
-from pipeline.extrapolation.regressors import Samples
 
 Array = NDArray[np.float64]
 
