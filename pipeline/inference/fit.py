@@ -228,6 +228,9 @@ def _descend(aim: Objective, watch: Callable[[str], None] | None, plausible: flo
             aim.back(place)
         if damping > 1e6 or losses == LOSSES or (gain <= 0.0 and promise < VAIN * unit):
             break
+    # One that ends on a step not taken ends where it was linearised before that.
+    if aim.unsettled(values) > NEAR:
+        aim.again(values)
     return values
 
 

@@ -19,6 +19,8 @@ the profile's."""
 CLOSE = 0.03
 """Ends of a profile are found to this part of their distance."""
 STEPS = 14
+FLAT = 0.03
+"""Of a standard error: the step whose gain a fit no longer takes."""
 BLIND = 1e-6
 """A direction in which the whitened derivative falls below this part of the number's own is not seen: its error
 bar would be a million times that of the number alone, beyond the rounding of the derivatives."""
@@ -69,9 +71,11 @@ class Landscape:
         self.bounds = np.array([(r.low, r.high) for r in self.ranges]).reshape(-1, 2).T
         self.least = float(self.residuals @ self.residuals)
         near = 1e-6 * (self.bounds[1] - self.bounds[0])
-        uphill = self.jacobian.T @ self.residuals
-        self.active = ((self.values - self.bounds[0] <= near) & (uphill > 0)) | (
-            (self.bounds[1] - self.values <= near) & (uphill < 0)
+        # In sigmas. What is no steeper than a fit leaves undone stops nothing: along a valley floor a fit may end at
+        # a bound as well as anywhere else.
+        uphill = self.jacobian.T @ self.residuals / np.maximum(np.linalg.norm(self.jacobian, axis=0), 1e-300)
+        self.active = ((self.values - self.bounds[0] <= near) & (uphill > FLAT)) | (
+            (self.bounds[1] - self.values <= near) & (uphill < -FLAT)
         )
 
     def ridge(self, k: int) -> tuple[Array, float]:

@@ -86,6 +86,7 @@ def test_one_effect_at_a_time_is_misled_and_both_together_explain_it() -> None:
     assert np.sqrt(np.mean(error**2)) < 2.5
 
 
+@pytest.mark.long
 def test_without_a_hint_both_are_named() -> None:
     """One at a time is misled; from the plain model with the whole catalogue both are found, and nothing else."""
     found = diagnose(campaign(), Model(), EFFECTS)
