@@ -67,6 +67,7 @@ def test_before_and_after_measuring_the_sizes_are_the_same(tmp_path: Path) -> No
         assert before[name]["detected"] == pytest.approx(after[name]["detected"], rel=0.03), name
 
 
+@pytest.mark.long
 def test_axial_tests_confuse_what_gives_along_the_bars(tmp_path: Path) -> None:
     found = planned(bench(ids=AXIAL), tmp_path)
     for name in ("modulus_error.scale", "axis_flexibility.radial_mm_per_N"):

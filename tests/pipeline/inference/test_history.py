@@ -1,0 +1,44 @@
+"""Laws that remember: a test ends at the step that has no equilibrium, and no other test is touched."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from pipeline.inference.history import ENDED
+from pipeline.inference.model import Model
+from pipeline.inference.prediction import predict
+from pipeline.inference.program import program
+from tests.pipeline.diagnose.bench import bench
+from vjm.effects import catalogue
+
+CASES = program(bench("joint_friction.torque_Nmm", 200.0, ("swing_q+0", "axial_held_q+0", "axial_held_q+15")))
+NAMES = ("bar_geometric_nonlinearity", "joint_friction")
+MODEL = Model().with_effects([catalogue()[name] for name in NAMES])
+MODEL = MODEL.at(np.array([200.0 if f.parameter.name == "torque_Nmm" else 2e-3 for f in MODEL.free]))
+
+
+def test_a_test_ends_where_a_step_is_lost() -> None:
+    """A force that no state bears at one step; what the hinges remember after it nobody knows."""
+    test = next(k for k, t in enumerate(CASES.campaign.tests) if t.id == "axial_held_q+0")
+    row = int(CASES.first[test]) + 5
+    shift = np.zeros((len(CASES.test), 7))
+    shift[row, 0] = -1e12
+    before, after = predict(MODEL, CASES, slopes=False), predict(MODEL, CASES, slopes=False, shift=shift)
+    ended = (CASES.test == test) & (np.arange(len(CASES.test)) >= row)
+    assert not before.lost.any()
+    np.testing.assert_array_equal(after.lost, ended)
+    assert {after.reasons[k] for k in np.flatnonzero(ended)[1:]} == {ENDED}
+    assert after.reasons[row] != ENDED
+    np.testing.assert_allclose(after.values[~ended], before.values[~ended], rtol=1e-9, atol=1e-9)
+
+
+def test_a_start_that_leads_nowhere_is_left() -> None:
+    """States a thousand times as far away: from there no step is reached, from the step before every one."""
+    fresh = predict(MODEL, CASES, slopes=False)
+    far = tuple(replace(state, unknowns=1e3 * state.unknowns) for state in fresh.states)
+    again = predict(MODEL, CASES, slopes=False, start=replace(fresh, states=far))
+    assert not again.lost.any()
+    # Newton's method from elsewhere; the sensors' finest step is a thousand times this.
+    np.testing.assert_allclose(again.values, fresh.values, rtol=1e-6, atol=1e-6)
