@@ -60,9 +60,11 @@ def bifurcation(level: int, held: tuple[str, ...], degrees: float) -> Bifurcatio
     for bow in BOWS:
         bent = LinearModel(with_imperfection(straight.linkage, mode.displacements, bow), bar_p.MATERIAL)
         # Fully held, bars P buckle in plane hardly above: the first branch is followed past that.
-        path = follow(bent, held, [-0.9 * start, *(-start - PAST)], unstable_past=start + BRANCHED)
+        # A state between the bifurcation and there is asked for, so that no step passes over the corner.
+        onto = -start - 0.75 * BRANCHED
+        path = follow(bent, held, [-0.9 * start, onto, *(-start - PAST)], unstable_past=start + BRANCHED)
         assert path.failure == "", path.failure
-        loads.append(-path.column("wrench", "x")[1:])
+        loads.append(-path.column("wrench", "x")[2:])
     perfect = loads[0] + (loads[0] - loads[1]) * BOWS[0] / (BOWS[1] - BOWS[0])
     after, value = np.polyfit(PAST, perfect, 1)
     # The straight line before (start + d) meets value + after d.
