@@ -139,6 +139,13 @@ class Equilibrium:
         """One state of the batch, or several."""
         return Equilibrium(self.mechanism, *(np.asarray(part[index]) for part in _arrays(self)))
 
+    def with_members(self, index: np.ndarray, other: Equilibrium) -> Equilibrium:
+        """The same states with those of another one at these numbers, or this mask, of the batch."""
+        parts = [part.copy() for part in _arrays(self)]
+        for part, new in zip(parts, _arrays(other), strict=True):
+            part[index] = new
+        return Equilibrium(self.mechanism, *parts)
+
     def reshaped(self, *batch: int) -> Equilibrium:
         """The same states with other batch axes."""
         axes = self.converged.ndim

@@ -56,6 +56,8 @@ def sentence(result: Comparison) -> str:
     shown = result.model_of(result.shown)
     if shown.failed is not None:
         return f"{result.campaign}: {shown.title} has no prediction: {shown.failed}"
+    if shown.fit is None:
+        return f"{result.campaign}: {shown.title}: not measured yet"
     said = "within the noise" if shown.within_noise else "not within the noise"
     held = "" if shown.holdout is None else f", held-out tests {number(shown.holdout)}"
     return f"{result.campaign}: {shown.title}: {number(shown.fit)} sigma{held}: {said}"
@@ -140,6 +142,8 @@ def _channels(model: ModelError) -> Iterable[RenderableType]:
 
 
 def _failures(model: ModelError) -> list[RenderableType]:
+    if not model.channels and not model.holdout_channels:
+        return [Text("  not measured yet: there is no reading that a model predicts")]
     told = [finding.sentence for finding in model.findings if finding.sentence]
     if told:
         return _lines("  ", told, SENTENCES)

@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import hashlib
 from collections.abc import Hashable, Iterator
-from importlib.metadata import version
 from itertools import count, islice
 from pathlib import Path
 
@@ -24,14 +22,9 @@ def numbers(cases: int) -> list[int]:
 
 def run(cases: int, store: Path, workers: int) -> Iterator[Trial]:
     """The trials of these cases, those in the store first; one counts for the code that it was made with."""
-    here, code = commit(), _code()
+    here, code = commit(), code_digest()
     wanted: dict[Hashable, Task] = {(number, code): (number, here, code) for number in numbers(cases)}
     return trials.run(wanted, _one, Trial, lambda it: (it.number, it.code), store, workers)
-
-
-def _code() -> str:
-    """Digest of the code and of what the residuals are learned with."""
-    return hashlib.sha256(f"{code_digest()} {version('scikit-learn')}".encode()).hexdigest()
 
 
 def _one(task: Task) -> Trial:

@@ -91,6 +91,10 @@ class Fit:
         return np.sqrt(np.diag(self.covariance))
 
 
+Place = tuple[Prediction | None, tuple[bytes, Prediction, Residual] | None]
+"""Where an objective was last: what it starts from, and what it solved there."""
+
+
 @dataclass(eq=False)
 class Objective:
     """Whitened residuals and derivatives at values (P,); goes on from where it was last.
@@ -133,11 +137,11 @@ class Objective:
         return self.residuals(values)
 
     @property
-    def place(self) -> tuple[Prediction | None, tuple[bytes, Prediction, Residual] | None]:
+    def place(self) -> Place:
         """Where it was last, to come back to by `back`."""
         return self.last, self._known
 
-    def back(self, place: tuple[Prediction | None, tuple[bytes, Prediction, Residual] | None]) -> None:
+    def back(self, place: Place) -> None:
         """Go on from there: a step that was not taken may have ended on another branch."""
         self.last, self._known = place
 

@@ -47,7 +47,7 @@ def history(
         )
         part = now.solved(before, None if start is None else start.member((alive, step)))
         found = by_parameters(part, asked, memory_slope=slope[alive] if step else 0.0, order=order)
-        state = part if state is None else put(_ended(state), alive, part)
+        state = part if state is None else _ended(state).with_members(alive, part)
         by.append(np.zeros((tests, *found.readings.shape[1:])))
         by[-1][alive] = found.readings
         slope = np.zeros((tests, *found.memory.shape[1:]))
@@ -78,7 +78,8 @@ class _Step:
         lost = np.flatnonzero(~state.converged)
         if guess is None or not lost.size:
             return state
-        return put(state, lost, self._from(None if before is None else before.member(lost), lost))
+        again = self._from(None if before is None else before.member(lost), lost)
+        return state.with_members(lost, again)
 
     def _from(self, start: Equilibrium | None, some: np.ndarray) -> Equilibrium:
         return equilibrium(
@@ -89,16 +90,6 @@ class _Step:
             drives={name: value[some] for name, value in self.inputs.items()},
             memory=self.memory[some],
         )
-
-
-def put(state: Equilibrium, members: np.ndarray, other: Equilibrium) -> Equilibrium:
-    """The state with these members, numbers or a mask of its batch, replaced by those of another one."""
-    parts = {}
-    for each in fields(state):
-        if each.name != "mechanism":
-            parts[each.name] = getattr(state, each.name).copy()
-            parts[each.name][members] = getattr(other, each.name)
-    return replace(state, **parts)
 
 
 def _ended(state: Equilibrium) -> Equilibrium:

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pipeline.campaign.names import COORDINATES
-from pipeline.inference.history import history, put
+from pipeline.inference.history import history
 from pipeline.inference.manipulator_prediction import predict_manipulator
 from pipeline.inference.manipulator_states import States
 from pipeline.inference.model import Model
@@ -148,7 +148,7 @@ def _branched(mechanism: Rig, group: Group, inputs: dict[str, Array], state: Equ
         mechanism, group.targets, group.channels[:, None], replace(bent, mechanism=mechanism), drives=inputs
     )
     better = lost & again.converged & (again.unstable == 0)
-    return put(state, better, again.member(better))
+    return state.with_members(better, again.member(better))
 
 
 def _begin(

@@ -40,12 +40,7 @@ def plan_of(campaign: Campaign, model: Model, known: Mapping[str, Effect], say: 
     found = visible(now, candidates)
     names, alike = matrix(now)
     fitted = replace(whole, tests=tuple(t for t in whole.tests if t.role == "fit"))
-    # The menu of tests is one of parallelograms and bars.
-    worth = (
-        None
-        if whole.rig.manipulator is not None
-        else best_next(fitted, model, candidates, now, lambda text: say(f"the next test: {text}"))
-    )
+    worth = best_next(fitted, model, candidates, now, lambda text: say(f"the next test: {text}"))
     words = None if worth is None else in_words(worth.choice)
     return plan_record(whole.name, found, names, alike, worth, words, unmeasured, refused)
 

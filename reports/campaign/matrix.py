@@ -12,6 +12,8 @@ from reports.plots import style
 CLOSE = 0.3
 """A correlation below which a cell stays without a number."""
 
+CELLS = {"colorscale": SHADES, "zmin": 0.0, "zmax": 1.0, "xgap": 1, "ygap": 1}
+
 
 def isolability(found: Json) -> go.Figure:
     """How alike effects look: rows explained by columns."""
@@ -28,11 +30,7 @@ def isolability(found: Json) -> go.Figure:
         texttemplate="%{text}",
         textfont={"size": 10},
         hovertemplate="%{y} as %{x}: %{z:.4f}<extra></extra>",
-        colorscale=SHADES,
-        zmin=0.0,
-        zmax=1.0,
-        xgap=1,
-        ygap=1,
+        **CELLS,
         colorbar={"title": {"text": "correlation"}, "thickness": 12},
     )
     plot.update_xaxes(
@@ -61,11 +59,7 @@ def numbered(names: Sequence[str], alike: Sequence[Sequence[float]], height: int
         texttemplate="%{text}",
         textfont={"size": 11},
         hovertemplate="%{y} as %{customdata}: %{z:.4f}<extra></extra>",
-        colorscale=SHADES,
-        zmin=0.0,
-        zmax=1.0,
-        xgap=1,
-        ygap=1,
+        **CELLS,
         showscale=False,
     )
     plot.update_xaxes(title_text="could be taken for", showgrid=False, type="category", tickangle=0, dtick=1)

@@ -13,10 +13,11 @@ from pipeline.cli import app
 from pipeline.compare.command import compare
 from pipeline.compare.models import compare_models
 from pipeline.compare.record import Comparison
-from pipeline.compare.table import WIDTH, number, page
+from pipeline.compare.table import WIDTH, number, page, sentence
 from pipeline.errors import InputError
 from pipeline.inference.model import Model
 from tests.pipeline.bench import bench
+from tests.studio.ahead import unmeasured
 from vjm.effects import catalogue
 
 FRICTION = bench("joint_friction.torque_Nmm", 800.0)
@@ -133,3 +134,12 @@ def test_absurd_but_valid_numbers_are_lost_or_failed_with_a_reason(tmp_path: Pat
     shutil.rmtree(folder)
     with pytest.raises(InputError, match="does not exist"):
         compare(folder, quiet=True)
+
+
+def test_what_is_not_measured_yet_is_no_agreement() -> None:
+    found = compare_models(unmeasured())
+    assert not any(model.within_noise for model in found.models)
+    assert sentence(found).endswith("not measured yet")
+    out = StringIO()
+    Console(file=out, width=WIDTH).print(page(found))
+    assert "not measured yet" in out.getvalue() and "nothing beyond what noise gives" not in out.getvalue()

@@ -13,8 +13,10 @@ from pipeline.campaign import Campaign, write
 from pipeline.cli import app
 from pipeline.diagnose.diagnosis import Diagnosis, answer_of, diagnose
 from pipeline.diagnose.words import sentences
+from pipeline.errors import InputError
 from pipeline.inference.model import Model
 from tests.pipeline.diagnose.bench import AXIAL, bench, growing_gain, with_fault
+from tests.studio.ahead import unmeasured
 from vjm.effects import catalogue
 
 EFFECTS = catalogue()
@@ -41,6 +43,11 @@ def test_small_loads_need_nothing() -> None:
     assert it.verdict == "within_noise"
     assert it.sets == ((),)
     assert sentences(it)[0].startswith("within_noise: the model explains the measurements")
+
+
+def test_what_is_not_measured_yet_is_refused() -> None:
+    with pytest.raises(InputError, match="ahead: no fitted test has a reading that a model predicts"):
+        diagnose(unmeasured(), Model(), catalogue())
 
 
 def test_friction_is_named() -> None:

@@ -91,7 +91,7 @@ def test_a_whole_case_runs_and_is_not_run_again(tmp_path: Path, monkeypatch: pyt
     )
     assert first.sets == (("modulus_error",),)
     assert first.errors[DIAGNOSIS].outside < first.errors[GAUSSIAN].outside
-    monkeypatch.setattr(module, "_code", lambda: "another")
+    monkeypatch.setattr(module, "code_digest", lambda: "another")
     (other,) = run(1, store, 1)
     assert len(done) == 2 and other.code == "another"
 
