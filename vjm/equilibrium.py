@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Mapping
 from dataclasses import dataclass, fields
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -58,10 +59,12 @@ class Equilibrium:
         """(..., 6) mask of the platform coordinates that were held, by their own reading or by a gauge."""
         return (self.channels < 6) | (self.channels >= 12)
 
-    @property
+    @cached_property
     def readings(self) -> Array:
-        """(..., 12 + G) pose, load and gauges as the mechanism's sensors read them."""
-        return read(self.mechanism, self.unknowns, self.drives)
+        """(..., 12 + G) pose, load and gauges as the mechanism's sensors read them; not to be written to."""
+        values = read(self.mechanism, self.unknowns, self.drives)
+        values.flags.writeable = False
+        return values
 
     @property
     def pose(self) -> Array:
@@ -139,7 +142,9 @@ class Equilibrium:
         """One state of the batch, or several."""
         return Equilibrium(self.mechanism, *(np.asarray(part[index]) for part in _arrays(self)))
 
-    def with_members(self, index: np.ndarray, other: Equilibrium) -> Equilibrium:
+    def with_members(
+        self, index: np.ndarray | tuple[int | np.ndarray, ...], other: Equilibrium
+    ) -> Equilibrium:
         """The same states with those of another one at these numbers, or this mask, of the batch."""
         parts = [part.copy() for part in _arrays(self)]
         for part, new in zip(parts, _arrays(other), strict=True):

@@ -10,7 +10,7 @@ from vjm.frames import Array
 from vjm.newton import CONVERGED, RUNNING, Iterate, newton, unsolved
 from vjm.problem import Problem
 
-FIRST_STEP, LEAST_STEP = 1.0 / 16.0, 1.0 / 128.0
+FIRST_STEP, LARGEST_STEP, LEAST_STEP = 1.0 / 16.0, 1.0 / 4.0, 1.0 / 128.0
 # Numbers of a chunk's matrices; a few MB, so that they stay in a cache and memory does not grow with the batch.
 _NUMBERS = 400_000
 _SOON = 8
@@ -92,7 +92,7 @@ def _in_increments(
         part.unknowns[~good] = end.unknowns[active[~good]]
         end.put(active, part)
         reached[active[good]] = share[good, 0]
-        step[active] = np.where(good, np.minimum(2.0 * step[active], FIRST_STEP), 0.5 * step[active])
+        step[active] = np.where(good, np.minimum(2.0 * step[active], LARGEST_STEP), 0.5 * step[active])
         lost = active[step[active] < LEAST_STEP]
         for k in lost:
             why = LOST_STABILITY if end.reason[k] == CONVERGED else end.reason[k]

@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, fields, replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from pipeline.inference.program import Group
 from vjm.effects.base import Rig
-from vjm.equilibrium import Equilibrium, equilibrium, stack
+from vjm.equilibrium import Equilibrium, equilibrium
 from vjm.mechanism import initial_memory
 from vjm.sensitivity import AnyDirection, by_parameters
 
@@ -32,34 +32,92 @@ def history(
     no equilibrium: what follows depends on a memory that nobody knows.
     """
     tests, steps = group.targets.shape[:2]
-    alive, blank = np.arange(tests), initial_memory(mechanism)
-    state: Equilibrium | None = None
-    slope = np.zeros((tests, 1, len(asked)))
-    states, by = [], []
-    for step in range(steps):
-        before = None if state is None else state.member(alive)
-        now = _Step(
-            mechanism,
-            group.targets[alive, step],
-            group.channels[alive],
-            {name: value[alive, step] for name, value in inputs.items()},
-            np.broadcast_to(blank, (alive.size, blank.size)) if before is None else before.next_memory,
+    state, blank = _as_if_new(mechanism, group, inputs, start)
+    by = np.zeros((*state.readings.shape, len(asked)))
+    if blank.any():
+        by[blank] = by_parameters(state.member(blank), asked, order=order).readings
+    begins = np.sum(blank, axis=1)
+    slope = np.zeros((tests, state.memory.shape[-1], len(asked)))
+    alive = np.ones(tests, dtype=bool)
+    for step in range(int(begins.min()), steps):
+        going = np.flatnonzero(alive & (begins <= step))
+        before = state.member((going, step - 1)) if step else None
+        part = _step(mechanism, group, inputs, going, step, before).solved(
+            before, None if start is None else start.member((going, step))
         )
-        part = now.solved(before, None if start is None else start.member((alive, step)))
-        found = by_parameters(part, asked, memory_slope=slope[alive] if step else 0.0, order=order)
-        state = part if state is None else _ended(state).with_members(alive, part)
-        by.append(np.zeros((tests, *found.readings.shape[1:])))
-        by[-1][alive] = found.readings
-        slope = np.zeros((tests, *found.memory.shape[1:]))
-        slope[alive] = found.memory
-        states.append(state)
-        alive = alive[part.converged]
-        if not alive.size:
-            rest = steps - step - 1
-            states += [_ended(state)] * rest
-            by += [np.zeros_like(by[-1])] * rest
+        found = by_parameters(part, asked, memory_slope=slope[going], order=order)
+        state = state.with_members((going, step), part)
+        by[going, step] = found.readings
+        slope[going] = found.memory
+        lost = going[~part.converged]
+        if lost.size:
+            rest = (lost[:, None], np.arange(step + 1, steps))
+            there = state.member((lost, step)).reshaped(lost.size, 1)
+            state = state.with_members(rest, _ended(there))
+            alive[lost] = False
+    return state, by
+
+
+def _as_if_new(
+    mechanism: Rig, group: Group, inputs: Mapping[str, Array], start: Equilibrium | None
+) -> tuple[Equilibrium, NDArray[np.bool_]]:
+    """States (T, S) without anything to remember, and a mask of the first steps of each test that leave nothing.
+
+    Those need not wait for each other: bars that may yield do not as long as loads are small. Each time as many steps
+    are tried as there are already, of the tests that nothing has marked so far; the others hold what they held.
+    """
+    tests, steps = group.targets.shape[:2]
+    everyone = np.arange(tests)
+    guess = None if start is None else start.member((everyone, 0))
+    first = _step(mechanism, group, inputs, everyone, 0, None).solved(None, guess)
+    state = first.reshaped(tests, 1).member((slice(None), np.zeros(steps, dtype=int)))
+    blank = np.zeros((tests, steps), dtype=bool)
+    blank[:, 0] = _blank(first)
+    likely = np.ones_like(blank)
+    if start is not None and start.memory.shape == state.memory.shape:
+        likely = _blank(start)
+    ahead = 1
+    while ahead < steps:
+        now = np.arange(ahead, min(2 * ahead + 1, steps))
+        going = np.flatnonzero(blank[:, ahead - 1] & likely[:, now].all(axis=1))
+        if not going.size:
             break
-    return _by_test(stack(states)), np.stack(by, axis=1)
+        rows = (going[:, None], now)
+        part = equilibrium(
+            mechanism,
+            group.targets[rows],
+            group.channels[going][:, None],
+            state.member((going, ahead - 1)).reshaped(going.size, 1) if start is None else start.member(rows),
+            drives={name: value[rows] for name, value in inputs.items()},
+            memory=state.memory[rows],
+        )
+        state = state.with_members(rows, part)
+        blank[rows] = np.logical_and.accumulate(_blank(part), axis=1)
+        ahead = int(now[-1]) + 1
+    return state, blank
+
+
+def _blank(state: Equilibrium) -> NDArray[np.bool_]:
+    """(...) stable states that leave in the memory what was there."""
+    return state.converged & (state.unstable <= 0) & np.all(state.next_memory == state.memory, axis=-1)
+
+
+def _step(
+    mechanism: Rig,
+    group: Group,
+    inputs: Mapping[str, Array],
+    tests: NDArray[np.int64],
+    step: int,
+    before: Equilibrium | None,
+) -> _Step:
+    blank = initial_memory(mechanism)
+    return _Step(
+        mechanism,
+        group.targets[tests, step],
+        group.channels[tests],
+        {name: value[tests, step] for name, value in inputs.items()},
+        np.broadcast_to(blank, (tests.size, blank.size)) if before is None else before.next_memory,
+    )
 
 
 @dataclass(frozen=True, eq=False)
@@ -99,9 +157,3 @@ def _ended(state: Equilibrium) -> Equilibrium:
         reason=np.full(state.reason.shape, ENDED, dtype=object),
         unstable=np.full_like(state.unstable, -1),
     )
-
-
-def _by_test(state: Equilibrium) -> Equilibrium:
-    """A state (steps, tests) as one (tests, steps)."""
-    parts = {f.name: getattr(state, f.name) for f in fields(state) if f.name != "mechanism"}
-    return replace(state, **{name: np.moveaxis(part, 0, 1) for name, part in parts.items()})

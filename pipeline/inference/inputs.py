@@ -47,7 +47,7 @@ def linearised(
     if not rows.size:
         return here, left
     part = cases.only(rows)
-    begin = replace(reached, states=_states(reached, cases, part, rows))
+    begin = replace(reached, states=states_at(reached, cases, part, rows))
     other = predict(model, part, slopes, start=begin, shift=_shift_to(reached, swapped, cases)[rows])
     better = _squares(residual(part, other)) < _squares(left)[rows]
     merged = _merged(here, other, rows, better)
@@ -86,7 +86,7 @@ def _shift_to(reached: Prediction, swapped: Program, cases: Program) -> Array:
     return shift
 
 
-def _states(
+def states_at(
     found: Prediction, cases: Program, part: Program, rows: NDArray[np.int64]
 ) -> tuple[Equilibrium, ...]:
     """The states of a prediction of all cases at these rows, laid out as in the program of these rows alone."""

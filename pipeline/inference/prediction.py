@@ -125,7 +125,7 @@ def _group(
         state = equilibrium(mechanism, group.targets, group.channels[:, None], begin, drives=inputs)
         state = _branched(mechanism, group, inputs, state)
         by = by_parameters(state, asked, order=order).readings
-    values = state.readings
+    values = state.readings.copy()
     values[..., :6] -= group.nominal
     warm = by[..., -1:] if DRIVE in drives else np.zeros((*values.shape, 1))
     by_inputs = np.concatenate([by[..., :6], warm], axis=-1)

@@ -14,6 +14,7 @@ from pipeline.inference.inputs import linearised
 from pipeline.inference.model import Free, Model
 from pipeline.inference.prediction import Prediction
 from pipeline.inference.program import Program
+from pipeline.inference.thinning import thinned
 from vjm.effects.base import Effect
 
 Array = NDArray[np.float64]
@@ -47,8 +48,9 @@ def best_fit(
     """
     begins, spent = [model], 0
     kinked = [t.effect for t in model.terms if t.effect.name in new and not t.effect.smooth]
+    look = thinned(program, start) if kinked else (program, start)
     for effect in kinked:
-        ladders = [_ladder(begin, effect, program, start, watch) for begin in begins]
+        ladders = [_ladder(begin, effect, *look, watch) for begin in begins]
         begins = [each for found, _ in ladders for each in found][:MINIMA]
         spent += sum(count for _, count in ladders)
     fits = [fit(begin, program, start, watch, plausible) for begin in begins]

@@ -1,0 +1,43 @@
+"""Fewer steps of the same loading, where a look is enough: the ends, the turns and some of what is between."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pipeline.inference.inputs import states_at
+from pipeline.inference.prediction import Prediction
+from pipeline.inference.program import Program
+
+ENOUGH = 100
+"""Fitted rows that a look takes; a campaign of fewer is taken as it is."""
+
+
+def thinned(cases: Program, start: Prediction | None) -> tuple[Program, Prediction | None]:
+    """About `ENOUGH` of the fitted rows, and the start at them.
+
+    What a law remembers depends on where a loading turned: of each test the first and the last row stay, and all turns.
+    """
+    every = int(np.sum(cases.fitted)) // ENOUGH
+    if every < 2:
+        return cases, start
+    given = np.nan_to_num(np.take_along_axis(cases.measured, cases.channels, axis=1))
+    tests = [np.flatnonzero(cases.fitted & (cases.test == k)) for k in range(len(cases.campaign.tests))]
+    rows = np.concatenate([rows[_kept(given[rows], every)] for rows in tests if rows.size])
+    part = cases.only(rows)
+    if start is None:
+        return part, None
+    arrays = {
+        name: getattr(start, name)[rows] for name in ("values", "by_inputs", "by_free", "shift", "lost")
+    }
+    return part, replace(start, states=states_at(start, cases, part, rows), reasons={}, **arrays)
+
+
+def _kept(path: NDArray[np.float64], every: int) -> NDArray[np.int64]:
+    """Numbers of the rows of a path (N, k) that stay."""
+    size = np.ptp(path, axis=0)
+    ways = np.diff(path / np.where(size > 0.0, size, 1.0), axis=0)
+    turns = 1 + np.flatnonzero(np.sum(ways[1:] * ways[:-1], axis=1) < 0.0)
+    return np.unique(np.concatenate([np.arange(0, len(path), every), turns, [len(path) - 1]]))
