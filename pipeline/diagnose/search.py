@@ -94,10 +94,12 @@ def search(shelf: Shelf) -> Found:
             starts += [e.names for e in _competing(shelf, root, 2)]
     if _few(shelf):
         # Fits cost little, and what is far from a solution is too curved for first-order estimates: all are made,
-        # about every root, since what the best root is shows only then.
+        # about every root that explains nothing yet, since what the best root is shows only then.
         for root in roots:
-            like = {names for names in starts if names not in roots and _root(shelf, names) == root}
-            for names in sorted(like, key=lambda names: cost(shelf, names))[:BEAM]:
+            like = {root, *(names for names in starts if _root(shelf, names) == root)}
+            if any(_is_noise(shelf, names) for names in like):
+                continue
+            for names in sorted(like - {root}, key=lambda names: cost(shelf, names))[:BEAM]:
                 starts += [e.names for e in _estimates(shelf, names, (1,)) if e.names != names]
     best = min(starts, key=lambda names: cost(shelf, names))
     while True:

@@ -41,6 +41,8 @@ def history(
     alive = np.ones(tests, dtype=bool)
     for step in range(int(begins.min()), steps):
         going = np.flatnonzero(alive & (begins <= step))
+        if not going.size:
+            continue
         before = state.member((going, step - 1)) if step else None
         part = _step(mechanism, group, inputs, going, step, before).solved(
             before, None if start is None else start.member((going, step))

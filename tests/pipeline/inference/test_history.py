@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
+import pytest
 
 from pipeline.inference.history import ENDED
 from pipeline.inference.model import Model
@@ -12,6 +13,8 @@ from pipeline.inference.prediction import predict
 from pipeline.inference.program import program
 from tests.pipeline.diagnose.bench import bench
 from vjm.effects import catalogue
+from vjm.equilibrium import load_path
+from vjm.lagrangian import layout
 
 CASES = program(bench("joint_friction.torque_Nmm", 200.0, ("swing_q+0", "axial_held_q+0", "axial_held_q+15")))
 NAMES = ("bar_geometric_nonlinearity", "joint_friction")
@@ -32,6 +35,37 @@ def test_a_test_ends_where_a_step_is_lost() -> None:
     assert {after.reasons[k] for k in np.flatnonzero(ended)[1:]} == {ENDED}
     assert after.reasons[row] != ENDED
     np.testing.assert_allclose(after.values[~ended], before.values[~ended], rtol=1e-9, atol=1e-9)
+
+
+def test_all_tests_may_end() -> None:
+    rows = CASES.first[:-1] + 5
+    shift = np.zeros((len(CASES.test), 7))
+    shift[rows, 0] = np.where(CASES.channels[rows, 0] >= 6, -1e12, 0.0)
+    shift[rows, 1] = np.where(CASES.channels[rows, 1] >= 6, -1e12, 0.0)
+    after = predict(MODEL, CASES, slopes=False, shift=shift)
+    steps = np.arange(len(CASES.test)) - CASES.first[CASES.test]
+    np.testing.assert_array_equal(after.lost, steps >= 5)
+
+
+@pytest.mark.parametrize("strain", [0.0199, 2e-3, 1.3e-3])
+def test_steps_that_leave_no_mark_need_not_wait_for_each_other(strain: float) -> None:
+    """Bars that yield never, or after some steps: as by going through all tests step by step."""
+    cases = program(bench(ids=("lateral_q+0", "swing_q+0")))
+    yielding = Model().with_effects([catalogue()["material_yield"]]).at(np.array([strain]))
+    (group,), (state,) = cases.groups, predict(yielding, cases, slopes=False).states
+    mechanism = yielding.mechanism(group.rig, cases.campaign.gauges)
+    drives = {"q": group.q} if "q" in layout(mechanism).drives else {}
+    steps = np.moveaxis(group.targets, 1, 0)
+    path = load_path(mechanism, steps, np.broadcast_to(group.channels, steps.shape), drives=drives)
+    assert state.converged.all() and path.converged.all()
+    size = np.max(np.abs(state.unknowns), axis=(0, 1)) + 1e-9
+    for ours, theirs, scale in (
+        (state.unknowns, path.unknowns, size),
+        (state.next_memory, path.next_memory, 1e-4),
+    ):
+        np.testing.assert_allclose(ours / scale, np.moveaxis(theirs, 0, 1) / scale, atol=1e-7)
+    marked = np.any(state.next_memory != 0.0, axis=-1)
+    assert marked.any() == (strain < 0.01) and not marked[:, 0].any()
 
 
 def test_a_start_that_leads_nowhere_is_left() -> None:
