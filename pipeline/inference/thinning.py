@@ -11,6 +11,8 @@ from pipeline.inference.inputs import states_at
 from pipeline.inference.prediction import Prediction
 from pipeline.inference.program import Program
 
+MOVES = 20.0
+"""Sigmas of its noise: an input that moves more is driven."""
 ENOUGH = 100
 """Fitted rows that a look takes; a campaign of fewer is taken as it is."""
 
@@ -24,8 +26,11 @@ def thinned(cases: Program, start: Prediction | None) -> tuple[Program, Predicti
     if every < 2:
         return cases, start
     given = np.nan_to_num(np.take_along_axis(cases.measured, cases.channels, axis=1))
+    noise = cases.input_sigma[:, : given.shape[1]]
     tests = [np.flatnonzero(cases.fitted & (cases.test == k)) for k in range(len(cases.campaign.tests))]
-    rows = np.concatenate([rows[_kept(given[rows], every)] for rows in tests if rows.size])
+    rows = np.concatenate(
+        [rows[_kept(given[rows], noise[rows].max(axis=0), every)] for rows in tests if rows.size]
+    )
     part = cases.only(rows)
     if start is None:
         return part, None
@@ -35,9 +40,10 @@ def thinned(cases: Program, start: Prediction | None) -> tuple[Program, Predicti
     return part, replace(start, states=states_at(start, cases, part, rows), reasons={}, **arrays)
 
 
-def _kept(path: NDArray[np.float64], every: int) -> NDArray[np.int64]:
-    """Numbers of the rows of a path (N, k) that stay."""
+def _kept(path: NDArray[np.float64], noise: NDArray[np.float64], every: int) -> NDArray[np.int64]:
+    """Numbers of the rows of a path (N, k) that stay; what moves by little more than its noise (k,) is held."""
     size = np.ptp(path, axis=0)
-    ways = np.diff(path / np.where(size > 0.0, size, 1.0), axis=0)
+    driven = size > MOVES * noise
+    ways = np.diff(path[:, driven] / size[driven], axis=0)
     turns = 1 + np.flatnonzero(np.sum(ways[1:] * ways[:-1], axis=1) < 0.0)
     return np.unique(np.concatenate([np.arange(0, len(path), every), turns, [len(path) - 1]]))
