@@ -70,9 +70,10 @@ def test_steps_that_leave_no_mark_need_not_wait_for_each_other(strain: float) ->
 
 def test_a_start_that_leads_nowhere_is_left() -> None:
     """States a thousand times as far away: from there no step is reached, from the step before every one."""
-    fresh = predict(MODEL, CASES, slopes=False)
+    cases = CASES.only(np.flatnonzero(CASES.test == 0)[:4])
+    fresh = predict(MODEL, cases, slopes=False)
     far = tuple(replace(state, unknowns=1e3 * state.unknowns) for state in fresh.states)
-    again = predict(MODEL, CASES, slopes=False, start=replace(fresh, states=far))
+    again = predict(MODEL, cases, slopes=False, start=replace(fresh, states=far))
     assert not again.lost.any()
     # Newton's method from elsewhere; the sensors' finest step is a thousand times this.
     np.testing.assert_allclose(again.values, fresh.values, rtol=1e-6, atol=1e-6)
