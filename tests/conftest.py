@@ -21,6 +21,11 @@ class Done:
     err: str
 
 
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """The default run first: files are given out whole, and at the end the longest one would be waited for."""
+    items.sort(key=lambda item: "clean_run" not in getattr(item, "fixturenames", ()))
+
+
 @pytest.fixture(scope="session")
 def pipeline_command() -> Callable[..., Done]:
     """Run `python -m pipeline` with arguments in a folder."""

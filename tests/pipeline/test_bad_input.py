@@ -6,6 +6,7 @@ from pathlib import Path
 
 import pytest
 
+from pipeline.command import redraw
 from pipeline.errors import InputError
 from pipeline.validation.case import SHIPPED, load_case, shipped_cases
 from tests.conftest import Done
@@ -140,8 +141,15 @@ def test_geometry_that_cannot_be_leaves_nothing_behind(
     assert not (tmp_path / "out").exists()
 
 
-def test_damaged_result_is_refused(tmp_path: Path, pipeline_command: Callable[..., Done]) -> None:
-    for text in ("", "[1, 2]", '{"bar": 1}', "\x00\x01"):
-        (tmp_path / "result.json").write_text(text)
-        done = pipeline_command("report", str(tmp_path), cwd=tmp_path)
-        assert done.code == 2 and "is not a saved result" in done.err and done.err.count("\n") == 1
+@pytest.mark.parametrize("text", ["", "[1, 2]", '{"bar": 1}', "\x00\x01"])
+def test_damaged_result_is_refused(text: str, tmp_path: Path) -> None:
+    (tmp_path / "result.json").write_text(text)
+    with pytest.raises(InputError, match="is not a saved result") as said:
+        redraw(tmp_path, quiet=True)
+    assert "\n" not in str(said.value)
+
+
+def test_damaged_result_ends_the_command(tmp_path: Path, pipeline_command: Callable[..., Done]) -> None:
+    (tmp_path / "result.json").write_text("{}")
+    done = pipeline_command("report", str(tmp_path), cwd=tmp_path)
+    assert done.code == 2 and "is not a saved result" in done.err and done.err.count("\n") == 1
