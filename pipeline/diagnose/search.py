@@ -12,7 +12,7 @@ from itertools import combinations
 
 import numpy as np
 
-from pipeline.diagnose.evidence import APART, PLAUSIBLE, RAW, entry, numbers
+from pipeline.diagnose.evidence import APART, PLAUSIBLE, RAW, SIDES, entry, numbers, sided
 from pipeline.diagnose.shelf import Names, Shelf
 from pipeline.inference.fit import Fit
 
@@ -253,7 +253,12 @@ def _raw(shelf: Shelf, e: Estimate) -> float:
 def excluded(shelf: Shelf, rival: Names, best: Names) -> bool:
     """Whether the data speak against a rival."""
     worse = badness(shelf, rival) - badness(shelf, best)
-    return worse > RAW and worse + taken(shelf, rival) - taken(shelf, best) > APART
+    return worse > RAW and worse + taken(shelf, rival) - taken(shelf, best) > decisive(shelf, rival, best)
+
+
+def decisive(shelf: Shelf, rival: Names, best: Names) -> float:
+    """Chi-square that excludes; where a kink is in one of two sets alone, theirs is good to `SIDES`."""
+    return APART + (SIDES if any(sided(shelf.candidates[name]) for name in rival ^ best) else 0.0)
 
 
 def taken(shelf: Shelf, names: Iterable[str]) -> int:

@@ -8,7 +8,7 @@ from functools import cached_property
 
 import numpy as np
 
-from pipeline.diagnose.evidence import PLAUSIBLE
+from pipeline.diagnose.evidence import PLAUSIBLE, sided
 from pipeline.diagnose.picture import Picture, picture
 from pipeline.diagnose.signatures import Look, Probe, Say, look, probed, probes, signatures
 from pipeline.inference.fit import Fit, fit
@@ -91,7 +91,8 @@ class Shelf:
         effects = [e for e in effects if e.name not in known]
         kinked = [e for e in effects if not e.smooth]
         new = [e.name for e in effects]
-        if not kinked or not all(e.name in begin for e in kinked):
+        # A probe says nothing of sizes below it, and rows that chose their side from there may stay on the wrong one.
+        if not kinked or any(sided(e) or e.name not in begin for e in kinked):
             return best_fit(model, self.whole, new, start, None, PLAUSIBLE)
         for effect in kinked:
             model = probed(model, effect, begin[effect.name])

@@ -9,9 +9,9 @@ import numpy as np
 from pipeline.campaign.names import COORDINATES
 from pipeline.diagnose.description import descriptions
 from pipeline.diagnose.diagnosis import Diagnosis, in_words
-from pipeline.diagnose.evidence import APART
 from pipeline.diagnose.menu import Choice
 from pipeline.diagnose.refuse import judge
+from pipeline.diagnose.search import decisive
 from pipeline.inference.driving import column_name
 from vjm.effects.base import Effect
 
@@ -115,10 +115,11 @@ def _described(it: Diagnosis) -> Iterator[str]:
 def _rivals(it: Diagnosis) -> Iterator[str]:
     shelf = it.shelf
     if it.verdict == "ambiguous":
-        least = min(shelf.fit(frozenset(names)).chi_square for names in it.sets)
+        least = min(map(frozenset, it.sets), key=lambda names: shelf.fit(names).chi_square)
         for names in it.sets:
-            more = shelf.fit(frozenset(names)).chi_square - least
-            yield f"{_and(names)}: chi-square {more:.1f} above the best; {APART:g} would exclude it."
+            more = shelf.fit(frozenset(names)).chi_square - shelf.fit(least).chi_square
+            limit = decisive(shelf, frozenset(names), least)
+            yield f"{_and(names)}: chi-square {more:.1f} above the best; {limit:g} would exclude it."
     for a in it.alike:
         if a.correlation > 0.9 and a.effect in it.sets[0] and a.size < a.needed:
             yield (

@@ -1,0 +1,55 @@
+"""Plays near the noise: rows choose the side of the stop, so chi-square tells less, and no rival is excluded by it."""
+
+from __future__ import annotations
+
+import pytest
+
+from pipeline.diagnose.evidence import APART, SIDES
+from pipeline.diagnose.search import decisive, excluded
+from pipeline.diagnose.shelf import Names, Shelf
+from pipeline.inference.model import Model
+from pipeline.inference.program import program
+from pipeline.inference.starts import best_fit
+from tests.pipeline.diagnose.bench import bench
+from vjm.effects import catalogue
+
+BENT = "bar_geometric_nonlinearity"
+PLAY, CONTACT, SOFT = (
+    frozenset({BENT, name}) for name in ("joint_clearance", "contact_stiffening", "modulus_error")
+)
+
+
+def shelf(play: float) -> Shelf:
+    cases = program(
+        bench("joint_clearance.play_mm", play, ("axial_held_q+0", "axial_held_q+15", "swing_q+0"))
+    )
+    return Shelf(cases, Model(), catalogue(), lambda _: None)
+
+
+def test_a_kink_in_one_set_alone_asks_for_more() -> None:
+    it = shelf(6e-4)
+    assert decisive(it, CONTACT, SOFT) == APART
+    assert decisive(it, PLAY, CONTACT) == decisive(it, CONTACT, PLAY) == APART + SIDES
+    assert decisive(it, PLAY | CONTACT, PLAY) == APART
+
+
+@pytest.mark.parametrize("play", [6e-4, 6e-3])
+def test_a_play_near_the_noise_is_not_excluded_by_what_looks_like_it(play: float) -> None:
+    """Whichever of the two fits better: of 6 µm contact leaves twenty less in chi-square."""
+    it = shelf(play)
+    assert not excluded(it, PLAY, CONTACT) and not excluded(it, CONTACT, PLAY)
+
+
+def test_a_play_twenty_times_the_noise_is_told() -> None:
+    it = shelf(2e-2)
+    assert excluded(it, CONTACT, PLAY) and not excluded(it, PLAY, CONTACT)
+
+
+def test_a_play_is_looked_for_at_all_sizes_whatever_a_probe_found() -> None:
+    it = shelf(6e-4)
+    bent: Names = frozenset({BENT})
+    before = it.fit(bent)
+    found = it.fit(PLAY, {"joint_clearance": 0.03})
+    model = before.model.with_effects([catalogue()["joint_clearance"]])
+    again = best_fit(model, it.whole, ("joint_clearance",), before.prediction)
+    assert abs(found.chi_square - again.chi_square) < 1.0
