@@ -89,19 +89,25 @@ def test_bifurcation(name: str) -> None:
     assert found.after == pytest.approx(after, abs=3e-2 * (after + turning(name)))
 
 
+def angle(name: str) -> float:
+    """Of the bars of a row of the reference where they buckle, rad."""
+    _, degrees, load, before, _ = TABLE[name]
+    along, across = (bar_p.LENGTH * f(np.radians(degrees)) for f in (np.cos, np.sin))
+    return float(np.arctan2(across, along - load / before))
+
+
 def turning(name: str) -> float:
     """F sin a tan a / l of a row of the reference, N/mm; nothing where the platform may turn."""
-    held, degrees, load, before, _ = TABLE[name]
+    held, degrees, load, _, _ = TABLE[name]
     if "rx" not in held:
         return 0.0
-    along = bar_p.LENGTH * np.cos(np.radians(degrees)) - load / before
-    across = bar_p.LENGTH * np.sin(np.radians(degrees))
-    return float(load * across**2 / (along * (along**2 + across**2)))
+    length = bar_p.LENGTH * np.sin(np.radians(degrees)) / np.sin(angle(name)) if degrees else bar_p.LENGTH
+    return float(load * np.sin(angle(name)) * np.tan(angle(name)) / length)
 
 
 @pytest.mark.parametrize("held", ["fully", "guided"])
 def test_slopes_of_the_reference_at_two_angles(held: str) -> None:
     """k of both rows, within what the two programs left."""
-    straight, turned = (TABLE[f"{held}, {degrees}"] for degrees in (0, 30))
-    cosine = np.cos(np.arctan2(155.0, bar_p.LENGTH * np.cos(np.radians(30.0)) - turned[2] / turned[3]))
-    assert (turned[4] + turning(f"{held}, 30")) / cosine**2 == pytest.approx(straight[4], rel=0.025)
+    turned = f"{held}, 30"
+    along = (TABLE[turned][4] + turning(turned)) / np.cos(angle(turned)) ** 2
+    assert along == pytest.approx(TABLE[f"{held}, 0"][4], rel=0.025)
