@@ -8,14 +8,15 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.stats import chi2, norm
 
+from pipeline.diagnose.evidence import FALSE_ALARM
 from pipeline.diagnose.patterns import scores
 from pipeline.inference.driving import column_name
 from pipeline.inference.fit import Fit
 from pipeline.noise import lag_one
 
 Array = NDArray[np.float64]
-LEVEL = 2e-3
-"""Chance, of each check, that noise fails it."""
+LEVEL = FALSE_ALARM / 5
+"""Chance, of each of five checks, that noise fails it: the truth is refused as seldom as a name is false."""
 LARGER = 1.15
 """Scatter up to so many times the sigmas, and without any order, is put down to the sigmas."""
 

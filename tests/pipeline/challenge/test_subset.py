@@ -11,8 +11,8 @@ from pipeline.challenge.outcome import outcome
     ("number", "score"),
     [
         (8, "right"),  # nothing hidden
-        (22, "right"),  # bars of different stiffness
-        # Longer bars or warmer ones, at one temperature.
+        (25, "right"),  # bars of different length
+        # Softer bars, or a compliance in series, under axial loads alone.
         pytest.param(27, "in set", marks=pytest.mark.long),
     ],
 )

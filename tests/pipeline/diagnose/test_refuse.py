@@ -60,12 +60,12 @@ def test_a_missing_effect_is_seen_in_tests_held_out() -> None:
 
 
 def test_scatter_beyond_the_sigmas_is_told_from_a_misfit() -> None:
-    """Sigmas 8 % too small without any order: noise, and said so."""
+    """Sigmas 14 % too small without any order: noise, and said so."""
     found = clean(0)
     larger = Fit(found.model, found.prediction, found.residual, 1)
-    object.__setattr__(larger, "whitened", found.whitened * 1.12 * np.sqrt(found.degrees / found.chi_square))
+    object.__setattr__(larger, "whitened", found.whitened * 1.14 * np.sqrt(found.degrees / found.chi_square))
     judgement = judge(larger)
     (size,) = [check for check in judgement.checks if check.name == "size"]
-    assert judgement.scatter == pytest.approx(1.12, rel=1e-6)
+    assert judgement.scatter == pytest.approx(1.14, rel=1e-6)
     assert size.passed
-    assert "12 % larger than the sigmas say" in size.words
+    assert "14 % larger than the sigmas say" in size.words
