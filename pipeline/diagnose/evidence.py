@@ -9,6 +9,7 @@ from functools import cache
 
 from scipy.stats import chi2
 
+from pipeline.inference.sides import SIDES, sided
 from vjm.effects.base import Effect
 
 FALSE_ALARM = 0.005
@@ -24,16 +25,6 @@ RAW = 2.0
 PLAUSIBLE = 20.0
 """Typical sizes of a number that count as one sigma before anything was measured: a tilt by 15 degrees explains a
 heavy ruler as well as its weight does, and is not what is meant by a tilt."""
-
-
-SIDES = 25.0
-"""Chi-square that a kink can take up: every row that fits badly may lie on its other side. A play of half a
-micrometre took up 20 of 680 on a bench that had none."""
-
-
-def sided(effect: Effect) -> bool:
-    """Whether rows choose the side of a kink by themselves; along a history they do not."""
-    return not effect.smooth and not effect.history
 
 
 def numbers(effect: Effect) -> int:

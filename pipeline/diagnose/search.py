@@ -12,9 +12,10 @@ from itertools import combinations
 
 import numpy as np
 
-from pipeline.diagnose.evidence import APART, PLAUSIBLE, RAW, SIDES, entry, numbers, sided
+from pipeline.diagnose.evidence import APART, PLAUSIBLE, RAW, entry, numbers
 from pipeline.diagnose.shelf import Names, Shelf
 from pipeline.inference.fit import Fit
+from pipeline.inference.sides import SIDES, sided
 
 WIDTH = 4
 """Sets of one size that are fitted, at most, of those that compete."""

@@ -8,7 +8,7 @@ from functools import cached_property
 
 import numpy as np
 
-from pipeline.diagnose.evidence import PLAUSIBLE, sided
+from pipeline.diagnose.evidence import PLAUSIBLE
 from pipeline.diagnose.picture import Picture, picture
 from pipeline.diagnose.signatures import Look, Probe, Say, look, probed, probes, signatures
 from pipeline.inference.fit import Fit, fit
@@ -16,6 +16,7 @@ from pipeline.inference.model import Model, Term
 from pipeline.inference.prediction import Prediction, predict
 from pipeline.inference.program import Program
 from pipeline.inference.residual import residual
+from pipeline.inference.sides import sided
 from pipeline.inference.starts import best_fit
 from vjm.effects.base import Effect
 

@@ -105,7 +105,8 @@ def smooth_signatures(found: Fit, effects: Sequence[Effect], at: Look) -> list[S
 
 @dataclass(frozen=True, eq=False)
 class Probe:
-    """Readings (R, C) with an effect of the first number at `value`, less those without; zero in lost rows."""
+    """Readings (R, C) with an effect of the first number at `value`, less those without; zero in lost rows and in
+    those that may not be fitted."""
 
     effect: Effect
     value: float
@@ -119,6 +120,7 @@ def probes(base: Model, effects: Sequence[Effect], whole: Program, say: Say) -> 
     """
     bare = Model(tuple(t for t in base.terms if t.effect.parameters), base.fixed)
     out: list[Probe] = []
+    rows, own = whole.by_role[0]
     without: dict[tuple[str, ...], Prediction] = {}
     known = {effect.name: effect for effect in (*effects, *(term.effect for term in base.terms))}
     for effect in effects:
@@ -126,20 +128,23 @@ def probes(base: Model, effects: Sequence[Effect], whole: Program, say: Say) -> 
             continue
         besides = bare.with_effects([known[name] for name in effect.includes if name not in bare.names])
         if effect.includes not in without:
-            without[effect.includes] = predict(besides, whole, slopes=False)
-        out += _probes_of(effect, besides, without[effect.includes], whole, say)
+            without[effect.includes] = predict(besides, own, slopes=False)
+        for it in _probes_of(effect, besides, without[effect.includes], own, say):
+            change = np.zeros(whole.measured.shape)
+            change[rows] = it.change
+            out.append(replace(it, change=change))
     return out
 
 
-def _probes_of(effect: Effect, besides: Model, without: Prediction, whole: Program, say: Say) -> list[Probe]:
-    """The weakest first, up to one that is plain: the stronger ones cost most and tell no more."""
+def _probes_of(effect: Effect, besides: Model, without: Prediction, own: Program, say: Say) -> list[Probe]:
+    """The weakest first, up to one that is plain: stronger ones cost most and tell no more. own: rows to fit."""
     out = []
-    weights = whitening(whole, without)
-    used = whole.predicted & whole.fitted[:, None]
+    weights = whitening(own, without)
+    used = own.predicted
     for value in effect.probes:
         say(f"{effect.name} at {value:g}")
         model = probed(besides.with_effects([effect]), effect, value)
-        there = predict(model, whole, slopes=False)
+        there = predict(model, own, slopes=False)
         lost = (there.lost | without.lost)[:, None]
         out.append(Probe(effect, value, np.where(lost, 0.0, there.values - without.values)))
         if np.linalg.norm(weights.apply(np.where(used, out[-1].change, 0.0))[used]) > PLAIN:

@@ -6,9 +6,9 @@ each fitted number, but for a constant.
 
 from __future__ import annotations
 
-from pipeline.diagnose.evidence import SIDES, sided
 from pipeline.diagnose.search import DOUBT, KINKED
 from pipeline.diagnose.shelf import Names, Shelf
+from pipeline.inference.sides import SIDES, sided
 
 
 def forward(shelf: Shelf) -> Names:

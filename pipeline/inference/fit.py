@@ -12,9 +12,10 @@ from scipy.optimize import lsq_linear
 
 from pipeline.inference.inputs import linearised
 from pipeline.inference.model import Model
+from pipeline.inference.parts import at_rows, joined
 from pipeline.inference.prediction import Prediction
 from pipeline.inference.program import Program
-from pipeline.inference.residual import Residual
+from pipeline.inference.residual import Residual, residual
 
 Array = NDArray[np.float64]
 STEPS = 40
@@ -170,12 +171,23 @@ def fit(
     plausible: typical sizes from null that stand for one sigma of a weak pull towards null: numbers that the data
     say nothing about stay there. Chi-square is that of the data alone.
     """
-    aim = Objective(model, program, start)
+    (rows, own), *others = program.by_role
+    begin = start if start is None or not others else at_rows(start, program, own, rows)
+    aim = Objective(model, own, begin)
     values = model.values
     if model.free:
         values = _descend(aim, watch, plausible)
     prediction, there = aim.at(values)
-    return Fit(model.at(values), prediction, there, aim.count)
+    if not others:
+        return Fit(model.at(values), prediction, there, aim.count)
+    pieces = [(rows, own, prediction)]
+    for rest, apart in others:
+        near = None if start is None else at_rows(start, program, apart, rest)
+        held = Objective(model, apart, near)
+        held.again(values)
+        pieces.append((rest, apart, held.at(values)[0]))
+    whole = joined(program, pieces)
+    return Fit(model.at(values), whole, residual(program, whole), aim.count)
 
 
 def _descend(aim: Objective, watch: Callable[[str], None] | None, plausible: float) -> Array:

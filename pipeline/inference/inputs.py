@@ -16,10 +16,10 @@ from numpy.typing import NDArray
 from scipy.stats import chi2
 
 from pipeline.inference.model import Model
+from pipeline.inference.parts import ARRAYS, states_at
 from pipeline.inference.prediction import Prediction, predict
 from pipeline.inference.program import Program
 from pipeline.inference.residual import Residual, residual
-from vjm.equilibrium import Equilibrium
 
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
@@ -86,31 +86,11 @@ def _shift_to(reached: Prediction, swapped: Program, cases: Program) -> Array:
     return shift
 
 
-def states_at(
-    found: Prediction, cases: Program, part: Program, rows: NDArray[np.int64]
-) -> tuple[Equilibrium, ...]:
-    """The states of a prediction of all cases at these rows, laid out as in the program of these rows alone."""
-    out = []
-    for group in part.groups:
-        number = next(k for k, one in enumerate(cases.groups) if one.rig is group.rig)
-        whole, state = cases.groups[number], found.states[number]
-        names = [cases.campaign.tests[n].id for n in whole.numbers]
-        width, length = whole.rise.shape[1], group.rise.shape[1]
-        places = np.zeros(group.rise.shape, dtype=np.int64)
-        for k, own in enumerate(group.numbers):
-            test = names.index(part.campaign.tests[own].id)
-            mine = rows[cases.test[rows] == whole.numbers[test]] - cases.first[whole.numbers[test]]
-            places[k] = test * width + mine[np.minimum(np.arange(length), mine.size - 1)]
-        flat = state.reshaped(whole.rise.size).member(places.ravel())
-        out.append(flat.reshaped(len(group.numbers), length))
-    return tuple(out)
-
-
 def _merged(here: Prediction, other: Prediction, rows: NDArray[np.int64], better: Mask) -> Prediction:
     """The prediction with those of its rows replaced that are better in another one of these rows."""
     place = rows[better]
     parts = {}
-    for name in ("values", "by_inputs", "by_free", "shift", "lost"):
+    for name in ARRAYS:
         array = getattr(here, name).copy()
         array[place] = getattr(other, name)[better]
         parts[name] = array

@@ -9,6 +9,7 @@ Regression Analysis, Wiley 1988, ch. 6.
 
 from __future__ import annotations
 
+from collections.abc import Collection
 from dataclasses import dataclass
 from typing import Literal
 
@@ -19,8 +20,11 @@ from scipy.stats import norm
 from pipeline.inference.fit import Fit
 from pipeline.inference.inputs import linearised
 from pipeline.inference.landscape import BLIND, CLOSE, NEARLY, RISE, STEPS, Landscape, Range
-from pipeline.inference.model import Free
+from pipeline.inference.model import Free, Model
+from pipeline.inference.parts import at_rows
+from pipeline.inference.prediction import Prediction
 from pipeline.inference.program import Program
+from pipeline.inference.sides import SIDES, sided
 
 Array = NDArray[np.float64]
 Z = float(norm.ppf(0.975))
@@ -43,25 +47,29 @@ class Interval:
 
 def landscape(best: Fit, program: Program) -> Landscape:
     """The sum of squares about a best fit."""
-    ranges = [_range(each) for each in best.model.free]
-    return Landscape(_Near(best, program), best.model.values, ranges, best.whitened, -best.jacobian)
+    kinks = {term.effect.name for term in best.model.terms if sided(term.effect)}
+    ranges = [_range(each, kinks) for each in best.model.free]
+    rows, own = program.by_role[0]
+    near = at_rows(best.prediction, program, own, rows)
+    return Landscape(_Near(best.model, near, own), best.model.values, ranges, best.whitened, -best.jacobian)
 
 
-def _range(each: Free) -> Range:
-    return Range(*each.bounds, each.parameter.null, each.parameter.one_sided)
+def _range(each: Free, kinks: Collection[str]) -> Range:
+    doubt = SIDES if each.effect in kinks else 0.0
+    return Range(*each.bounds, each.parameter.null, each.parameter.one_sided, doubt)
 
 
 @dataclass(frozen=True, eq=False)
 class _Near:
     """The residuals of a campaign about its best fit: solved from there, linearised at the same inputs."""
 
-    best: Fit
+    model: Model
+    near: Prediction
     program: Program
 
     def _at(self, values: Array, slopes: bool) -> Fit:
-        model = self.best.model.at(values)
-        near = self.best.prediction
-        return Fit(model, *linearised(model, self.program, slopes, near, near.shift), 1)
+        model = self.model.at(values)
+        return Fit(model, *linearised(model, self.program, slopes, self.near, self.near.shift), 1)
 
     def residuals(self, values: Array) -> Array:
         """(N,)"""
@@ -86,19 +94,31 @@ def _interval(land: Landscape, k: int) -> Interval:
         return Interval(value, np.inf, span.end(-1), span.end(1), "undetermined")
     reach = Z * std
     room = {-1: value - span.low, 1: span.high - value}
-    if not land.active[k] and min(room.values()) > reach:
+    undecided = {side for side in (-1, 1) if _null_in_doubt(land, k, side, room[side], way)}
+    if not land.active[k] and not undecided and min(room.values()) > reach:
         # One look a side, the others moved along; what they could still gain makes the rise no larger.
         looks = [land.chi_square(land.values + s * reach * way) for s in (-1, 1)]
         if all(abs(look - land.least - RISE) < NEARLY * RISE for look in looks):
             return Interval(value, std, value - reach, value + reach, "wald")
     ends: dict[int, float | None] = {}
     for side in (-1, 1):
+        if side in undecided:
+            ends[side] = span.end(side)
+            continue
         slope = 2.0 * side * float(land.jacobian[:, k] @ land.residuals) if land.active[k] else 0.0
         guess = 0.5 * (np.hypot(slope * variance, 2.0 * np.sqrt(RISE * variance)) - slope * variance)
         shift = _end(land, k, side, float(guess), room[side], way)
         ends[side] = span.end(side) if shift is None else value + side * shift
     open_ends = all(ends[side] == span.end(side) for side in (-1, 1))
     return Interval(value, std, ends[-1], ends[1], "undetermined" if open_ends else "profile")
+
+
+def _null_in_doubt(land: Landscape, k: int, side: int, room: float, way: Array) -> bool:
+    """Whether the number has its null on that side, and what speaks against null may be choices of sides."""
+    span = land.ranges[k]
+    if not span.doubt or span.end(side) is None:
+        return False
+    return room <= 0.0 or land.rise(k, side * room, way)[0] < RISE + span.doubt
 
 
 def _end(land: Landscape, k: int, side: int, guess: float, room: float, way: Array) -> float | None:

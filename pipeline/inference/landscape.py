@@ -39,12 +39,14 @@ class Range:
     """What a number may be: low and high bound a fit. null: value without the effect.
 
     one_sided: the bound next to null is a physical end; an interval that reaches it ends at null.
+    doubt: rise of the sum of squares at that end, beyond 3.841, that still does not exclude it.
     """
 
     low: float
     high: float
     null: float
     one_sided: bool = False
+    doubt: float = 0.0
 
     def end(self, side: int) -> float | None:
         """What an interval says that reaches the bound below (-1) or above (1): None, unless null is there."""

@@ -24,6 +24,15 @@ class States:
         parts = (self.unknowns, self.converged, self.unstable, self.reason)
         return States(*(np.asarray(part[index]) for part in parts))
 
+    def with_members(self, index: np.ndarray | tuple[int | np.ndarray, ...], other: States) -> States:
+        """The same states with those of another one at these numbers of the batch."""
+        parts = [self.unknowns.copy(), self.converged.copy(), self.unstable.copy(), self.reason.copy()]
+        for part, new in zip(
+            parts, (other.unknowns, other.converged, other.unstable, other.reason), strict=True
+        ):
+            part[index] = new
+        return States(*parts)
+
     def reshaped(self, *batch: int) -> States:
         """The same states with other batch axes."""
         axes = self.converged.ndim

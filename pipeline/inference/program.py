@@ -90,6 +90,13 @@ class Program:
         )
         return None if same else program(replace(self.campaign, tests=tests))
 
+    @cached_property
+    def by_role(self) -> tuple[tuple[NDArray[np.int64], Program], ...]:
+        """Rows that may be fitted and rows that may not, each a program of their own; all in one if all are alike."""
+        if self.fitted.all() or not self.fitted.any():
+            return ((np.arange(len(self.test)), self),)
+        return tuple((rows, self.only(rows)) for rows in map(np.flatnonzero, (self.fitted, ~self.fitted)))
+
     def only(self, rows: NDArray[np.int64]) -> Program:
         """The program of these rows (N,) alone, in order; tests without any are left out."""
         tests = [_rows_of(test, rows[self.test[rows] == k] - self.first[k]) for k, test in self._tests(rows)]

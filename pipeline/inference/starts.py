@@ -12,6 +12,7 @@ from scipy.optimize import lsq_linear
 from pipeline.inference.fit import Fit, fit
 from pipeline.inference.inputs import linearised
 from pipeline.inference.model import Free, Model
+from pipeline.inference.parts import at_rows
 from pipeline.inference.prediction import Prediction
 from pipeline.inference.program import Program
 from pipeline.inference.thinning import thinned
@@ -48,7 +49,9 @@ def best_fit(
     """
     begins, spent = [model], 0
     kinked = [t.effect for t in model.terms if t.effect.name in new and not t.effect.smooth]
-    look = thinned(program, start) if kinked else (program, start)
+    rows, own = program.by_role[0]
+    near = None if start is None else at_rows(start, program, own, rows)
+    look = thinned(own, near) if kinked else (own, near)
     for effect in kinked:
         ladders = [_ladder(begin, effect, *look, watch) for begin in begins]
         begins = [each for found, _ in ladders for each in found][:MINIMA]
@@ -58,7 +61,7 @@ def best_fit(
         there = _typical(fits[0].model, new)
         spent += 1
         # Where the linear step from there promises no more there is nothing to find.
-        if _height(there, program, start) < fits[0].chi_square - WORTH * max(fits[0].rms, 1.0) ** 2:
+        if _height(there, own, near) < fits[0].chi_square - WORTH * max(fits[0].rms, 1.0) ** 2:
             fits.append(fit(there, program, start, watch, plausible))
     best = min(fits, key=lambda each: each.chi_square)
     return replace(best, evaluations=spent + sum(each.evaluations for each in fits))

@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 import numpy as np
 from numpy.typing import NDArray
 
-from pipeline.inference.inputs import states_at
+from pipeline.inference.parts import at_rows
 from pipeline.inference.prediction import Prediction
 from pipeline.inference.program import Program
 
@@ -32,12 +30,7 @@ def thinned(cases: Program, start: Prediction | None) -> tuple[Program, Predicti
         [rows[_kept(given[rows], noise[rows].max(axis=0), every)] for rows in tests if rows.size]
     )
     part = cases.only(rows)
-    if start is None:
-        return part, None
-    arrays = {
-        name: getattr(start, name)[rows] for name in ("values", "by_inputs", "by_free", "shift", "lost")
-    }
-    return part, replace(start, states=states_at(start, cases, part, rows), reasons={}, **arrays)
+    return part, None if start is None else at_rows(start, cases, part, rows)
 
 
 def _kept(path: NDArray[np.float64], noise: NDArray[np.float64], every: int) -> NDArray[np.int64]:

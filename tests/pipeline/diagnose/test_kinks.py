@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import pytest
 
-from pipeline.diagnose.evidence import APART, SIDES
+from pipeline.diagnose.evidence import APART
 from pipeline.diagnose.search import decisive, excluded
 from pipeline.diagnose.shelf import Names, Shelf
 from pipeline.inference.model import Model
 from pipeline.inference.program import program
+from pipeline.inference.sides import SIDES
 from pipeline.inference.starts import best_fit
 from tests.pipeline.diagnose.bench import bench
 from vjm.effects import catalogue

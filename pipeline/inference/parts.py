@@ -1,0 +1,88 @@
+"""Predictions of some rows of a campaign, and of all rows from those of parts.
+
+What is fitted looks at fitted rows alone. Rows that were held out cost as much, and where tests are filled up to
+equal numbers of steps a long one among short ones costs many times that.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pipeline.inference.prediction import Prediction
+from pipeline.inference.program import Program
+from vjm.equilibrium import Equilibrium
+
+Rows = NDArray[np.int64]
+ARRAYS = ("values", "by_inputs", "by_free", "shift", "lost")
+"""Of a prediction, by rows."""
+
+
+def at_rows(found: Prediction, cases: Program, part: Program, rows: Rows) -> Prediction:
+    """The prediction of all cases at these rows, laid out as in the program of these rows alone."""
+    arrays = {name: getattr(found, name)[rows] for name in ARRAYS}
+    reasons = {k: found.reasons[int(row)] for k, row in enumerate(rows) if int(row) in found.reasons}
+    return replace(found, states=states_at(found, cases, part, rows), reasons=reasons, **arrays)
+
+
+def states_at(found: Prediction, cases: Program, part: Program, rows: Rows) -> tuple[Equilibrium, ...]:
+    """The states of a prediction of all cases at these rows."""
+    out = []
+    for group in part.groups:
+        number = next(k for k, one in enumerate(cases.groups) if one.rig is group.rig)
+        whole, state = cases.groups[number], found.states[number]
+        names = [cases.campaign.tests[n].id for n in whole.numbers]
+        width, length = whole.rise.shape[1], group.rise.shape[1]
+        places = np.zeros(group.rise.shape, dtype=np.int64)
+        for k, own in enumerate(group.numbers):
+            test = names.index(part.campaign.tests[own].id)
+            mine = rows[cases.test[rows] == whole.numbers[test]] - cases.first[whole.numbers[test]]
+            places[k] = test * width + mine[np.minimum(np.arange(length), mine.size - 1)]
+        flat = state.reshaped(whole.rise.size).member(places.ravel())
+        out.append(flat.reshaped(len(group.numbers), length))
+    return tuple(out)
+
+
+def joined(cases: Program, pieces: Sequence[tuple[Rows, Program, Prediction]]) -> Prediction:
+    """The prediction of all cases from those of parts: rows, program and prediction of each, whole tests."""
+    arrays: dict[str, NDArray[Any]] = {}
+    reasons: dict[int, str] = {}
+    for name in ARRAYS:
+        first = getattr(pieces[0][2], name)
+        arrays[name] = np.zeros((len(cases.test), *first.shape[1:]), dtype=first.dtype)
+        for rows, _, found in pieces:
+            arrays[name][rows] = getattr(found, name)
+    for rows, _, found in pieces:
+        reasons |= {int(rows[k]): said for k, said in found.reasons.items()}
+    states = tuple(_joined_states(cases, number, pieces) for number in range(len(cases.groups)))
+    return Prediction(reasons=reasons, states=states, **arrays)
+
+
+def _joined_states(
+    cases: Program, number: int, pieces: Sequence[tuple[Rows, Program, Prediction]]
+) -> Equilibrium:
+    """Those of a group; its tests filled up with their last step, as in the parts."""
+    group = cases.groups[number]
+    names = [cases.campaign.tests[n].id for n in group.numbers]
+    steps = np.arange(group.rise.shape[1])
+    out: Equilibrium | None = None
+    for _, part, found in pieces:
+        for inner, state in zip(part.groups, found.states, strict=True):
+            if inner.rig is not group.rig:
+                continue
+            mine = np.array([names.index(part.campaign.tests[n].id) for n in inner.numbers])
+            last = np.minimum(steps, inner.rise.shape[1] - 1)
+            if out is None:
+                every = np.zeros(len(names), dtype=np.int64)
+                every[mine] = np.arange(mine.size)
+                out = state.member((every[:, None], last))
+            else:
+                there = state.member((np.arange(mine.size)[:, None], last))
+                out = out.with_members((mine[:, None], steps), there)
+    if out is None:
+        raise ValueError(f"no part has a test of group {number}")
+    return out
