@@ -26,7 +26,7 @@ ENOUGH = 24
 FEW, NEARLY, BEAM = 20, 0.9, 3
 """Rows up to which a fit costs so little that every rival is fitted that promises a tenth of what it stands for, and
 the sets that are grown by everything, side by side."""
-FAR, SLOW = 4.0, 0.7
+FAR, SLOW = 2.0, 0.7
 """Sigmas from which an explanation is far from one; growth that leaves more than this part of chi-square is slow. What
 is far from explained and falls slowly is not explained by more effects: so it ends as unknown."""
 LEADERS = 7

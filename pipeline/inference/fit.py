@@ -32,6 +32,8 @@ LOSING, LOSSES = 1.0, 8
 """Damping after a step on which rows lost their equilibrium, and how often that may be before a fit ends there."""
 HELD = 0.1
 """Of the number that shows most, in typical sizes each: a damped step takes no other for less."""
+LATE, DRAGGING = 10, 0.01
+"""A fit that leaves twice what noise does ends when so many evaluations took less than this part of the excess."""
 TINY = 1e-12
 
 
@@ -214,6 +216,7 @@ def _descend(aim: Objective, watch: Callable[[str], None] | None, plausible: flo
     damping: float = 0.0
     least: float = 0.0
     settled, losses = 0, 0
+    past: list[float] = []
     here = residuals(values)
     slopes, lost, place = jacobian(values), aim.lost, aim.place
     for _ in range(STEPS):
@@ -242,12 +245,25 @@ def _descend(aim: Objective, watch: Callable[[str], None] | None, plausible: flo
             damping = max(10.0 * damping, LOSING if losing else 1e-2)
             least, losses = (damping, losses + 1) if losing else (least, losses)
             aim.back(place)
-        if damping > 1e6 or losses == LOSSES or (gain <= 0.0 and promise < VAIN * unit):
+        past.append(float(here @ here))
+        if (
+            damping > 1e6
+            or losses == LOSSES
+            or (gain <= 0.0 and promise < VAIN * unit)
+            or _drags(past, here.size)
+        ):
             break
     # One that ends on a step not taken ends where it was linearised before that.
     if aim.unsettled(values) > NEAR:
         aim.again(values)
     return values
+
+
+def _drags(past: list[float], count: int) -> bool:
+    """Whether sums of squares after each evaluation stay far above noise and hardly fall: no verdict hangs on them."""
+    if len(past) <= LATE or past[-1] < 2.0 * count:
+        return False
+    return past[-1 - LATE] - past[-1] < DRAGGING * (past[-1] - count)
 
 
 def _step(slopes: Array, residuals: Array, box: Array, damping: float) -> Array:
