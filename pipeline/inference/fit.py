@@ -250,7 +250,7 @@ def _descend(aim: Objective, watch: Callable[[str], None] | None, plausible: flo
             damping > 1e6
             or losses == LOSSES
             or (gain <= 0.0 and promise < VAIN * unit)
-            or _drags(past, here.size)
+            or drags(past, here.size)
         ):
             break
     # One that ends on a step not taken ends where it was linearised before that.
@@ -259,7 +259,7 @@ def _descend(aim: Objective, watch: Callable[[str], None] | None, plausible: flo
     return values
 
 
-def _drags(past: list[float], count: int) -> bool:
+def drags(past: list[float], count: int) -> bool:
     """Whether sums of squares after each evaluation stay far above noise and hardly fall: no verdict hangs on them."""
     if len(past) <= LATE or past[-1] < 2.0 * count:
         return False

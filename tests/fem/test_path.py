@@ -98,6 +98,7 @@ def test_unstable_branches_are_followed_where_asked(straight: LinearModel, mode:
     assert -found.points[1].wrench[0] > 1.5 * mode.load
 
 
+@pytest.mark.long
 def test_the_way_back_is_the_way_there(bowed: LinearModel) -> None:
     """An elastic linkage unloads along its loading curve, through the bend of the path."""
     found = follow(bowed, bar_p.GUIDED, (-0.15, -0.3, -0.15))
@@ -106,6 +107,7 @@ def test_the_way_back_is_the_way_there(bowed: LinearModel) -> None:
     np.testing.assert_allclose(back.wrench, there.wrench, rtol=1e-6, atol=1e-3)
 
 
+@pytest.mark.long
 def test_tangents_of_earlier_points_change_nothing(
     bowed: LinearModel, pushed: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

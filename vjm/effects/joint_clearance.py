@@ -18,7 +18,8 @@ class JointClearance(Effect):
     limits = (
         "a centring spring of 20 N/mm inside; under loads of one sign it looks like an offset of x; where the axial "
         "load is within its noise a row may lie on either side of the play, and only rows that fit badly are tried on "
-        "the other: below two sigmas of the displacement sensor a play is less certain than its interval says"
+        "the other: below two sigmas of the displacement sensor such choices look like play, so its interval begins at "
+        "null unless the data say more than they could"
     )
     source = (
         "the dead-zone law, as in F. Pfeiffer, C. Glocker, Multibody Dynamics with Unilateral Contacts, 1996"

@@ -45,10 +45,10 @@ def verdict(changes: list[tuple[bool, Mutation]]) -> str:
 def test_damage_is_fitted_or_refused() -> None:
     seen: Counter[str] = Counter()
 
-    @settings(max_examples=40, derandomize=True, deadline=None, database=None)
+    @settings(max_examples=20, derandomize=True, deadline=None, database=None)
     @given(damage)
     def count(changes: list[tuple[bool, Mutation]]) -> None:
         seen[verdict(changes)] += 1
 
     count()
-    assert seen["refused"] >= 10 and seen["added"] >= 1, seen
+    assert seen["refused"] >= 5 and seen["added"] >= 1, seen

@@ -91,6 +91,16 @@ def test_a_one_sided_interval_begins_at_null(measured: float, low: float, high: 
     assert it.low == 0.0 or measured > Z
 
 
+@pytest.mark.parametrize(("measured", "low"), [(5.0, 0.0), (5.6, 5.6 - Z)])
+def test_null_is_left_only_for_more_than_is_in_doubt(measured: float, low: float) -> None:
+    """At null the sum of squares is measured² higher: 25 is below 3.841 + 25, 31.4 above."""
+    doubtful = Range(0.0, 1e3, 0.0, one_sided=True, doubt=25.0)
+    it = intervals(land(linear(np.eye(1), np.array([measured])), np.ones(1), [doubtful]))[0]
+    assert it.low == pytest.approx(low, abs=CLOSE * Z) and it.high == pytest.approx(measured + Z, rel=CLOSE)
+    sure = intervals(land(linear(np.eye(1), np.array([measured])), np.ones(1), [POSITIVE]))[0]
+    assert sure.low == pytest.approx(measured - Z, rel=CLOSE)
+
+
 def test_a_number_at_its_bound_no_longer_widens_the_others() -> None:
     """b >= 0 wants to be negative: a is then known as if b were not there."""
     matrix = np.array([[1.0, 0.9], [0.0, 0.5]])

@@ -1,0 +1,92 @@
+"""Predictions of parts of a campaign: the same as among all, and put together they are those of all."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from functools import cache
+
+import numpy as np
+import pytest
+
+from pipeline.campaign import Campaign
+from pipeline.coverage.cases import BASE
+from pipeline.coverage.trial import campaign
+from pipeline.inference.fit import Fit, fit
+from pipeline.inference.model import Model
+from pipeline.inference.parts import ARRAYS, at_rows, joined
+from pipeline.inference.prediction import predict
+from pipeline.inference.program import Program, program
+from vjm.effects import catalogue
+
+HIDDEN = (("modulus_error.scale", 0.9),)
+
+
+@cache
+def whole() -> Campaign:
+    """Three tests to fit and two held out, one of them between the others and longer."""
+    few, many = campaign(HIDDEN, 3, 6), campaign(HIDDEN, 3, 9)
+    held = [replace(test, role="holdout") for test in many.tests[:1]]
+    tests = (few.tests[1], *held, few.tests[3], few.tests[5], few.tests[-1])
+    return replace(
+        few, tests=tuple(replace(test, id=f"{k}", rig=tests[0].rig) for k, test in enumerate(tests))
+    )
+
+
+@cache
+def cases() -> Program:
+    return program(whole())
+
+
+def model(name: str) -> Model:
+    return Model().with_effects([catalogue()[each] for each in (BASE, name)])
+
+
+@pytest.mark.parametrize("name", ["modulus_error", "joint_friction"])
+def test_parts_are_the_whole(name: str) -> None:
+    """Readings within a hundred-thousandth of their sigmas; states are handed on as they are."""
+    it = model(name)
+    every = predict(it, cases())
+    parts = [(rows, part, predict(it, part)) for rows, part in cases().by_role]
+    assert [rows.size for rows, _, _ in parts] == [18, 15]
+    together = joined(cases(), parts)
+    for array in ARRAYS:
+        one, other = getattr(every, array), getattr(together, array)
+        np.testing.assert_allclose(other, one, atol=1e-5 * float(np.abs(one).max() + 1e-9), err_msg=array)
+    for (rows, part, alone), (_, _, again) in zip(
+        parts, [(r, p, at_rows(together, cases(), p, r)) for r, p, _ in parts], strict=True
+    ):
+        np.testing.assert_array_equal(again.values, alone.values)
+        for group, one, other in zip(part.groups, again.states, alone.states, strict=True):
+            np.testing.assert_array_equal(one.unknowns[group.real], other.unknowns[group.real])
+        assert rows.size == part.test.size
+
+
+def test_lost_rows_keep_their_reasons() -> None:
+    found = predict(model("modulus_error"), cases())
+    lost = np.zeros(33, dtype=bool)
+    lost[[2, 8, 30]] = True
+    found = replace(found, lost=lost, reasons={2: "a", 8: "b", 30: "c"})
+    parts = [(rows, part, at_rows(found, cases(), part, rows)) for rows, part in cases().by_role]
+    assert [sorted(each.reasons.values()) for _, _, each in parts] == [["a"], ["b", "c"]]
+    assert joined(cases(), parts).reasons == found.reasons
+
+
+def test_what_is_held_out_changes_no_fit() -> None:
+    alone = replace(whole(), tests=tuple(t for t in whole().tests if t.role == "fit"))
+    one: Fit = fit(model("modulus_error"), cases())
+    two: Fit = fit(model("modulus_error"), program(alone))
+    np.testing.assert_allclose(one.model.values, two.model.values, rtol=1e-9)
+    assert one.chi_square == pytest.approx(two.chi_square, rel=1e-9) and one.degrees == two.degrees
+    # Those held out are predicted all the same, and as the whole campaign would be.
+    held = ~cases().fitted
+    assert np.all(np.abs(one.residual.values[held]) < 6.0) and np.any(one.residual.values[held])
+    np.testing.assert_allclose(
+        one.prediction.values[held] / cases().sigma,
+        predict(one.model, cases(), shift=one.prediction.shift).values[held] / cases().sigma,
+        atol=1e-4,
+    )
+
+
+def test_all_alike_are_one_part() -> None:
+    ((rows, part),) = program(replace(whole(), tests=whole().tests[2:4])).by_role
+    assert rows.size == 12 == part.test.size
