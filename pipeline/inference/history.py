@@ -43,10 +43,12 @@ def history(
         going = np.flatnonzero(alive & (begins <= step))
         if not going.size:
             continue
-        before = state.member((going, step - 1)) if step else None
-        part = _step(mechanism, group, inputs, going, step, before).solved(
-            before, None if start is None else start.member((going, step))
-        )
+        if step:
+            before = state.member((going, step - 1))
+            guess = None if start is None else start.member((going, step))
+            part = _step(mechanism, group, inputs, going, step, before).solved(before, guess)
+        else:
+            part = state.member((going, 0))
         found = by_parameters(part, asked, memory_slope=slope[going], order=order)
         state = state.with_members((going, step), part)
         by[going, step] = found.readings
