@@ -13,6 +13,7 @@ from pipeline.answer import Answer, Candidate, Correlation, Verdict
 from pipeline.campaign import Campaign
 from pipeline.campaign.names import COORDINATES
 from pipeline.diagnose.apart import Likeness, likenesses
+from pipeline.diagnose.beyond import with_what_held_out_tests_need
 from pipeline.diagnose.folds import agreement, crossvalidated, crossvalidated_with
 from pipeline.diagnose.menu import Choice
 from pipeline.diagnose.next_test import NextTest, best_next_test
@@ -81,7 +82,7 @@ def diagnose(
             f"{campaign.name}: no fitted test has a reading that a model predicts, so nothing to diagnose"
         )
     shelf = Shelf(cases, model, candidates, say)
-    found = search(shelf)
+    found = with_what_held_out_tests_need(search(shelf))
     judgement = judge(shelf.fit(found.best))
     sets = sorted((found.best, *found.rivals), key=lambda n: _simplicity(shelf, n))
     verdict = _verdict(found, judgement)

@@ -17,6 +17,7 @@ from pipeline.noise import lag_one
 Array = NDArray[np.float64]
 LEVEL = FALSE_ALARM / 5
 """Chance, of each of five checks, that noise fails it: the truth is refused as seldom as a name is false."""
+HELD_OUT = "held out"
 LARGER = 1.15
 """Scatter up to so many times the sigmas, and without any order, is put down to the sigmas."""
 
@@ -148,7 +149,7 @@ def _held_out(found: Fit, scatter: float) -> Check | None:
         total -= float(pull @ np.linalg.solve(inner, pull))
     p = float(chi2.sf(total / scatter**2, residual.size))
     rms = float(np.sqrt(np.mean(residual**2)))
-    return Check("held out", p, f"tests that were held out are off by {rms:.2f} sigma")
+    return Check(HELD_OUT, p, f"tests that were held out are off by {rms:.2f} sigma")
 
 
 def _root(covariance: Array) -> Array:

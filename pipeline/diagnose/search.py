@@ -50,11 +50,13 @@ class Estimate:
 
 @dataclass(frozen=True, eq=False)
 class Found:
-    """What was found. best: the set of least cost. rivals: sets as simple that the data do not exclude."""
+    """What was found. best: the set of least cost. rivals: sets as simple that the data do not exclude. beyond: an
+    effect of the best set that only tests held out show, "" if there is none."""
 
     shelf: Shelf
     best: Names
     rivals: tuple[Names, ...]
+    beyond: str = ""
 
 
 def cost(shelf: Shelf, names: Names) -> float:

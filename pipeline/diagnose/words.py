@@ -61,6 +61,8 @@ def _evidence(it: Diagnosis) -> Iterator[str]:
             else f" With one test left out it is chosen again in {100 * share:.0f} % of cases."
         )
         what = f"{name}: {effect.title}, {effect.equation}. In data: {effect.signature}."
+        if name == it.found.beyond:
+            what += " The tests that were fitted do not show it, those held out need it."
         yield f"{what}{shows}{again}{_values(it, effect)}"
 
 

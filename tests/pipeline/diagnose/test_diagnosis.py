@@ -45,6 +45,16 @@ def test_small_loads_need_nothing() -> None:
     assert sentences(it)[0].startswith("within_noise: the model explains the measurements")
 
 
+def test_held_out_tests_tell_of_physics_that_the_fitted_ones_do_not_show() -> None:
+    """6 mm sideways shorten the linkage by 70 µm; under axial loads nothing tells of it."""
+    it = found(bench(ids=("axial_held_q+0", "lateral_q-15")))
+    assert it.verdict == "identified" and it.sets == ((LARGE,),)
+    assert any("those held out need it" in said for said in sentences(it))
+    # What has a number is not theirs to choose.
+    softer = found(bench("modulus_error.scale", 0.9, ids=("swing_q+0", "axial_held_q+15")))
+    assert softer.verdict == "unknown"
+
+
 def test_what_is_not_measured_yet_is_refused() -> None:
     with pytest.raises(InputError, match="ahead: no fitted test has a reading that a model predicts"):
         diagnose(unmeasured(), Model(), catalogue())

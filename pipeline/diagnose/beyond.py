@@ -1,0 +1,31 @@
+"""Tests that were held out decide on physics without a number to fit, where the fitted tests do not show it.
+
+Whether bars have their geometric stiffness does not show under small loads, and a model without it is as good; tests
+with larger deflections that were held out then fail, though nothing is missing that is not known. No other choice is
+left to them: what has numbers is chosen by the fitted tests alone.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from pipeline.diagnose.evidence import RAW
+from pipeline.diagnose.refuse import HELD_OUT, judge
+from pipeline.diagnose.search import Found, badness, excluded
+from pipeline.diagnose.shelf import Names
+
+
+def with_what_held_out_tests_need(found: Found) -> Found:
+    """The same, or with an effect that is there or not added to the best set and its rivals."""
+    shelf, best = found.shelf, found.best
+    if [check.name for check in judge(shelf.fit(best)).checks if not check.passed] != [HELD_OUT]:
+        return found
+    for name, effect in shelf.candidates.items():
+        more: Names = best | {name}
+        if effect.parameters or more == best:
+            continue
+        if badness(shelf, more) - badness(shelf, best) < RAW and judge(shelf.fit(more)).noise:
+            rivals = dict.fromkeys(rival | {name} for rival in found.rivals)
+            kept = tuple(rival for rival in rivals if rival != more and not excluded(shelf, rival, more))
+            return replace(found, best=more, rivals=kept, beyond=name)
+    return found
