@@ -9,9 +9,8 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from pipeline.diagnose.evidence import RAW
 from pipeline.diagnose.refuse import HELD_OUT, judge
-from pipeline.diagnose.search import Found, badness, excluded
+from pipeline.diagnose.search import Found, excluded
 from pipeline.diagnose.shelf import Names
 
 
@@ -24,7 +23,8 @@ def with_what_held_out_tests_need(found: Found) -> Found:
         more: Names = best | {name}
         if effect.parameters or more == best:
             continue
-        if badness(shelf, more) - badness(shelf, best) < RAW and judge(shelf.fit(more)).noise:
+        # That the fitted tests may like it a little less is chance: what it leaves of them is noise as well.
+        if judge(shelf.fit(more)).noise:
             rivals = dict.fromkeys(rival | {name} for rival in found.rivals)
             kept = tuple(rival for rival in rivals if rival != more and not excluded(shelf, rival, more))
             return replace(found, best=more, rivals=kept, beyond=name)
