@@ -243,9 +243,28 @@ def with_rivals(shelf: Shelf, best: Names) -> Found:
     if winner != best:
         return with_rivals(shelf, winner)
     simple = [n for n in shelf.fits if len(n) <= len(best) or taken(shelf, n) <= taken(shelf, best)]
-    rivals = [n for n in simple if n != best and not excluded(shelf, n, best)]
-    minimal = [n for n in rivals if not any(other < n for other in rivals) and not n < best and not best < n]
-    return Found(shelf, best, tuple(sorted(minimal, key=lambda n: badness(shelf, n))))
+    return Found(shelf, best, tuple(sorted(possible(shelf, simple, best), key=lambda n: badness(shelf, n))))
+
+
+def possible(shelf: Shelf, sets: list[Names], best: Names) -> list[Names]:
+    """Of these sets those that may as well be true.
+
+    Several that fit alike are excluded together or not at all: each weighs as its likelihood, and what all that are
+    excluded weigh together is no more than one of them may.
+    """
+    apart = [n for n in sets if not n <= best and not best < n]
+    kept = [n for n in apart if not excluded(shelf, n, best)]
+    kept = [n for n in kept if not any(other < n for other in kept)]
+    gaps = {n: gap(shelf, n, best) - decisive(shelf, n, best) for n in apart if n not in kept}
+    left = [
+        n
+        for n in gaps
+        if not any(o < n for o in kept) and not any(o < n and gaps[o] <= gaps[n] for o in gaps)
+    ]
+    left.sort(key=lambda n: gaps[n])
+    while left and sum(np.exp(-0.5 * gaps[n]) for n in left) > 1.0:
+        kept.append(left.pop(0))
+    return kept
 
 
 def _raw(shelf: Shelf, e: Estimate) -> float:
@@ -255,13 +274,29 @@ def _raw(shelf: Shelf, e: Estimate) -> float:
 
 def excluded(shelf: Shelf, rival: Names, best: Names) -> bool:
     """Whether the data speak against a rival."""
-    worse = badness(shelf, rival) - badness(shelf, best)
-    return worse > RAW and worse + taken(shelf, rival) - taken(shelf, best) > decisive(shelf, rival, best)
+    return badness(shelf, rival) - badness(shelf, best) > RAW and gap(shelf, rival, best) > decisive(
+        shelf, rival, best
+    )
+
+
+def gap(shelf: Shelf, rival: Names, best: Names) -> float:
+    """Chi-square by which a rival is worse, after one for each number that it has more, as far as the data see them."""
+    return badness(shelf, rival) - badness(shelf, best) + seen(shelf, rival) - seen(shelf, best)
 
 
 def decisive(shelf: Shelf, rival: Names, best: Names) -> float:
-    """Chi-square that excludes; where a kink is in one of two sets alone, theirs is good to `SIDES`."""
+    """Gap that excludes; where a kink is in one of two sets alone, their chi-square is good to `SIDES`."""
     return APART + (SIDES if any(sided(shelf.candidates[name]) for name in rival ^ best) else 0.0)
+
+
+def seen(shelf: Shelf, names: Names) -> int:
+    """Degrees of freedom that a set takes from these data: directions of its numbers that plausible sizes move by a
+    sigma, and one for an effect that is there or not. What the data do not see fits no noise."""
+    found = shelf.fit(names)
+    scale = np.array([PLAUSIBLE * f.parameter.typical for f in found.model.free])
+    sizes = np.linalg.svd(found.jacobian * scale, compute_uv=False) if scale.size else np.zeros(0)
+    switches = sum(not shelf.candidates[name].parameters for name in names)
+    return int(np.sum(sizes > 1.0)) + switches
 
 
 def taken(shelf: Shelf, names: Iterable[str]) -> int:

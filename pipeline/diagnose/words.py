@@ -121,7 +121,10 @@ def _rivals(it: Diagnosis) -> Iterator[str]:
         for names in it.sets:
             more = shelf.fit(frozenset(names)).chi_square - shelf.fit(least).chi_square
             limit = decisive(shelf, frozenset(names), least)
-            yield f"{_and(names)}: chi-square {more:.1f} above the best; {limit:g} would exclude it."
+            so = f"{limit:g} would exclude it"
+            if more > limit:
+                so = "alone that might exclude it, but not with others as near or with numbers that only fit noise"
+            yield f"{_and(names)}: chi-square {more:.1f} above the best; {so}."
     for a in it.alike:
         if a.correlation > 0.9 and a.effect in it.sets[0] and a.size < a.needed:
             yield (

@@ -1,0 +1,58 @@
+"""Which sets the data exclude: one by one, several together, and by the numbers that the data see."""
+
+from __future__ import annotations
+
+from typing import cast
+
+import pytest
+
+from pipeline.diagnose import search
+from pipeline.diagnose.evidence import APART
+from pipeline.diagnose.search import possible, seen, taken
+from pipeline.diagnose.shelf import Names, Shelf
+from pipeline.inference.model import Model
+from pipeline.inference.program import program
+from tests.pipeline.diagnose.bench import AXIAL, MIXED, bench
+from vjm.effects import catalogue
+
+BEST = frozenset({"modulus_error"})
+
+
+def kept(monkeypatch: pytest.MonkeyPatch, gaps: dict[str, float]) -> set[str]:
+    """Which of these sets, "a+b" to their gaps, remain beside the best one."""
+    of = {frozenset(names.split("+")): value for names, value in gaps.items()}
+    monkeypatch.setattr(search, "gap", lambda shelf, rival, best: of[rival])
+    monkeypatch.setattr(search, "decisive", lambda shelf, rival, best: APART)
+    monkeypatch.setattr(search, "excluded", lambda shelf, rival, best: of[rival] > APART)
+    found = possible(cast(Shelf, None), [*of, BEST, frozenset[str]()], BEST)
+    return {"+".join(sorted(names)) for names in found}
+
+
+def test_one_rival_is_excluded_by_its_own_gap(monkeypatch: pytest.MonkeyPatch) -> None:
+    assert kept(monkeypatch, {"a": 4.9, "b": 5.1}) == {"a"}
+
+
+def test_rivals_that_are_alike_are_excluded_together_or_not_at_all(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Three at 5.1 weigh 2.9 times what one may; two of them named leave one that weighs less than that."""
+    assert kept(monkeypatch, {"a": 5.1, "b": 5.2, "c": 5.3}) == {"a", "b"}
+    # exp(-1.25) of what one may, each.
+    assert kept(monkeypatch, {"a": 7.5, "b": 7.5, "c": 7.5}) == set()
+    assert len(kept(monkeypatch, dict.fromkeys("abcdef", 7.5))) == 3
+
+
+def test_a_set_counts_once_whatever_is_added_to_it(monkeypatch: pytest.MonkeyPatch) -> None:
+    assert kept(monkeypatch, {"a": 5.1, "a+b": 5.2, "a+c": 5.3}) == set()
+    # Far by itself and near only with another: the pair is what counts.
+    assert kept(monkeypatch, {"a": 90.0, "a+b": 5.1, "c": 5.2, "modulus_error+b": 5.0}) == {"a+b"}
+
+
+def test_numbers_that_the_data_do_not_see_take_no_degree() -> None:
+    """Six compliances of the base: loads along the bars alone show fewer than tests in several directions do."""
+    base: Names = frozenset({"base_compliance"})
+    counts = []
+    for ids in (AXIAL[:1], MIXED):
+        cases = program(bench("base_compliance.x_mm_per_N", 3e-6, ids))
+        shelf = Shelf(cases, Model(), catalogue(), lambda _: None)
+        counts.append(seen(shelf, base))
+        assert seen(shelf, frozenset({"bar_geometric_nonlinearity"})) == 1 and seen(shelf, frozenset()) == 0
+    assert 1 <= counts[0] < counts[1] <= taken(shelf, base) == 6
