@@ -192,6 +192,34 @@ def fit(
     return Fit(model.at(values), whole, residual(program, whole), aim.count)
 
 
+@dataclass(frozen=True, eq=False)
+class _Pulled:
+    """The residuals of an objective with a pull towards null, and their derivatives by typical sizes.
+
+    scale, null: (P,). pull: (P, P), by typical sizes from null.
+    """
+
+    aim: Objective
+    scale: Array
+    null: Array
+    pull: Array
+
+    @classmethod
+    def of(cls, aim: Objective, plausible: float) -> _Pulled:
+        free = aim.model.free
+        scale = np.array([abs(each.parameter.typical) for each in free])
+        null = np.array([each.parameter.null for each in free])
+        return cls(aim, scale, null, np.eye(len(free)) / plausible)
+
+    def residuals(self, values: Array) -> Array:
+        """(N + P,)"""
+        return np.concatenate([self.aim.residuals(values), self.pull @ ((values - self.null) / self.scale)])
+
+    def jacobian(self, values: Array) -> Array:
+        """(N + P, P)"""
+        return np.vstack([self.aim.jacobian(values) * self.scale, self.pull])
+
+
 def _descend(aim: Objective, watch: Callable[[str], None] | None, plausible: float) -> Array:
     """Values (P,) of least chi-square near those of the model: Levenberg-Marquardt in a box.
 
@@ -200,25 +228,13 @@ def _descend(aim: Objective, watch: Callable[[str], None] | None, plausible: flo
     stop has a meaning: no step promises more than `PROMISE` of chi-square, linearised near the inputs that fit best;
     near the measured ones slopes would be too small by what their noise adds to their spread.
     """
-    free = aim.model.free
-    bounds = np.array([each.bounds for each in free]).T
-    scale = np.array([abs(each.parameter.typical) for each in free])
-    null = np.array([each.parameter.null for each in free])
-    pull = np.eye(len(free)) / plausible
-
-    def residuals(values: Array) -> Array:
-        return np.concatenate([aim.residuals(values), pull @ ((values - null) / scale)])
-
-    def jacobian(values: Array) -> Array:
-        return np.vstack([aim.jacobian(values) * scale, pull])
-
-    values = np.clip(aim.model.values, *bounds)
-    damping: float = 0.0
-    least: float = 0.0
-    settled, losses = 0, 0
-    past: list[float] = []
-    here = residuals(values)
-    slopes, lost, place = jacobian(values), aim.lost, aim.place
+    bounds = np.array([each.bounds for each in aim.model.free]).T
+    pulled = _Pulled.of(aim, plausible)
+    scale, values = pulled.scale, np.clip(aim.model.values, *bounds)
+    damping, least = 0.0, 0.0
+    settled, losses, past = 0, 0, list[float]()
+    here = pulled.residuals(values)
+    slopes, lost, place = pulled.jacobian(values), aim.lost, aim.place
     for _ in range(STEPS):
         step = _step(slopes, here, (bounds - values) / scale, damping)
         promise = here @ here - np.sum((here + slopes @ step) ** 2)
@@ -228,15 +244,15 @@ def _descend(aim: Objective, watch: Callable[[str], None] | None, plausible: flo
                 break
             settled += 1
             aim.again(values)
-            here, slopes, place = residuals(values), jacobian(values), aim.place
+            here, slopes, place = pulled.residuals(values), pulled.jacobian(values), aim.place
             continue
         tried = np.clip(values + scale * step, *bounds)
-        there = residuals(tried)
+        there = pulled.residuals(tried)
         gain = here @ here - there @ there
         if watch is not None:
             watch(f"{aim.count} evaluations, chi-square {min(here @ here, there @ there):.5g}")
         if gain > 0.1 * promise:
-            values, here, slopes, lost, place = tried, there, jacobian(tried), aim.lost, aim.place
+            values, here, slopes, lost, place = tried, there, pulled.jacobian(tried), aim.lost, aim.place
             damping = max(damping / 10.0 if damping > 1e-3 else 0.0, least)
             least /= 10.0
         else:
