@@ -10,8 +10,11 @@ from __future__ import annotations
 from dataclasses import replace
 
 from pipeline.diagnose.refuse import HELD_OUT, judge
-from pipeline.diagnose.search import Found, excluded
+from pipeline.diagnose.search import Found, badness, possible
 from pipeline.diagnose.shelf import Names
+
+NEAR = 25.0
+"""Chi-square up to which a set that is worse without such an effect is looked at with it."""
 
 
 def with_what_held_out_tests_need(found: Found) -> Found:
@@ -25,7 +28,9 @@ def with_what_held_out_tests_need(found: Found) -> Found:
             continue
         # That the fitted tests may like it a little less is chance: what it leaves of them is noise as well.
         if judge(shelf.fit(more)).noise:
-            rivals = dict.fromkeys(rival | {name} for rival in found.rivals)
-            kept = tuple(rival for rival in rivals if rival != more and not excluded(shelf, rival, more))
-            return replace(found, best=more, rivals=kept, beyond=name)
+            # With it the data may exclude less than they did without.
+            worst = badness(shelf, best) + NEAR
+            near = [n for n in shelf.fits if len(n) <= len(best) and badness(shelf, n) < worst]
+            sets = list(dict.fromkeys(n | {name} for n in near))
+            return replace(found, best=more, rivals=tuple(possible(shelf, sets, more)), beyond=name)
     return found
