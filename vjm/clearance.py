@@ -45,6 +45,15 @@ class Clearance:
         tangent = np.where(beyond == 0.0, CENTRING, CENTRING + self.stop)[..., None]
         return Response(energy, force, tangent, memory)
 
+    def pressed(self, strain: Array) -> tuple[Array, Array]:
+        """Force, N, by which a stop is pressed at a strain, both (...), of the sign of the strain, and its slope, N/mm.
+
+        Both are zero inside the play.
+        """
+        beyond = strain - np.clip(strain, -self.play, self.play)
+        stiffness = CENTRING + self.stop
+        return stiffness * beyond, np.where(beyond == 0.0, 0.0, stiffness)
+
     def give(self, force: Array) -> Array:
         """Strain at a force; both (...)."""
         inside = np.clip(force / CENTRING, -self.play, self.play)

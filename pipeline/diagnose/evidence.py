@@ -9,7 +9,6 @@ from functools import cache
 
 from scipy.stats import chi2
 
-from pipeline.inference.sides import SIDES, sided
 from vjm.effects.base import Effect
 
 FALSE_ALARM = 0.005
@@ -42,6 +41,4 @@ def entry(effect: Effect, candidates: int) -> float:
 
     Bonferroni's bound. An effect with kinks had several looks, one at each probe.
     """
-    return (SIDES if sided(effect) else 0.0) + _threshold(
-        numbers(effect), max(candidates, 1) * max(1, len(effect.probes))
-    )
+    return _threshold(numbers(effect), max(candidates, 1) * max(1, len(effect.probes)))

@@ -15,7 +15,6 @@ import numpy as np
 from pipeline.diagnose.evidence import APART, PLAUSIBLE, RAW, entry, numbers
 from pipeline.diagnose.shelf import Names, Shelf
 from pipeline.inference.fit import Fit
-from pipeline.inference.sides import SIDES, sided
 
 WIDTH = 4
 """Sets of one size that are fitted, at most, of those that compete."""
@@ -65,9 +64,10 @@ def cost(shelf: Shelf, names: Names) -> float:
 
 
 def badness(shelf: Shelf, names: Names) -> float:
-    """Chi-square of the fit and of its numbers, each `PLAUSIBLE` typical sizes a sigma."""
+    """Chi-square of the fit, what choices of sides took off it, and of its numbers, each `PLAUSIBLE` typical sizes a
+    sigma."""
     found = shelf.fit(names)
-    return found.chi_square + implausibility(found)
+    return found.aim + found.doubt + implausibility(found)
 
 
 def implausibility(found: Fit) -> float:
@@ -150,7 +150,7 @@ def _estimates(shelf: Shelf, start: Names, counts: Iterable[int]) -> list[Estima
     """Sets with so many further effects, to first order, best first; always at least one."""
     found = shelf.picture(start)
     every = [name for name in found.signatures if start >= set(shelf.candidates[name].includes)]
-    base = found.fit.chi_square + price(shelf, start)
+    base = found.fit.aim + found.fit.doubt + price(shelf, start)
     single = {name: found.gain([name]) for name in every}
     leaders = sorted(single, key=lambda name: -single[name].value)[:LEADERS]
     out = [Estimate(start, base, {})]
@@ -285,8 +285,9 @@ def gap(shelf: Shelf, rival: Names, best: Names) -> float:
 
 
 def decisive(shelf: Shelf, rival: Names, best: Names) -> float:
-    """Gap that excludes; where a kink is in one of two sets alone, their chi-square is good to `SIDES`."""
-    return APART + (SIDES if any(sided(shelf.candidates[name]) for name in rival ^ best) else 0.0)
+    """Gap that excludes; where rows choose sides in one of two sets alone, chi-square is no better than what that took
+    up."""
+    return APART + abs(shelf.fit(rival).doubt - shelf.fit(best).doubt)
 
 
 def seen(shelf: Shelf, names: Names) -> int:

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from pipeline.diagnose.search import DOUBT, KINKED
 from pipeline.diagnose.shelf import Names, Shelf
-from pipeline.inference.sides import SIDES, sided
+from pipeline.inference.sides import SIDE, sided
 
 
 def forward(shelf: Shelf) -> Names:
@@ -24,7 +24,7 @@ def forward(shelf: Shelf) -> Names:
 def aic(shelf: Shelf, names: Names) -> float:
     """Of the base model with these effects at its best fit."""
     found = shelf.fit(names)
-    return found.chi_square + 2.0 * len(found.model.free)
+    return found.aim + 2.0 * len(found.model.free)
 
 
 def _added(shelf: Shelf, here: Names) -> Names:
@@ -56,6 +56,8 @@ def _hopes(shelf: Shelf, here: Names) -> dict[str, tuple[float, dict[str, float]
         elif name in about.signatures:
             gain = about.gain([name])
             doubt = DOUBT if effect.smooth else KINKED
-            fall = (1.0 + doubt) * gain.value + (SIDES if sided(effect) else 0.0)
+            # A probe does not know what rows gain by choosing their sides.
+            rows = float(shelf.whole.fitted.sum()) if sided(effect) else 0.0
+            fall = (1.0 + doubt) * gain.value + SIDE * rows
             out[name] = base + 2.0 * len(effect.parameters) - fall, gain.probes
     return out

@@ -64,6 +64,26 @@ class Fit:
         """Sum of squares of the whitened residuals."""
         return float(self.whitened @ self.whitened)
 
+    @property
+    def aimed(self) -> Array:
+        """(N + 1,) what a fit makes least: the residuals and, at the end, what rows beside their stops are charged."""
+        return np.append(self.whitened, np.sqrt(self.residual.charged))
+
+    @property
+    def aim(self) -> float:
+        """What a fit makes least: chi-square and charges."""
+        return self.chi_square + self.residual.charged
+
+    @property
+    def doubt(self) -> float:
+        """Chi-square that choices of sides may have taken up."""
+        return self.residual.doubt
+
+    @property
+    def aimed_by(self) -> Array:
+        """(N + 1, P) its derivative; charges follow the sides of rows, which no slope foresees."""
+        return np.vstack([-self.jacobian, np.zeros((1, len(self.model.free)))])
+
     @cached_property
     def degrees(self) -> int:
         """Residuals less fitted numbers and unknown zeros."""
@@ -129,12 +149,12 @@ class Objective:
         return 0 if self._known is None else int(self._known[1].lost.sum())
 
     def residuals(self, values: Array) -> Array:
-        """(N,)"""
+        """(N + 1,) as `Fit.aimed`."""
         it = self.at(values)[1]
-        return _free_of(it.flat(it.offsets), it.flat(it.values))
+        return np.append(_free_of(it.flat(it.offsets), it.flat(it.values)), np.sqrt(it.charged))
 
     def again(self, values: Array) -> Array:
-        """(N,) linearised anew, at the inputs that fit best by what is known."""
+        """(N + 1,) linearised anew, at the inputs that fit best by what is known."""
         it = self.at(values)[1]
         self._known = (b"", self._known[1], it) if self._known is not None else None
         return self.residuals(values)
@@ -156,9 +176,10 @@ class Objective:
         return float(off.max(initial=0.0))
 
     def jacobian(self, values: Array) -> Array:
-        """(N, P)"""
+        """(N + 1, P) as `Fit.aimed_by`."""
         it = self.at(values)[1]
-        return -_free_of(it.flat(it.offsets), it.flat(it.slopes))
+        slopes = _free_of(it.flat(it.offsets), it.flat(it.slopes))
+        return np.vstack([-slopes, np.zeros((1, slopes.shape[1]))])
 
 
 def fit(
@@ -212,11 +233,11 @@ class _Pulled:
         return cls(aim, scale, null, np.eye(len(free)) / plausible)
 
     def residuals(self, values: Array) -> Array:
-        """(N + P,)"""
+        """(N + 1 + P,)"""
         return np.concatenate([self.aim.residuals(values), self.pull @ ((values - self.null) / self.scale)])
 
     def jacobian(self, values: Array) -> Array:
-        """(N + P, P)"""
+        """(N + 1 + P, P)"""
         return np.vstack([self.aim.jacobian(values) * self.scale, self.pull])
 
 

@@ -9,7 +9,7 @@ from fem.frame.errors import Errors
 from fem.frame.rig import Gauge as FrameGauge
 from pipeline.campaign.names import DISPLACEMENT, SUPPORT
 from pipeline.inference.manipulator_linear import by_frame, predict_constant
-from pipeline.inference.prediction import Prediction, zeroed
+from pipeline.inference.prediction import Prediction, no_stops, zeroed
 from pipeline.inference.program import INPUTS, Program
 from pipeline.virtual.bench import frame_rig
 
@@ -46,6 +46,7 @@ def predict_frame(program: Program, tangent: Prediction) -> Prediction:
         tangent.by_inputs,
         np.zeros((*values.shape, 0)),
         np.zeros((len(values), INPUTS)),
+        no_stops(len(values)),
         lost,
         reasons,
         (),

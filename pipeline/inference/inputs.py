@@ -4,7 +4,8 @@ With a kink, such as the stop of a play, the inputs that fit a row best may lie 
 measured ones does not point: within a play of ± 10 µm a force of half a newton decides the position, and it is read
 with a noise of one. What a row prescribed as force is then better looked for from the displacement that was measured
 with it: solved with displacements prescribed, the model says which forces it takes to be where the platform was.
-Rows that fit badly are tried from there as well, and keep what leaves the lesser sum of squares.
+Rows that press other stops there are tried from there as well, those charged for the stop that they press
+(`pipeline.inference.residual`) from the measured inputs, and keep what leaves the lesser chi-square.
 """
 
 from __future__ import annotations
@@ -13,7 +14,6 @@ from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.stats import chi2
 
 from pipeline.inference.model import Model
 from pipeline.inference.parts import ARRAYS, states_at
@@ -23,9 +23,6 @@ from pipeline.inference.residual import Residual, residual
 
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
-BADLY = 1e-3
-"""A row fits badly if noise gives its sum of squares less often. Others are left where they are: the better of two
-sides takes up noise in every row, and with it a play of a third of a micrometre is found where there is none."""
 
 
 def linearised(
@@ -42,16 +39,31 @@ def linearised(
         return here, residual(cases, here)
     reached = predict(model, swapped, slopes=False, start=start)
     here = predict(model, cases, slopes, start=reached, shift=shift)
-    left = residual(cases, here)
-    rows = np.flatnonzero(_badly(cases, left))
+    for rows, other in (
+        (_elsewhere(reached, here), _shift_to(reached, swapped, cases)),
+        (residual(cases, here).charge > 0.0, np.zeros_like(cases.input_sigma)),
+    ):
+        here = _better(model, cases, here, _whole(cases, rows), other, slopes, reached)
+    return here, residual(cases, here)
+
+
+def _better(
+    model: Model,
+    cases: Program,
+    here: Prediction,
+    rows: NDArray[np.int64],
+    shift: Array,
+    slopes: bool,
+    start: Prediction,
+) -> Prediction:
+    """The prediction with those of these rows (N,) replaced that fit better with the inputs shifted like this."""
     if not rows.size:
-        return here, left
+        return here
     part = cases.only(rows)
-    begin = replace(reached, states=states_at(reached, cases, part, rows))
-    other = predict(model, part, slopes, start=begin, shift=_shift_to(reached, swapped, cases)[rows])
-    better = _squares(residual(part, other)) < _squares(left)[rows]
-    merged = _merged(here, other, rows, better)
-    return merged, residual(cases, merged)
+    begin = replace(start, states=states_at(start, cases, part, rows))
+    other = predict(model, part, slopes, start=begin, shift=shift[rows])
+    better = _squares(residual(part, other)) < _squares(residual(cases, here))[rows]
+    return _merged(here, other, rows, better)
 
 
 def kinked(model: Model) -> bool:
@@ -61,19 +73,23 @@ def kinked(model: Model) -> bool:
 
 
 def _squares(left: Residual) -> Array:
-    """(R,) sum of squares of each row."""
-    return np.asarray(np.sum(left.values**2, axis=1))
+    """(R,) chi-square of each row."""
+    return np.asarray(np.sum(left.values**2, axis=1) + left.charge)
 
 
-def _badly(cases: Program, left: Residual) -> Mask:
-    """(R,) rows that fit badly; of a test that was zeroed at its first row all, or none."""
-    count = np.sum(cases.predicted, axis=1)
-    badly = np.asarray(_squares(left) > chi2.isf(BADLY, np.maximum(count, 1)))
+def _elsewhere(one: Prediction, other: Prediction) -> Mask:
+    """(R,) rows that press other stops."""
+    return np.asarray(np.any(np.sign(one.stops[..., 0]) != np.sign(other.stops[..., 0]), axis=1))
+
+
+def _whole(cases: Program, chosen: Mask) -> NDArray[np.int64]:
+    """Numbers of the chosen rows; of a test that was zeroed at its first row all, or none."""
+    chosen = chosen.copy()
     for number, test in enumerate(cases.campaign.tests):
         rows = cases.test == number
         if test.zero == "first_row":
-            badly[rows] = badly[rows].any()
-    return badly
+            chosen[rows] = chosen[rows].any()
+    return np.flatnonzero(chosen)
 
 
 def _shift_to(reached: Prediction, swapped: Program, cases: Program) -> Array:

@@ -9,7 +9,6 @@ Regression Analysis, Wiley 1988, ch. 6.
 
 from __future__ import annotations
 
-from collections.abc import Collection
 from dataclasses import dataclass
 from typing import Literal
 
@@ -24,7 +23,7 @@ from pipeline.inference.model import Free, Model
 from pipeline.inference.parts import at_rows
 from pipeline.inference.prediction import Prediction
 from pipeline.inference.program import Program
-from pipeline.inference.sides import SIDES, sided
+from pipeline.inference.sides import sided
 
 Array = NDArray[np.float64]
 Z = float(norm.ppf(0.975))
@@ -48,14 +47,13 @@ class Interval:
 def landscape(best: Fit, program: Program) -> Landscape:
     """The sum of squares about a best fit."""
     kinks = {term.effect.name for term in best.model.terms if sided(term.effect)}
-    ranges = [_range(each, kinks) for each in best.model.free]
+    ranges = [_range(each, best.doubt if each.effect in kinks else 0.0) for each in best.model.free]
     rows, own = program.by_role[0]
     near = at_rows(best.prediction, program, own, rows)
-    return Landscape(_Near(best.model, near, own), best.model.values, ranges, best.whitened, -best.jacobian)
+    return Landscape(_Near(best.model, near, own), best.model.values, ranges, best.aimed, best.aimed_by)
 
 
-def _range(each: Free, kinks: Collection[str]) -> Range:
-    doubt = SIDES if each.effect in kinks else 0.0
+def _range(each: Free, doubt: float) -> Range:
     return Range(*each.bounds, each.parameter.null, each.parameter.one_sided, doubt)
 
 
@@ -72,13 +70,13 @@ class _Near:
         return Fit(model, *linearised(model, self.program, slopes, self.near, self.near.shift), 1)
 
     def residuals(self, values: Array) -> Array:
-        """(N,)"""
-        return self._at(values, slopes=False).whitened
+        """(N + 1,)"""
+        return self._at(values, slopes=False).aimed
 
     def both(self, values: Array) -> tuple[Array, Array]:
-        """(N,) and (N, P)"""
+        """(N + 1,) and (N + 1, P)"""
         found = self._at(values, slopes=True)
-        return found.whitened, -found.jacobian
+        return found.aimed, found.aimed_by
 
 
 def intervals(land: Landscape) -> tuple[Interval, ...]:

@@ -22,7 +22,7 @@ from vjm.equilibrium import Equilibrium, drive_values, equilibrium
 from vjm.lagrangian import layout
 from vjm.mechanism import initial_memory
 from vjm.sensitivity import TARGETS, AnyDirection, Direction, DriveDirection, by_parameters
-from vjm.slides import with_slides
+from vjm.slides import pressed, with_slides
 
 Array = NDArray[np.float64]
 _KELVIN = 1.0
@@ -30,6 +30,8 @@ _GAUGES = 12
 """Channels from which on readings are those of gauges."""
 _SLIGHT = 1e-3
 """Bow, in lengths of a bar, from which straight bars find the branch on which they bend."""
+PLAYS = 2
+"""Plays of a bench, at most: one in each bar."""
 NEAR_KINKS = 1e-3
 """Of its typical size, over which a number with kinks is differentiated."""
 
@@ -40,14 +42,16 @@ class Prediction:
 
     values: (R, C); pose channels are displacements. by_inputs: (R, C, 7) derivative by what is prescribed at the
     same step, and by its temperature. by_free: (R, C, P), empty where not asked for. shift: (R, 7) by which
-    inputs differ from the measured ones. lost: (R,) rows without a stable equilibrium. reasons: of the lost rows.
-    states: of each group, to start from again.
+    inputs differ from the measured ones. stops: (R, K, 8) force, N, by which a stop is pressed at each play, with the
+    sign of the stop and zero where none is, and its derivatives by the inputs; infinite where there is no play.
+    lost: (R,) rows without a stable equilibrium. reasons: of the lost rows. states: of each group, to start from again.
     """
 
     values: Array
     by_inputs: Array
     by_free: Array
     shift: Array
+    stops: Array
     lost: np.ndarray
     reasons: dict[int, str]
     states: tuple[Equilibrium, ...]
@@ -61,6 +65,7 @@ class _Part:
     by_inputs: Array
     by_free: Array
     state: Equilibrium
+    stops: Array
 
 
 def predict(
@@ -83,6 +88,7 @@ def predict(
         np.zeros((rows, channels, INPUTS)),
         np.zeros((rows, channels, count)),
         np.zeros((rows, INPUTS)) if shift is None else shift,
+        no_stops(rows),
         np.zeros(rows, dtype=bool),
         {},
         (),
@@ -94,6 +100,7 @@ def predict(
         part = _group(model, program, _shifted(group, out.shift[place]), slopes, begin, order)
         out.values[place], out.by_inputs[place] = part.values[real], part.by_inputs[real]
         out.by_free[place] = part.by_free[real]
+        out.stops[place, : part.stops.shape[-2]] = part.stops[real]
         lost = ~part.state.converged | (part.state.unstable > 0)
         out.lost[place] = lost[real]
         for row, reason in zip(place[lost[real]], part.state.reason[real][lost[real]], strict=True):
@@ -102,13 +109,19 @@ def predict(
     return replace(zeroed(out, program), states=tuple(states))
 
 
+def no_stops(rows: int) -> Array:
+    """`Prediction.stops` without plays."""
+    return np.concatenate([np.full((rows, PLAYS, 1), np.inf), np.zeros((rows, PLAYS, INPUTS))], axis=-1)
+
+
 def _group(
     model: Model, program: Program, group: Group, slopes: bool, start: Equilibrium | None, order: int
 ) -> _Part:
     if group.rig.manipulator is not None:
         # Its states have what is asked of those of a bench: unknowns, whether they converged and are stable.
         whole = predict_manipulator(model, group, slopes, cast(States | None, start))
-        return _Part(whole.values, whole.by_inputs, whole.by_free, cast(Equilibrium, whole.state))
+        none = np.zeros((*group.rise.shape, 0, 1 + INPUTS))
+        return _Part(whole.values, whole.by_inputs, whole.by_free, cast(Equilibrium, whole.state), none)
     gauges = program.campaign.gauges
     mechanism = model.mechanism(group.rig, gauges)
     drives = layout(mechanism).drives
@@ -121,15 +134,24 @@ def _group(
     begin = _begin(mechanism, group, inputs, start)
     if initial_memory(mechanism).size:
         state, by = history(mechanism, group, inputs, asked, begin, order)
+        stops = np.zeros((*group.rise.shape, 0, 1 + INPUTS))
     else:
         state = equilibrium(mechanism, group.targets, group.channels[:, None], begin, drives=inputs)
         state = _branched(mechanism, group, inputs, state)
-        by = by_parameters(state, asked, order=order).readings
+        found = by_parameters(state, asked, order=order)
+        by, stops = found.readings, _stops(state, found.unknowns, DRIVE in drives)
     values = state.readings.copy()
     values[..., :6] -= group.nominal
     warm = by[..., -1:] if DRIVE in drives else np.zeros((*values.shape, 1))
     by_inputs = np.concatenate([by[..., :6], warm], axis=-1)
-    return _Part(values, by_inputs, by[..., 6 : 6 + len(free)], state)
+    return _Part(values, by_inputs, by[..., 6 : 6 + len(free)], state, stops)
+
+
+def _stops(state: Equilibrium, unknowns: Array, heated: bool) -> Array:
+    """(T, S, K, 8) as in `Prediction`, from the derivatives of the unknowns in the directions asked for."""
+    force, slope = pressed(state, unknowns)
+    warm = slope[..., -1:] if heated else np.zeros((*force.shape, 1))
+    return np.concatenate([force[..., None], slope[..., :6], warm], axis=-1)
 
 
 def _branched(mechanism: Rig, group: Group, inputs: dict[str, Array], state: Equilibrium) -> Equilibrium:

@@ -8,7 +8,9 @@ Linearised at inputs xi_0 near them, with A = df/dxi there, the residual
 has chi² = e^T S^-1 e, which is what remains when xi is fitted as well, at xi = x + Sigma_x A^T S^-1 e. Taking
 f and its derivatives there, and not at the measured x, keeps the noise of the inputs out of the slopes, where it
 would pull every stiffness down. An input's error moves several channels at once, so S is not diagonal; residuals
-are whitened with its Cholesky factor. What the noise of earlier steps does to a memory is left out.
+are whitened with its Cholesky factor. A kink ends the line: inputs that fit best beyond it are brought back to it,
+and the row is charged with what that costs; without that, the better of two sides takes up the noise of every row
+that is near a kink. What the noise of earlier steps does to a memory is left out.
 W. A. Fuller, "Measurement Error Models", Wiley 1987, chapter 3; H. I. Britt, R. H. Luecke, Technometrics 15 (1973).
 """
 
@@ -22,10 +24,13 @@ from numpy.typing import NDArray
 
 from pipeline.inference.prediction import Prediction
 from pipeline.inference.program import Program
+from pipeline.inference.sides import SIDE
 
 Array = NDArray[np.float64]
 LOST = 30.0
 """Sigmas that stand for a reading for which the model has no stable equilibrium."""
+SURE = 2.0
+"""Standard deviations from which a row is sure of its stop."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -64,7 +69,9 @@ class Residual:
     """e whitened: (R, C), zero where nothing is compared.
 
     slopes: (R, C, P) of the prediction, whitened. offsets: (R, C, O) whitened columns of unknown zeros.
-    shift: (R, 7) of the inputs that fit best, from the measured ones.
+    shift: (R, 7) of the inputs that fit best, from the measured ones. charge: (R,) chi-square that it costs to bring
+    the inputs to where the row was linearised, if they fit best on the other side of a stop. undecided: (R,) rows that
+    may as well lie on another side of a play.
     """
 
     program: Program
@@ -72,11 +79,23 @@ class Residual:
     slopes: Array
     offsets: Array
     shift: Array
+    charge: Array
+    undecided: np.ndarray
 
     @cached_property
     def rows(self) -> np.ndarray:
         """(N, 2) row and channel of every residual of the tests that may be fitted."""
         return np.argwhere(self.program.predicted & self.program.fitted[:, None])
+
+    @cached_property
+    def charged(self) -> float:
+        """Chi-square of the charges of the tests that may be fitted."""
+        return float(np.sum(self.charge[self.program.fitted]))
+
+    @property
+    def doubt(self) -> float:
+        """Chi-square that the choice of sides may have taken up in the tests that may be fitted."""
+        return SIDE * float(np.sum(self.undecided[self.program.fitted]))
 
     def flat(self, array: Array) -> Array:
         """(N, ...) of the tests that may be fitted."""
@@ -92,10 +111,33 @@ def residual(program: Program, prediction: Prediction) -> Residual:
     slopes, offsets = weights.apply(prediction.by_free), weights.apply(_unknown_zeros(program, prediction))
     gain = np.einsum("rij,rjk->rik", weights.factors, through)
     shift = program.input_sigma**2 * np.einsum("rik,ri->rk", gain, values)
+    charge, undecided = _beside_stops(prediction, shift, program.input_sigma, gain)
     values[prediction.lost] = np.where(program.predicted[prediction.lost], LOST, 0.0)
     slopes[prediction.lost] = 0.0
     offsets[prediction.lost] = 0.0
-    return Residual(program, values, slopes, offsets, shift)
+    return Residual(program, values, slopes, offsets, shift, charge, undecided)
+
+
+def _beside_stops(
+    prediction: Prediction, shift: Array, sigma: Array, gain: Array
+) -> tuple[Array, NDArray[np.bool_]]:
+    """(R,) squared distance of the inputs, in their standard deviations once the row is read, from a stop that is
+    pressed, and whether it is too short to be sure of that stop.
+
+    A row linearised with a bar at its stop is linear only where the stop is pressed. If the inputs that fit best by
+    that line press it the other way, those at which it just touches are the best that belong to the line.
+    """
+    force, slope = prediction.stops[..., 0], prediction.stops[..., 1:] * sigma[:, None, :]
+    # The whitened derivatives by the whitened inputs: what the readings say of the inputs.
+    said = np.einsum("rkj,rcj->rkc", slope, gain * sigma[:, None, :])
+    variance = np.sum(slope**2, axis=-1) - np.sum(said**2, axis=-1)
+    moved = force + np.einsum("rkj,rj->rk", prediction.stops[..., 1:], shift - prediction.shift)
+    kept = ~prediction.lost[:, None]
+    away = (np.sign(force) * moved < 0.0) & kept
+    costs = np.divide(moved**2, variance, out=np.full_like(moved, LOST**2), where=variance > 0.0)
+    charge = np.max(np.where(away, np.minimum(costs, LOST**2), 0.0), axis=1, initial=0.0)
+    undecided = np.any((moved**2 <= SURE**2 * np.maximum(variance, 0.0)) & kept, axis=1)
+    return np.asarray(charge), np.asarray(undecided)
 
 
 def _unknown_zeros(program: Program, prediction: Prediction) -> Array:

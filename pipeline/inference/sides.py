@@ -1,15 +1,15 @@
-"""What a kink can take up in chi-square where its size is near the noise.
+"""What a kink takes up in chi-square where its size is near the noise.
 
-Each row may lie on either side of a stop, and is taken to lie on the better one. Where many rows are within their
-noise of it, as in tests without axial load, these choices take up noise, and a play is fitted where there is none.
+Each row may lie on either side of a stop, and is taken to lie on the better one, charged for the way there. Rows that
+are within their noise of a stop, as in tests without axial load, still take up noise by that choice.
 """
 
 from __future__ import annotations
 
 from vjm.effects.base import Effect
 
-SIDES = 25.0
-"""Chi-square that the choices can take up: a play of half a micrometre took up 20 of 680 on a bench that had none."""
+SIDE = 0.3
+"""Of chi-square, that a row takes up by choosing its side."""
 
 
 def sided(effect: Effect) -> bool:

@@ -17,9 +17,9 @@ class JointClearance(Effect):
     signature = "a dead band about zero in the axial direction; beyond it the slope of the tight linkage"
     limits = (
         "a centring spring of 20 N/mm inside; under loads of one sign it looks like an offset of x; where the axial "
-        "load is within its noise a row may lie on either side of the play, and only rows that fit badly are tried on "
-        "the other: below two sigmas of the displacement sensor such choices look like play, so its interval begins at "
-        "null unless the data say more than they could"
+        "load is within its noise a row may lie on either side of the play, and is taken to lie on the better one: "
+        "below one sigma of the displacement sensor such choices look like play, so its interval begins at null "
+        "unless the data say more than they could"
     )
     source = (
         "the dead-zone law, as in F. Pfeiffer, C. Glocker, Multibody Dynamics with Unilateral Contacts, 1996"

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from pipeline.compare.error import Discrepancy
-from pipeline.inference.prediction import Prediction
+from pipeline.inference.prediction import Prediction, no_stops
 from pipeline.inference.program import INPUTS, Program, program
 from tests.pipeline.bench import bench
 
@@ -21,6 +21,7 @@ def planted(cases: Program, difference: np.ndarray, inputs: float = 0.0) -> Pred
         np.full((rows, channels, INPUTS), inputs),
         np.zeros((rows, channels, 0)),
         np.zeros((rows, INPUTS)),
+        no_stops(rows),
         np.zeros(rows, dtype=bool),
         {},
         (),

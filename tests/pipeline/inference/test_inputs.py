@@ -50,9 +50,47 @@ def test_the_better_side_of_the_kink_is_chosen_row_by_row() -> None:
     tests, play = cases("joint_clearance", 3), model("joint_clearance")
     naive = residual(tests, predict(play, tests, slopes=False))
     found, left = linearised(play, tests, slopes=False)
-    before, after = np.sum(naive.values**2, axis=1), np.sum(left.values**2, axis=1)
+    before, after = (np.sum(it.values**2, axis=1) + it.charge for it in (naive, left))
     assert np.all(after <= before + 1e-6 * (1.0 + before)) and np.any(after < 0.5 * before - 10.0)
     assert set(found.reasons) == set(np.flatnonzero(found.lost).tolist())
+
+
+def test_a_row_costs_the_least_that_any_force_costs() -> None:
+    """Charges included: the axial force of each row on a fine grid, everything else linear about it.
+
+    Off are a few rows of which both bars are beside their stops, where the grid has no way for one alone, and rows
+    inside the play, which the line of the inside may leave by the noise of a displacement.
+    """
+    tests = program(campaign((), 3, 8))
+    play = model("joint_clearance").at(np.array([1e-3]))
+    held = np.array(["lateral" in tests.campaign.tests[k].id for k in tests.test])
+    rows = np.flatnonzero(tests.fitted & held & (tests.channels[:, 0] == 6))
+    part = tests.only(rows)
+    _, left = linearised(play, part)
+    axial = np.arange(7) == 0
+    sigma = part.input_sigma[:, 0]
+    others = replace(part, input_sigma=np.where(axial, 0.0, part.input_sigma))
+    costs = []
+    for steps in np.linspace(-4.0, 4.0, 241):
+        shift = np.where(axial, steps * sigma[:, None], 0.0)
+        there = predict(play, part, shift=shift)
+        fixed = residual(others, replace(there, shift=np.where(axial, 0.0, shift)))
+        costs.append(np.sum(fixed.values**2, axis=1) + steps**2)
+    least = np.min(costs, axis=0)
+    off = np.sum(left.values**2, axis=1) + left.charge - least
+    assert np.any(left.charge > 0.5)
+    assert np.mean(np.abs(off) < 0.1) > 0.75 and np.abs(off).max() < 3.0
+
+
+@pytest.mark.parametrize("seed", [1, 2, 3])
+def test_a_play_that_is_not_there_takes_up_little(seed: int) -> None:
+    tests = program(campaign((), seed, 8))
+    kinds = catalogue()
+    tight = fit(Model().with_effects([kinds[BASE]]), tests)
+    loose = fit(Model().with_effects([kinds[BASE], kinds["joint_clearance"]]), tests)
+    begun = [fit(loose.model.at(np.array([size])), tests) for size in (3e-4, 1e-3)]
+    least = min((loose, *begun), key=lambda each: each.aim)
+    assert tight.chi_square - least.aim < least.doubt + chi2.isf(1e-3, 1)
 
 
 def test_rows_alone_are_predicted_as_among_all() -> None:
