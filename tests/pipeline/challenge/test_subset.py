@@ -10,10 +10,10 @@ from pipeline.challenge.outcome import outcome
 @pytest.mark.parametrize(
     ("number", "score"),
     [
-        (8, "right"),  # nothing hidden
-        (25, "right"),  # bars of different length
+        (28, "right"),  # nothing hidden
+        (138, "right"),  # bars of different length
         # Softer bars, or a compliance in series, under axial loads alone.
-        pytest.param(27, "in set", marks=pytest.mark.long),
+        pytest.param(15, "in set", marks=pytest.mark.long),
     ],
 )
 def test_cases_are_answered_as_they_were(number: int, score: str) -> None:
