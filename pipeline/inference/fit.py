@@ -3,15 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import lsq_linear
 
-from pipeline.inference.inputs import linearised
 from pipeline.inference.model import Model
+from pipeline.inference.objective import Objective
 from pipeline.inference.parts import at_rows, joined
 from pipeline.inference.prediction import Prediction
 from pipeline.inference.program import Program
@@ -52,22 +52,17 @@ class Fit:
     @cached_property
     def whitened(self) -> Array:
         """(N,) residuals of the fitted tests, unknown zeros projected out."""
-        return _free_of(self.residual.flat(self.residual.offsets), self.residual.flat(self.residual.values))
+        return self.residual.free(self.residual.values)
 
     @cached_property
     def jacobian(self) -> Array:
         """(N, P) whitened derivative of the predictions, unknown zeros projected out."""
-        return _free_of(self.residual.flat(self.residual.offsets), self.residual.flat(self.residual.slopes))
+        return self.residual.free(self.residual.slopes)
 
     @property
     def chi_square(self) -> float:
         """Sum of squares of the whitened residuals."""
         return float(self.whitened @ self.whitened)
-
-    @property
-    def aimed(self) -> Array:
-        """(N + 1,) what a fit makes least: the residuals and, at the end, what rows beside their stops are charged."""
-        return np.append(self.whitened, np.sqrt(self.residual.charged))
 
     @property
     def aim(self) -> float:
@@ -78,11 +73,6 @@ class Fit:
     def doubt(self) -> float:
         """Chi-square that choices of sides may have taken up."""
         return self.residual.doubt
-
-    @property
-    def aimed_by(self) -> Array:
-        """(N + 1, P) its derivative; charges follow the sides of rows, which no slope foresees."""
-        return np.vstack([-self.jacobian, np.zeros((1, len(self.model.free)))])
 
     @cached_property
     def degrees(self) -> int:
@@ -112,74 +102,6 @@ class Fit:
     def std(self) -> Array:
         """(P,) standard errors."""
         return np.sqrt(np.diag(self.covariance))
-
-
-Place = tuple[Prediction | None, tuple[bytes, Prediction, Residual] | None]
-"""Where an objective was last: what it starts from, and what it solved there."""
-
-
-@dataclass(eq=False)
-class Objective:
-    """Whitened residuals and derivatives at values (P,); goes on from where it was last.
-
-    The inputs that fit best follow from one evaluation to the next. At them the derivatives that the weights have
-    by the values cancel (envelope theorem), so the gradient of chi² is that of the residual alone.
-    """
-
-    model: Model
-    program: Program
-    last: Prediction | None = None
-    count: int = 0
-    _known: tuple[bytes, Prediction, Residual] | None = field(default=None, repr=False)
-
-    def at(self, values: Array) -> tuple[Prediction, Residual]:
-        """Prediction and residual at values, solved once for residuals and derivatives."""
-        key = np.asarray(values).tobytes()
-        if self._known is None or self._known[0] != key:
-            shift = None if self._known is None else self._known[2].shift
-            found = linearised(self.model.at(values), self.program, start=self.last, shift=shift)
-            self.last = found[0]
-            self.count += 1
-            self._known = (key, *found)
-        return self._known[1], self._known[2]
-
-    @property
-    def lost(self) -> int:
-        """Rows without an equilibrium where it was last."""
-        return 0 if self._known is None else int(self._known[1].lost.sum())
-
-    def residuals(self, values: Array) -> Array:
-        """(N + 1,) as `Fit.aimed`."""
-        it = self.at(values)[1]
-        return np.append(_free_of(it.flat(it.offsets), it.flat(it.values)), np.sqrt(it.charged))
-
-    def again(self, values: Array) -> Array:
-        """(N + 1,) linearised anew, at the inputs that fit best by what is known."""
-        it = self.at(values)[1]
-        self._known = (b"", self._known[1], it) if self._known is not None else None
-        return self.residuals(values)
-
-    @property
-    def place(self) -> Place:
-        """Where it was last, to come back to by `back`."""
-        return self.last, self._known
-
-    def back(self, place: Place) -> None:
-        """Go on from there: a step that was not taken may have ended on another branch."""
-        self.last, self._known = place
-
-    def unsettled(self, values: Array) -> float:
-        """By how many of its sigmas an input that fits best is off the one near which the model was linearised."""
-        prediction, it = self.at(values)
-        sigma = self.program.input_sigma
-        off = np.abs(it.shift - prediction.shift)[sigma > 0.0] / sigma[sigma > 0.0]
-        return float(off.max(initial=0.0))
-
-    def jacobian(self, values: Array) -> Array:
-        """(N + 1, P) as `Fit.aimed_by`."""
-        it = self.at(values)[1]
-        slopes = _free_of(it.flat(it.offsets), it.flat(it.slopes))
-        return np.vstack([-slopes, np.zeros((1, slopes.shape[1]))])
 
 
 def fit(
@@ -315,12 +237,3 @@ def _step(slopes: Array, residuals: Array, box: Array, damping: float) -> Array:
     low, high = np.minimum(box[0], 0.0) * size, np.maximum(box[1], 0.0) * size
     found = lsq_linear(matrix, right, bounds=(low - TINY, high + TINY), method="bvls", tol=1e-14)
     return np.asarray(np.clip(found.x, low, high) / size)
-
-
-def _free_of(columns: Array, values: Array) -> Array:
-    """Values (N, ...) less their part along the columns (N, O)."""
-    if not columns.shape[1]:
-        return values
-    basis, triangle = np.linalg.qr(columns / np.maximum(np.linalg.norm(columns, axis=0), 1e-300))
-    basis = basis[:, np.abs(np.diag(triangle)) > 1e-9]
-    return np.asarray(values - basis @ (basis.T @ values))

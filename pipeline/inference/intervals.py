@@ -23,6 +23,7 @@ from pipeline.inference.model import Free, Model
 from pipeline.inference.parts import at_rows
 from pipeline.inference.prediction import Prediction
 from pipeline.inference.program import Program
+from pipeline.inference.residual import Residual
 from pipeline.inference.sides import sided
 
 Array = NDArray[np.float64]
@@ -50,7 +51,9 @@ def landscape(best: Fit, program: Program) -> Landscape:
     ranges = [_range(each, best.doubt if each.effect in kinks else 0.0) for each in best.model.free]
     rows, own = program.by_role[0]
     near = at_rows(best.prediction, program, own, rows)
-    return Landscape(_Near(best.model, near, own), best.model.values, ranges, best.aimed, best.aimed_by)
+    return Landscape(
+        _Near(best.model, near, own), best.model.values, ranges, best.residual.aimed, best.residual.aimed_by
+    )
 
 
 def _range(each: Free, doubt: float) -> Range:
@@ -65,9 +68,8 @@ class _Near:
     near: Prediction
     program: Program
 
-    def _at(self, values: Array, slopes: bool) -> Fit:
-        model = self.model.at(values)
-        return Fit(model, *linearised(model, self.program, slopes, self.near, self.near.shift), 1)
+    def _at(self, values: Array, slopes: bool) -> Residual:
+        return linearised(self.model.at(values), self.program, slopes, self.near, self.near.shift)[1]
 
     def residuals(self, values: Array) -> Array:
         """(N + 1,)"""

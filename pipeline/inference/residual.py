@@ -101,6 +101,26 @@ class Residual:
         """(N, ...) of the tests that may be fitted."""
         return np.asarray(array[self.rows[:, 0], self.rows[:, 1]])
 
+    def free(self, array: Array) -> Array:
+        """(N, ...) of the tests that may be fitted, unknown zeros projected out."""
+        columns, values = self.flat(self.offsets), self.flat(array)
+        if not columns.shape[1]:
+            return values
+        basis, triangle = np.linalg.qr(columns / np.maximum(np.linalg.norm(columns, axis=0), 1e-300))
+        basis = basis[:, np.abs(np.diag(triangle)) > 1e-9]
+        return np.asarray(values - basis @ (basis.T @ values))
+
+    @cached_property
+    def aimed(self) -> Array:
+        """(N + 1,) what a fit makes least: the residuals and, at the end, what rows beside their stops are charged."""
+        return np.append(self.free(self.values), np.sqrt(self.charged))
+
+    @cached_property
+    def aimed_by(self) -> Array:
+        """(N + 1, P) its derivative; charges follow the sides of rows, which no slope foresees."""
+        slopes = self.free(self.slopes)
+        return np.vstack([-slopes, np.zeros((1, slopes.shape[1]))])
+
 
 def residual(program: Program, prediction: Prediction) -> Residual:
     """The residual of a prediction with the weights of its own tangent."""

@@ -11,9 +11,10 @@ from scipy.stats import chi2
 
 from pipeline.coverage.cases import BASE, typical
 from pipeline.coverage.trial import campaign
-from pipeline.inference.fit import NEAR, Objective, fit
+from pipeline.inference.fit import NEAR, fit
 from pipeline.inference.inputs import kinked, linearised
 from pipeline.inference.model import Model
+from pipeline.inference.objective import Objective
 from pipeline.inference.prediction import predict
 from pipeline.inference.program import Program, program
 from pipeline.inference.residual import residual
