@@ -13,11 +13,10 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from pipeline.campaign import Campaign, Test
 from pipeline.inference.fit import Fit
 from pipeline.inference.model import Model
 from pipeline.inference.prediction import Prediction, predict
-from pipeline.inference.program import Program, program
+from pipeline.inference.program import Program
 from pipeline.inference.residual import residual, whitening
 from vjm.effects.base import Effect
 
@@ -52,32 +51,14 @@ class Look:
 def look(whole: Program, enough: int = ENOUGH) -> Look:
     """At most about `enough` rows, equally spaced within each fitted test, with its first and last."""
     share = min(1.0, enough / max(int(whole.fitted.sum()), 1))
-    kept, tests = [], []
+    kept = []
     for number, test in enumerate(whole.campaign.tests):
-        if test.role != "fit":
-            continue
-        count = test.data.steps.size
-        some = np.unique(np.linspace(0, count - 1, max(3, round(share * count))).round().astype(int))
-        kept.append(whole.first[number] + some)
-        tests.append(_thinned(test, some))
-    # One rig stays one object, so that its tests are solved together.
-    campaign: Campaign = replace(whole.campaign, tests=tuple(tests))
-    return Look(np.concatenate(kept), program(campaign))
-
-
-def _thinned(test: Test, some: np.ndarray) -> Test:
-    d = test.data
-    heat = None if d.temperature is None else d.temperature[some]
-    data = replace(
-        d,
-        steps=d.steps[some],
-        displacement=d.displacement[some],
-        wrench=d.wrench[some],
-        gauges=d.gauges[some],
-        temperature=heat,
-        lines=d.lines[some],
-    )
-    return replace(test, data=data)
+        if test.role == "fit":
+            count = test.data.steps.size
+            some = np.linspace(0, count - 1, max(3, round(share * count))).round().astype(int)
+            kept.append(whole.first[number] + np.unique(some))
+    rows = np.concatenate(kept)
+    return Look(rows, whole.only(rows))
 
 
 ROUGHLY = 1
