@@ -39,13 +39,13 @@ class Discrepancy:
     parameters: int = 0
 
     @cached_property
-    def _parts(self) -> tuple[Array, Array, Array, int]:
+    def _parts(self) -> tuple[Array, Array, Array, int, float]:
         weights = whitening(self.program, self.prediction)
         found = residual(self.program, self.prediction)
         whitened, rank = _without_zeros(self.program, found.values, found.offsets)
         factors = np.linalg.inv(weights.factors)
         units = np.einsum("rij,rj->ri", factors, whitened)
-        return whitened, units, np.sqrt(np.sum(factors**2, axis=2)), rank
+        return whitened, units, np.sqrt(np.sum(factors**2, axis=2)), rank, found.charged
 
     @property
     def whitened(self) -> Array:
@@ -78,9 +78,11 @@ class Discrepancy:
         return float(np.sqrt(np.mean(compared**2))) if compared.size else None
 
     def size(self) -> Check | None:
-        """Chi-square of the fitted tests; None without a degree of freedom."""
+        """Chi-square of the fitted tests, charges of rows beside their stops included; None without a degree of
+        freedom."""
         flat = self.whitened[self.program.fitted][self.program.predicted[self.program.fitted]]
-        return chi_square(flat, flat.size - self.degrees) if self.degrees > 0 else None
+        every = np.append(flat, np.sqrt(self._parts[4]))
+        return chi_square(every, every.size - self.degrees) if self.degrees > 0 else None
 
     def order(self) -> Check | None:
         """Correlation along the load paths of the fitted tests; what was fitted makes it smaller, never larger."""

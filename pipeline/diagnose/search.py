@@ -67,7 +67,7 @@ def badness(shelf: Shelf, names: Names) -> float:
     """Chi-square of the fit, what choices of sides took off it, and of its numbers, each `PLAUSIBLE` typical sizes a
     sigma."""
     found = shelf.fit(names)
-    return found.aim + found.doubt + implausibility(found)
+    return found.chi_square + found.doubt + implausibility(found)
 
 
 def implausibility(found: Fit) -> float:
@@ -150,7 +150,7 @@ def _estimates(shelf: Shelf, start: Names, counts: Iterable[int]) -> list[Estima
     """Sets with so many further effects, to first order, best first; always at least one."""
     found = shelf.picture(start)
     every = [name for name in found.signatures if start >= set(shelf.candidates[name].includes)]
-    base = found.fit.aim + found.fit.doubt + price(shelf, start)
+    base = found.fit.chi_square + found.fit.doubt + price(shelf, start)
     single = {name: found.gain([name]) for name in every}
     leaders = sorted(single, key=lambda name: -single[name].value)[:LEADERS]
     out = [Estimate(start, base, {})]

@@ -24,7 +24,7 @@ def forward(shelf: Shelf) -> Names:
 def aic(shelf: Shelf, names: Names) -> float:
     """Of the base model with these effects at its best fit."""
     found = shelf.fit(names)
-    return found.aim + 2.0 * len(found.model.free)
+    return found.chi_square + 2.0 * len(found.model.free)
 
 
 def _added(shelf: Shelf, here: Names) -> Names:

@@ -61,13 +61,8 @@ class Fit:
 
     @property
     def chi_square(self) -> float:
-        """Sum of squares of the whitened residuals."""
-        return float(self.whitened @ self.whitened)
-
-    @property
-    def aim(self) -> float:
-        """What a fit makes least: chi-square and charges."""
-        return self.chi_square + self.residual.charged
+        """Sum of squares of the whitened residuals, and what rows beside their stops are charged."""
+        return float(self.whitened @ self.whitened) + self.residual.charged
 
     @property
     def doubt(self) -> float:

@@ -61,9 +61,9 @@ def best_fit(
         there = _typical(fits[0].model, new)
         spent += 1
         # Where the linear step from there promises no more there is nothing to find.
-        if _height(there, own, near) < fits[0].aim - WORTH * max(fits[0].rms, 1.0) ** 2:
+        if _height(there, own, near) < fits[0].chi_square - WORTH * max(fits[0].rms, 1.0) ** 2:
             fits.append(fit(there, program, start, watch, plausible))
-    best = min(fits, key=lambda each: each.aim)
+    best = min(fits, key=lambda each: each.chi_square)
     return replace(best, evaluations=spent + sum(each.evaluations for each in fits))
 
 
@@ -121,7 +121,7 @@ def _height(model: Model, program: Program, start: Prediction | None) -> float:
     model = replace(model, fixed=model.fixed | {f.name for f in model.free if f.effect in kinked})
     here = Fit(model, *linearised(model, program, slopes=bool(model.free), start=start), 1)
     if not model.free:
-        return here.aim
+        return here.chi_square
     scale = np.array([abs(each.parameter.typical) for each in model.free])
     bounds = np.array([each.bounds for each in model.free]).T - np.clip(model.values, *_bounds(model))
     step = lsq_linear(here.jacobian * scale, here.whitened, bounds=bounds / scale + _ROUNDING)
