@@ -12,7 +12,7 @@ from itertools import combinations
 
 import numpy as np
 
-from pipeline.diagnose.evidence import APART, PLAUSIBLE, RAW, entry, numbers
+from pipeline.diagnose.evidence import APART, PLAUSIBLE, RAW, apart, entry, numbers
 from pipeline.diagnose.shelf import Names, Shelf
 from pipeline.inference.fit import Fit
 
@@ -60,14 +60,14 @@ class Found:
 
 def cost(shelf: Shelf, names: Names) -> float:
     """Chi-square of the fit, how far its numbers are from plausible ones, and what each effect has to show."""
-    return badness(shelf, names) + price(shelf, names)
+    return badness(shelf, names) + price(shelf, names) + shelf.fit(names).residual.spread
 
 
 def badness(shelf: Shelf, names: Names) -> float:
     """Chi-square of the fit, what choices of sides took off it, and of its numbers, each `PLAUSIBLE` typical sizes a
     sigma."""
     found = shelf.fit(names)
-    return found.chi_square + found.doubt + implausibility(found)
+    return found.chi_square + found.residual.doubt + implausibility(found)
 
 
 def implausibility(found: Fit) -> float:
@@ -150,7 +150,8 @@ def _estimates(shelf: Shelf, start: Names, counts: Iterable[int]) -> list[Estima
     """Sets with so many further effects, to first order, best first; always at least one."""
     found = shelf.picture(start)
     every = [name for name in found.signatures if start >= set(shelf.candidates[name].includes)]
-    base = found.fit.chi_square + found.fit.doubt + price(shelf, start)
+    left = found.fit.residual
+    base = found.fit.chi_square + left.doubt + left.spread + price(shelf, start)
     single = {name: found.gain([name]) for name in every}
     leaders = sorted(single, key=lambda name: -single[name].value)[:LEADERS]
     out = [Estimate(start, base, {})]
@@ -252,10 +253,10 @@ def possible(shelf: Shelf, sets: list[Names], best: Names) -> list[Names]:
     Several that fit alike are excluded together or not at all: each weighs as its likelihood, and what all that are
     excluded weigh together is no more than one of them may.
     """
-    apart = [n for n in sets if not n <= best and not best < n]
-    kept = [n for n in apart if not excluded(shelf, n, best)]
+    others = [n for n in sets if not n <= best and not best < n]
+    kept = [n for n in others if not excluded(shelf, n, best)]
     kept = [n for n in kept if not any(other < n for other in kept)]
-    gaps = {n: gap(shelf, n, best) - decisive(shelf, n, best) for n in apart if n not in kept}
+    gaps = {n: worse(shelf, n, best) - needed(shelf, n, best) for n in others if n not in kept}
     left = [
         n
         for n in gaps
@@ -274,20 +275,20 @@ def _raw(shelf: Shelf, e: Estimate) -> float:
 
 def excluded(shelf: Shelf, rival: Names, best: Names) -> bool:
     """Whether the data speak against a rival."""
-    return badness(shelf, rival) - badness(shelf, best) > RAW and gap(shelf, rival, best) > decisive(
-        shelf, rival, best
-    )
+    return worse(shelf, rival, best) > max(RAW, needed(shelf, rival, best))
 
 
-def gap(shelf: Shelf, rival: Names, best: Names) -> float:
-    """Chi-square by which a rival is worse, after one for each number that it has more, as far as the data see them."""
-    return badness(shelf, rival) - badness(shelf, best) + seen(shelf, rival) - seen(shelf, best)
+def worse(shelf: Shelf, rival: Names, best: Names) -> float:
+    """Chi-square by which a rival is worse."""
+    return badness(shelf, rival) - badness(shelf, best)
 
 
-def decisive(shelf: Shelf, rival: Names, best: Names) -> float:
-    """Gap that excludes; where rows choose sides in one of two sets alone, chi-square is no better than what that took
-    up."""
-    return APART + abs(shelf.fit(rival).doubt - shelf.fit(best).doubt)
+def needed(shelf: Shelf, rival: Names, best: Names) -> float:
+    """Chi-square by which a rival has to be worse to be excluded: what tells two sets of as many numbers apart, what
+    the numbers take up that one of them has more, as far as the data see them, and where rows choose sides in one of
+    them alone, by how much that varies."""
+    more = seen(shelf, best) - seen(shelf, rival)
+    return apart(more) + abs(shelf.fit(rival).residual.spread - shelf.fit(best).residual.spread)
 
 
 def seen(shelf: Shelf, names: Names) -> int:

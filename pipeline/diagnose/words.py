@@ -9,9 +9,10 @@ import numpy as np
 from pipeline.campaign.names import COORDINATES
 from pipeline.diagnose.description import descriptions
 from pipeline.diagnose.diagnosis import Diagnosis, in_words
+from pipeline.diagnose.evidence import RAW
 from pipeline.diagnose.menu import Choice
 from pipeline.diagnose.refuse import judge
-from pipeline.diagnose.search import decisive
+from pipeline.diagnose.search import badness, needed, worse
 from pipeline.inference.driving import column_name
 from vjm.effects.base import Effect
 
@@ -117,11 +118,11 @@ def _described(it: Diagnosis) -> Iterator[str]:
 def _rivals(it: Diagnosis) -> Iterator[str]:
     shelf = it.shelf
     if it.verdict == "ambiguous":
-        least = min(map(frozenset, it.sets), key=lambda names: shelf.fit(names).chi_square)
+        least = min(map(frozenset, it.sets), key=lambda names: badness(shelf, names))
         for names in it.sets:
-            more = shelf.fit(frozenset(names)).chi_square - shelf.fit(least).chi_square
-            limit = decisive(shelf, frozenset(names), least)
-            so = f"{limit:g} would exclude it"
+            more = worse(shelf, frozenset(names), least)
+            limit = max(needed(shelf, frozenset(names), least), RAW)
+            so = f"{limit:.3g} would exclude it"
             if more > limit:
                 so = "alone that might exclude it, but not with others as near or with numbers that only fit noise"
             yield f"{_and(names)}: chi-square {more:.1f} above the best; {so}."

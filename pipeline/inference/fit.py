@@ -64,11 +64,6 @@ class Fit:
         """Sum of squares of the whitened residuals, and what rows beside their stops are charged."""
         return float(self.whitened @ self.whitened) + self.residual.charged
 
-    @property
-    def doubt(self) -> float:
-        """Chi-square that choices of sides may have taken up."""
-        return self.residual.doubt
-
     @cached_property
     def degrees(self) -> int:
         """Residuals less fitted numbers and unknown zeros."""

@@ -48,7 +48,8 @@ class Interval:
 def landscape(best: Fit, program: Program) -> Landscape:
     """The sum of squares about a best fit."""
     kinks = {term.effect.name for term in best.model.terms if sided(term.effect)}
-    ranges = [_range(each, best.doubt if each.effect in kinks else 0.0) for each in best.model.free]
+    doubt = best.residual.doubt + best.residual.spread
+    ranges = [_range(each, doubt if each.effect in kinks else 0.0) for each in best.model.free]
     rows, own = program.by_role[0]
     near = at_rows(best.prediction, program, own, rows)
     return Landscape(

@@ -24,7 +24,7 @@ from numpy.typing import NDArray
 
 from pipeline.inference.prediction import Prediction
 from pipeline.inference.program import Program
-from pipeline.inference.sides import SIDE
+from pipeline.inference.sides import SIDE, SPREAD
 
 Array = NDArray[np.float64]
 LOST = 30.0
@@ -96,6 +96,11 @@ class Residual:
     def doubt(self) -> float:
         """Chi-square that the choice of sides may have taken up in the tests that may be fitted."""
         return SIDE * float(np.sum(self.undecided[self.program.fitted]))
+
+    @property
+    def spread(self) -> float:
+        """By how much more than that, two standard deviations."""
+        return SPREAD * float(np.sqrt(np.sum(self.undecided[self.program.fitted])))
 
     def flat(self, array: Array) -> Array:
         """(N, ...) of the tests that may be fitted."""

@@ -8,8 +8,11 @@ from __future__ import annotations
 
 from vjm.effects.base import Effect
 
-SIDE = 0.3
-"""Of chi-square, that a row takes up by choosing its side."""
+SIDE = 0.36
+"""Of chi-square, that a row without play takes up on average by choosing its side of one as large as the noise, of the
+better of two displacements and with the sign of a force that is all noise; less of other plays."""
+SPREAD = 2.5
+"""Twice the standard deviation of the same, of a row."""
 
 
 def sided(effect: Effect) -> bool:

@@ -53,7 +53,9 @@ def test_loads_grow_with_the_rig() -> None:
 
 @pytest.mark.parametrize("name", sorted(FAULTS))
 def test_a_fault_grows_with_its_size_and_is_nothing_at_none(name: str) -> None:
-    it = next(c for c in (case(n) for n in range(3, 600, 4)) if c.fault and c.fault[0] == name)
+    # A plan with all angles: a hinge that sticks at one of them shows at no other.
+    every = (c for c in (case(n) for n in range(3, 600, 4)) if c.fault and len(c.bench.plan) > 10)
+    it = next(c for c in every if c.fault is not None and c.fault[0] == name)
     found = true_readings(it.bench.rig, it.bench.plan, {}, GAUGES)
 
     def change(size: float) -> float:

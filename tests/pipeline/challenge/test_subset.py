@@ -4,17 +4,19 @@ from __future__ import annotations
 
 import pytest
 
+from pipeline.challenge.cases import Kind
 from pipeline.challenge.outcome import outcome
+from tests.pipeline.challenge.small import first
 
 
 @pytest.mark.parametrize(
-    ("number", "score"),
+    ("kind", "effect", "scores"),
     [
-        (28, "right"),  # nothing hidden
-        (138, "right"),  # bars of different length
+        ("clean", "", {"right"}),
+        ("single", "modulus_error", {"right", "in set"}),
         # Softer bars, or a compliance in series, under axial loads alone.
-        pytest.param(15, "in set", marks=pytest.mark.long),
+        ("untold", "modulus_error", {"in set"}),
     ],
 )
-def test_cases_are_answered_as_they_were(number: int, score: str) -> None:
-    assert outcome(number, "", "").score == score
+def test_small_cases_are_answered_rightly(kind: Kind, effect: str, scores: set[str]) -> None:
+    assert outcome(first(kind, effect, 0.02 if effect else 0.0), "", "").score in scores

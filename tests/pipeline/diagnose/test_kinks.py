@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from pipeline.diagnose.evidence import APART
-from pipeline.diagnose.search import decisive, excluded
+from pipeline.diagnose.search import excluded, needed
 from pipeline.diagnose.shelf import Names, Shelf
 from pipeline.inference.model import Model
 from pipeline.inference.program import program
@@ -28,9 +28,11 @@ def shelf(play: float) -> Shelf:
 
 def test_a_kink_in_one_set_alone_asks_for_more() -> None:
     it = shelf(6e-4)
-    assert decisive(it, CONTACT, SOFT) == APART
-    assert it.fit(PLAY).doubt > 0.0 == it.fit(CONTACT).doubt
-    assert decisive(it, PLAY, CONTACT) == decisive(it, CONTACT, PLAY) == APART + it.fit(PLAY).doubt
+    assert needed(it, CONTACT, SOFT) == APART
+    choices = it.fit(PLAY).residual
+    assert choices.spread > 0.0 < choices.doubt
+    assert it.fit(CONTACT).residual.spread == it.fit(CONTACT).residual.doubt == 0.0
+    assert needed(it, PLAY, CONTACT) == needed(it, CONTACT, PLAY) == APART + choices.spread
 
 
 @pytest.mark.parametrize(("play", "plain"), [(6e-4, False), (6e-3, True)])

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from typing import cast
 
+import numpy as np
 import pytest
 
 from pipeline.diagnose import search
-from pipeline.diagnose.evidence import APART
+from pipeline.diagnose.evidence import APART, apart
 from pipeline.diagnose.search import possible, seen, taken
 from pipeline.diagnose.shelf import Names, Shelf
 from pipeline.inference.model import Model
@@ -21,9 +22,8 @@ BEST = frozenset({"modulus_error"})
 def kept(monkeypatch: pytest.MonkeyPatch, gaps: dict[str, float]) -> set[str]:
     """Which of these sets, "a+b" to their gaps, remain beside the best one."""
     of = {frozenset(names.split("+")): value for names, value in gaps.items()}
-    monkeypatch.setattr(search, "gap", lambda shelf, rival, best: of[rival])
-    monkeypatch.setattr(search, "decisive", lambda shelf, rival, best: APART)
-    monkeypatch.setattr(search, "excluded", lambda shelf, rival, best: of[rival] > APART)
+    monkeypatch.setattr(search, "worse", lambda shelf, rival, best: of[rival])
+    monkeypatch.setattr(search, "needed", lambda shelf, rival, best: APART)
     found = possible(cast(Shelf, None), [*of, BEST, frozenset[str]()], BEST)
     return {"+".join(sorted(names)) for names in found}
 
@@ -44,6 +44,14 @@ def test_a_set_counts_once_whatever_is_added_to_it(monkeypatch: pytest.MonkeyPat
     assert kept(monkeypatch, {"a": 5.1, "a+b": 5.2, "a+c": 5.3}) == set()
     # Far by itself and near only with another: the pair is what counts.
     assert kept(monkeypatch, {"a": 90.0, "a+b": 5.1, "c": 5.2, "modulus_error+b": 5.0}) == {"a+b"}
+
+
+def test_more_numbers_have_to_show_more() -> None:
+    """Six of them take up 22.5 of noise one time in a thousand; what has fewer needs one less for each."""
+    assert apart(0) == APART and apart(-2) == APART - 2.0
+    assert apart(6) == pytest.approx(22.5, abs=0.1)
+    noise = np.random.default_rng(3).chisquare(3, size=100_000)
+    assert np.mean(noise > apart(3)) == pytest.approx(0.001, abs=0.0004)
 
 
 def test_numbers_that_the_data_do_not_see_take_no_degree() -> None:

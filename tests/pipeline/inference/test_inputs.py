@@ -92,7 +92,7 @@ def test_a_play_that_is_not_there_takes_up_little(seed: int) -> None:
     loose = fit(Model().with_effects([kinds[BASE], kinds["joint_clearance"]]), tests)
     begun = [fit(loose.model.at(np.array([size])), tests) for size in (3e-4, 1e-3)]
     least = min((loose, *begun), key=lambda each: each.chi_square)
-    assert tight.chi_square - least.chi_square < least.doubt + chi2.isf(1e-3, 1)
+    assert tight.chi_square - least.chi_square < least.residual.doubt + chi2.isf(1e-3, 1)
     # What is reported is what was made least.
     told = Discrepancy(tests, least.prediction).size()
     assert told is not None and told.statistic == pytest.approx(least.chi_square, rel=1e-9)
