@@ -21,8 +21,9 @@ from vjm.manipulator.equilibrium import Loaded, equilibrium, unstable_directions
 from vjm.manipulator.lagrangian import System, system
 from vjm.manipulator.loops import looped
 from vjm.manipulator.parts import Manipulator
+from vjm.manipulator.plays import pressed
 from vjm.manipulator.posture import Postures, postures
-from vjm.manipulator.sensitivity import by_targets
+from vjm.manipulator.sensitivity import readings_along, unknowns_by_targets
 
 Array = NDArray[np.float64]
 STEP = 1e-3
@@ -34,12 +35,14 @@ TOGETHER = 64
 
 @dataclass(frozen=True, eq=False)
 class ManipulatorPart:
-    """One group's share, arrays (T, S, ...): readings less the nominal pose, derivatives, and the states."""
+    """One group's share, arrays (T, S, ...): readings less the nominal pose, derivatives, the states, and stops as in
+    `pipeline.inference.prediction.Prediction`."""
 
     values: Array
     by_inputs: Array
     by_free: Array
     state: States
+    stops: Array
 
 
 def predict_manipulator(
@@ -54,13 +57,13 @@ def predict_manipulator(
     states = found.states
     values = found.readings - np.pad(group.nominal, ((0, 0), (0, 0), (0, 6)))
     by_inputs = np.zeros((*values.shape, INPUTS))
-    by_inputs[..., :6] = found.tangent
+    by_inputs[..., :6], stops = found.slopes
     by_inputs[..., 6] = _by_heat(whole, group, states)
     count = len(model.free) if slopes else 0
     by_free = np.zeros((*values.shape, count))
     for number in range(count):
         by_free[..., number] = _by_number(model, number, group, states)
-    return ManipulatorPart(values, by_inputs, by_free, states)
+    return ManipulatorPart(values, by_inputs, by_free, states, stops)
 
 
 def _whole(model: Model, group: Group) -> Manipulator:
@@ -98,14 +101,21 @@ class _Solved:
         return out
 
     @property
-    def tangent(self) -> Array:
-        """(T, S, 12, 6) derivative of the readings by the targets; zero where there is no equilibrium."""
-        out = np.zeros((*self.shape, 12, 6))
+    def slopes(self) -> tuple[Array, Array]:
+        """(T, S, 12, 6) derivative of the readings by the targets, and (T, S, K, 8) how hard stops are pressed; zero
+        where there is no equilibrium."""
+        tangent, stops = np.zeros((*self.shape, 12, 6)), np.zeros((*self.shape, 0, 1 + INPUTS))
         for piece in self.pieces:
             part, place = piece.converged()
-            if len(part.unknowns):
-                out[place] = by_targets(part, piece.held)
-        return out
+            if not len(part.unknowns):
+                continue
+            change = unknowns_by_targets(part, piece.held)
+            tangent[place] = readings_along(part, change)
+            force, slope = pressed(part, change)
+            if stops.shape[2] != force.shape[1]:
+                stops = np.zeros((*self.shape, force.shape[1], 1 + INPUTS))
+            stops[place] = np.concatenate([force[..., None], slope, np.zeros((*force.shape, 1))], axis=-1)
+        return tangent, stops
 
     @property
     def states(self) -> States:

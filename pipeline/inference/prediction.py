@@ -31,7 +31,7 @@ _GAUGES = 12
 _SLIGHT = 1e-3
 """Bow, in lengths of a bar, from which straight bars find the branch on which they bend."""
 PLAYS = 2
-"""Plays of a bench, at most: one in each bar."""
+"""Plays of a bench, at most: one in each bar. Manipulators may have more."""
 NEAR_KINKS = 1e-3
 """Of its typical size, over which a number with kinks is differentiated."""
 
@@ -100,7 +100,10 @@ def predict(
         part = _group(model, program, _shifted(group, out.shift[place]), slopes, begin, order)
         out.values[place], out.by_inputs[place] = part.values[real], part.by_inputs[real]
         out.by_free[place] = part.by_free[real]
-        out.stops[place, : part.stops.shape[-2]] = part.stops[real]
+        count = part.stops.shape[-2]
+        if count > out.stops.shape[1]:
+            out = replace(out, stops=no_stops(rows, count))
+        out.stops[place, :count] = part.stops[real]
         lost = ~part.state.converged | (part.state.unstable > 0)
         out.lost[place] = lost[real]
         for row, reason in zip(place[lost[real]], part.state.reason[real][lost[real]], strict=True):
@@ -109,9 +112,9 @@ def predict(
     return replace(zeroed(out, program), states=tuple(states))
 
 
-def no_stops(rows: int) -> Array:
+def no_stops(rows: int, plays: int = PLAYS) -> Array:
     """`Prediction.stops` without plays."""
-    return np.concatenate([np.full((rows, PLAYS, 1), np.inf), np.zeros((rows, PLAYS, INPUTS))], axis=-1)
+    return np.concatenate([np.full((rows, plays, 1), np.inf), np.zeros((rows, plays, INPUTS))], axis=-1)
 
 
 def _group(
@@ -120,8 +123,9 @@ def _group(
     if group.rig.manipulator is not None:
         # Its states have what is asked of those of a bench: unknowns, whether they converged and are stable.
         whole = predict_manipulator(model, group, slopes, cast(States | None, start))
-        none = np.zeros((*group.rise.shape, 0, 1 + INPUTS))
-        return _Part(whole.values, whole.by_inputs, whole.by_free, cast(Equilibrium, whole.state), none)
+        return _Part(
+            whole.values, whole.by_inputs, whole.by_free, cast(Equilibrium, whole.state), whole.stops
+        )
     gauges = program.campaign.gauges
     mechanism = model.mechanism(group.rig, gauges)
     drives = layout(mechanism).drives

@@ -144,3 +144,15 @@ def test_lin_and_fea_are_a_constant_stiffness_under_a_known_weight() -> None:
     springs = predict(Model(), weighted, slopes=False)
     # Loads of a hundredth of what buckles a leg: springs that know their geometry differ by a per cent.
     np.testing.assert_allclose(springs.values[:, :6], lin.values[:, :6], rtol=0.03, atol=2e-4)
+
+
+def test_stops_are_pressed_as_differences_say(cases: Program) -> None:
+    """Six plays; of the steps under prescribed loads those that press all stops by more than the differences."""
+    it, rows = model(joint_clearance={"play_mm": 0.01}), [0, 1, 3]
+    here = predict(it, cases, slopes=False).stops[rows]
+    assert here.shape[1] == 6 and np.all(np.abs(here[..., 0]) > 5.0)
+    for k, step in enumerate([2.0, 2.0, 2.0, 50.0, 50.0, 50.0]):
+        shift = np.zeros((12, 7))
+        shift[:, k] = step
+        ends = [predict(it, cases, slopes=False, shift=s).stops[rows, :, 0] for s in (shift, -shift)]
+        np.testing.assert_allclose((ends[0] - ends[1]) / (2.0 * step), here[..., 1 + k], rtol=1e-3, atol=1e-6)
