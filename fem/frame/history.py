@@ -11,8 +11,8 @@ from fem.frame.newton import CONVERGED, REASONS, Outcome, equilibrium
 from fem.frame.reference import bowed_axis, reference
 from meshes.solid import Floats
 
-FINEST = 1.0 / 64.0
-"""Shortest part of a step."""
+FINEST = 1.0 / 1024.0
+"""Shortest part of a step: some newtons, that a bar of many elements goes through the play of a hinge step by step."""
 AFTER_FAILURE = "a step before it failed"
 
 

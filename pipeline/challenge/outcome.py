@@ -76,7 +76,10 @@ class Outcome(Record):
 def outcome(number: int, commit: str, code: str) -> Outcome:
     """The outcome of the case of that number."""
     began = process_time()
-    it, found, without = _measured(number)
+    try:
+        it, found, without = _measured(number)
+    except RuntimeError as error:
+        return _unmeasured(case(number), f"bench: {error}", commit, code)
     campaign = campaign_of(it, found, it.seed)
     sizes = {name: shows(it, only, without) for name, only in each_alone(it, found, without).items()}
     common = {
@@ -108,6 +111,27 @@ def outcome(number: int, commit: str, code: str) -> Outcome:
         inside=_inside(answer, it) if score == "right" and it.hidden else {},
         holdout=_held_out(answer),
         seconds=round(process_time() - began, 2),
+    )
+
+
+def _unmeasured(it: Case, error: str, commit: str, code: str) -> Outcome:
+    """Of a case whose bench found no state: no answer, and the study goes on."""
+    return Outcome(
+        number=it.number,
+        kind=it.kind,
+        plan=it.bench.label,
+        hidden=dict(it.hidden),
+        fault=it.fault,
+        rows=0,
+        sizes={},
+        gamma={},
+        verdict="",
+        sets=(),
+        score="failed",
+        error=error,
+        seconds=0.0,
+        commit=commit,
+        code=code,
     )
 
 

@@ -20,3 +20,12 @@ from tests.pipeline.challenge.small import first
 )
 def test_small_cases_are_answered_rightly(kind: Kind, effect: str, scores: set[str]) -> None:
     assert outcome(first(kind, effect, 0.02 if effect else 0.0), "", "").score in scores
+
+
+def test_a_bench_without_a_state_is_an_answer_less_and_no_end(monkeypatch: pytest.MonkeyPatch) -> None:
+    def breaks(*_: object) -> None:
+        raise RuntimeError("the bench finds no state")
+
+    monkeypatch.setattr("pipeline.challenge.outcome.true_readings", breaks)
+    it = outcome(first("clean"), "", "")
+    assert it.score == "failed" and it.error.startswith("bench: case") and "finds no state" in it.error
