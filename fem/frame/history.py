@@ -11,8 +11,10 @@ from fem.frame.newton import CONVERGED, REASONS, Outcome, equilibrium
 from fem.frame.reference import bowed_axis, reference
 from meshes.solid import Floats
 
-FINEST = 1.0 / 1024.0
-"""Shortest part of a step: some newtons, that a bar of many elements goes through the play of a hinge step by step."""
+FINEST = 1.0 / 64.0
+"""Shortest part of a step."""
+THROUGH_PLAY = 1.0 / 1024.0
+"""The same where hinges have play: a bar of many elements goes through it by some newtons at a time."""
 AFTER_FAILURE = "a step before it failed"
 
 
@@ -120,6 +122,8 @@ def _step(
     done, size = np.zeros(count), np.ones(count)
     codes = np.full(count, CONVERGED)
     iterations, residual = np.zeros(count, int), np.zeros(count)
+    plays = np.any(model.joints.play.reshape(count, -1) > 0.0, axis=1)
+    shortest = np.where(plays, THROUGH_PLAY, FINEST)
     while True:
         going = np.flatnonzero((done < 1.0) & (codes == CONVERGED))
         if not len(going):
@@ -135,7 +139,7 @@ def _step(
         )
         iterations[going] += outcome.iterations
         residual[going] = outcome.residual
-        finest = size[going] <= FINEST
+        finest = size[going] <= shortest[going]
         lost_stability = (outcome.negative > 0) & (some[1].negative == 0) & ~finest
         good = (outcome.code == CONVERGED) & ~lost_stability
         accepted = np.flatnonzero(good)
