@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from time import process_time
-from typing import Literal
+from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -74,65 +74,49 @@ class Outcome(Record):
 
 
 def outcome(number: int, commit: str, code: str) -> Outcome:
-    """The outcome of the case of that number."""
+    """The outcome of the case of that number; one whose bench finds no state has no answer."""
     began = process_time()
-    try:
-        it, found, without = _measured(number)
-    except RuntimeError as error:
-        return _unmeasured(case(number), f"bench: {error}", commit, code)
-    campaign = campaign_of(it, found, it.seed)
-    sizes = {name: shows(it, only, without) for name, only in each_alone(it, found, without).items()}
-    common = {
+    it = case(number)
+    common: dict[str, Any] = {
         "number": number,
         "kind": it.kind,
         "plan": it.bench.label,
         "hidden": dict(it.hidden),
         "fault": it.fault,
-        "rows": sum(t.data.steps.size for t in campaign.tests),
-        "sizes": {name: float(np.linalg.norm(d)) for name, d in sizes.items()},
+        "rows": 0,
+        "sizes": {},
+        "gamma": {},
+        "verdict": "",
+        "sets": (),
+        "score": "failed",
         "commit": commit,
         "code": code,
     }
     try:
+        it, found, without = _measured(number)
+    except RuntimeError as error:
+        return Outcome(**common, error=f"bench: {error}", seconds=round(process_time() - began, 2))
+    campaign = campaign_of(it, found, it.seed)
+    sizes = {name: shows(it, only, without) for name, only in each_alone(it, found, without).items()}
+    common |= {
+        "rows": sum(t.data.steps.size for t in campaign.tests),
+        "sizes": {name: float(np.linalg.norm(d)) for name, d in sizes.items()},
+    }
+    try:
         answer = diagnose(campaign, Model(), catalogue())
     except (RuntimeError, ArithmeticError, ValueError) as error:
-        spent = round(process_time() - began, 2)
-        return Outcome(
-            **common, gamma={}, verdict="", sets=(), score="failed", error=str(error), seconds=spent
-        )
+        return Outcome(**common, error=str(error), seconds=round(process_time() - began, 2))
     sets = tuple(tuple(n for n in names if n != ALWAYS) for names in answer.sets)
     score = judged(it, answer.verdict, sets)
-    return Outcome(
-        **common,
-        gamma=_confusable(answer.shelf, it.effects, sizes),
-        verdict=answer.verdict,
-        sets=sets,
-        score=score,
-        inside=_inside(answer, it) if score == "right" and it.hidden else {},
-        holdout=_held_out(answer),
-        seconds=round(process_time() - began, 2),
-    )
-
-
-def _unmeasured(it: Case, error: str, commit: str, code: str) -> Outcome:
-    """Of a case whose bench found no state: no answer, and the study goes on."""
-    return Outcome(
-        number=it.number,
-        kind=it.kind,
-        plan=it.bench.label,
-        hidden=dict(it.hidden),
-        fault=it.fault,
-        rows=0,
-        sizes={},
-        gamma={},
-        verdict="",
-        sets=(),
-        score="failed",
-        error=error,
-        seconds=0.0,
-        commit=commit,
-        code=code,
-    )
+    common |= {
+        "gamma": _confusable(answer.shelf, it.effects, sizes),
+        "verdict": answer.verdict,
+        "sets": sets,
+        "score": score,
+        "inside": _inside(answer, it) if score == "right" and it.hidden else {},
+        "holdout": _held_out(answer),
+    }
+    return Outcome(**common, seconds=round(process_time() - began, 2))
 
 
 def judged(it: Case, verdict: str, sets: Sequence[Sequence[str]]) -> Score:

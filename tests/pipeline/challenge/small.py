@@ -5,19 +5,21 @@ from __future__ import annotations
 from itertools import count
 
 from pipeline.challenge.cases import Case, Kind, case
+from vjm.effects import catalogue
 
 ROWS = 84
 
 
 def first(kind: Kind, effect: str = "", least: float = 0.0) -> int:
     """Number of the first case of at most `ROWS` rows: of that kind, with that effect hidden, its first number at
-    least so many from one."""
+    least so far from null."""
     return next(n for n in count() if _fits(case(n), kind, effect, least))
 
 
 def _fits(it: Case, kind: Kind, effect: str, least: float) -> bool:
-    few = sum(len(test.values) for test in it.bench.plan) <= ROWS
-    there = not effect or it.effects == (effect,)
-    return (
-        few and it.kind == kind and there and all(abs(v - 1.0) >= least for v in list(it.hidden.values())[:1])
-    )
+    if it.kind != kind or sum(len(test.values) for test in it.bench.plan) > ROWS:
+        return False
+    if not effect:
+        return True
+    number = catalogue()[effect].parameters[0]
+    return it.effects == (effect,) and abs(it.hidden[f"{effect}.{number.name}"] - number.null) >= least

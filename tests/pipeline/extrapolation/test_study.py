@@ -85,7 +85,11 @@ def test_a_whole_case_runs_and_is_not_run_again(tmp_path: Path, monkeypatch: pyt
     (begun,) = run(1, store, 1)
     (again,) = run(1, store, 1)
     assert begun == again and done == [begun] and kept(store, Trial) == [begun]
-    assert set(begun.errors) == set(APPROACHES) and begun.kind == "single" and begun.mu > 10.0
+    assert (
+        set(begun.errors) == set(APPROACHES)
+        and begun.kind == "single"
+        and begun.mu == pytest.approx(98.96, rel=0.01)
+    )
     assert begun.sets == (("modulus_error",),)
     assert begun.errors[DIAGNOSIS].outside < begun.errors[GAUSSIAN].outside
     monkeypatch.setattr(module, "code_digest", lambda: "another")
@@ -120,7 +124,7 @@ def test_a_bench_that_does_not_bear_all_is_loaded_less(monkeypatch: pytest.Monke
     monkeypatch.setattr(bench, "true_readings", weak)
     less = measured(SMALL)
     most = max(np.abs(t.data.wrench[:, 0]).max() for t in less.asked.campaign.tests)
-    assert whole.share == 1.0 and less.share < 1.0 and most <= borne + 6.0
+    assert whole.share == 1.0 and less.share < 1.0 and most <= borne
 
 
 def test_the_page_says_what_the_records_say() -> None:
