@@ -33,6 +33,11 @@ class Fixed:
     rotation: Array = field(default_factory=lambda: np.eye(3))
 
     @cached_property
+    def steps(self) -> tuple[tuple[int, float], ...]:
+        """The translation as steps along some of the axes."""
+        return tuple((i, float(part)) for i, part in enumerate(self.translation) if part)
+
+    @cached_property
     def turns(self) -> bool:
         """Whether it turns at all."""
         return not np.array_equal(self.rotation, np.eye(3))
@@ -55,12 +60,6 @@ class Joint:
     def __post_init__(self) -> None:
         if abs(np.linalg.norm(self.axis) - 1.0) > 1e-12:
             raise ValueError(f"a joint axis must have length 1, got {self.axis}")
-
-    @cached_property
-    def generators(self) -> tuple[Array, Array]:
-        """S = axis x and S², of Rodrigues' formula."""
-        s = skew(self.axis)
-        return s, s @ s
 
     @cached_property
     def along(self) -> int:
@@ -106,7 +105,9 @@ class Tie:
 
     def fold(self, columns: Array) -> Array:
         """Columns (..., joints) by joint values turned into columns (..., n) by coordinates."""
-        return columns @ self.matrix if self._folds else columns
+        if not self._folds:
+            return columns
+        return (columns.reshape(-1, columns.shape[-1]) @ self.matrix).reshape(*columns.shape[:-1], self.size)
 
     @cached_property
     def _folds(self) -> bool:
@@ -115,14 +116,40 @@ class Tie:
 
 @dataclass(frozen=True, eq=False)
 class Kinematics:
-    """A chain at given coordinates: pose (..., 6), its Jacobian (..., 6, n), and Hessians on demand."""
+    """A chain at given coordinates: its pose (..., 6); Jacobian and Hessian on demand.
+
+    _axes, _origins: (3, joints, ...). _turns: (joints,) of them that turn.
+    """
 
     pose: Array
-    jacobian: Array
-    _linear: Array
-    _angular: Array
-    _rate: Array
+    _axes: Array
+    _origins: Array
+    _turns: np.ndarray
     _tie: Tie
+
+    @cached_property
+    def jacobian(self) -> Array:
+        """(..., 6, n) of pose by the coordinates."""
+        return self._tie.fold(np.concatenate([self._linear, self._rate @ self._angular], axis=-2))
+
+    @cached_property
+    def _rate(self) -> Array:
+        return inverse_rotation_jacobian(self.pose[..., 3:])
+
+    @cached_property
+    def _linear(self) -> Array:
+        """(..., 3, joints) velocity of the platform point."""
+        linear, turns = self._axes.copy(), self._turns
+        place = np.moveaxis(self.pose[..., :3], -1, 0)[:, None]
+        linear[:, turns] = _cross(linear[:, turns], place - self._origins[:, turns])
+        return _columns(linear)
+
+    @cached_property
+    def _angular(self) -> Array:
+        """(..., 3, joints) spatial angular velocity."""
+        angular = self._axes.copy()
+        angular[:, ~self._turns] = 0.0
+        return _columns(angular)
 
     def hessian(self, multiplier: ArrayLike) -> Array:
         """Second derivative (..., n, n) of Psi = pose^T lambda at fixed lambda (..., 6).
@@ -203,57 +230,68 @@ class Chain:
         x = np.asarray(coordinates, dtype=float)
         if x.shape[-1] != self.size:
             raise ValueError(f"this chain has {self.size} coordinates, got an array of shape {x.shape}")
-        tie = self.tie
-        rotation, position, axes, origins = self._forward(x[..., tie.coordinate] * tie.share)
-        turns = self._turns
-        arms = np.where(turns, position[..., None] - origins, 0.0)
-        linear = np.where(turns, _cross(axes, arms), axes)
-        angular = np.where(turns, axes, 0.0)
+        rotation, position, axes, origins = self._forward(x[..., self.tie.coordinate] * self.tie.share)
         phi = log(rotation @ self.reference.T)
-        rate = inverse_rotation_jacobian(phi)
-        jacobian = tie.fold(np.concatenate([linear, rate @ angular], axis=-2))
-        return Kinematics(np.concatenate([position, phi], axis=-1), jacobian, linear, angular, rate, tie)
+        pose = np.concatenate([position, phi], axis=-1)
+        return Kinematics(pose, axes, origins, self._turns, self.tie)
 
     @cached_property
     def _turns(self) -> np.ndarray:
         return np.array([joint.kind == "rotation" for joint in self.moved], dtype=bool)
 
     def _forward(self, values: Array) -> tuple[Array, Array, Array, Array]:
-        """Last rotation (..., 3, 3) and position (..., 3); joint axes and origins (..., 3, joints)."""
-        batch, count = values.shape[:-1], values.shape[-1]
-        rotation = np.broadcast_to(np.eye(3), (*batch, 3, 3))
-        position = np.zeros((*batch, 3))
-        axes, origins = np.empty((*batch, 3, count)), np.empty((*batch, 3, count))
-        sine, versine = np.sin(values), 2.0 * np.sin(0.5 * values) ** 2
+        """Last rotation (..., 3, 3) and position (..., 3); joint axes and origins (3, joints, ...).
+
+        Batch axes stand last: short products of small matrices cost more than the arithmetic in them.
+        """
+        batch, each = values.shape[:-1], np.ascontiguousarray(np.moveaxis(values, -1, 0))
+        frame = np.broadcast_to(np.eye(3).reshape(3, 3, *[1] * len(batch)), (3, 3, *batch)).copy()
+        position: Array = np.zeros((3, *batch))
+        axes, origins = np.empty((2, 3, len(each), *batch))
+        sine, cosine = np.sin(each), np.cos(each)
         k = 0
         for element in self.elements:
             if isinstance(element, Fixed):
-                position = position + rotation @ element.translation
+                for i, part in element.steps:
+                    position = position + part * frame[i]
                 if element.turns:
-                    rotation = rotation @ element.rotation
+                    frame = _along(element.rotation.T, frame)
                 continue
-            axis = axes[..., k] = (
-                rotation[..., element.along] if element.along >= 0 else rotation @ element.axis
-            )
-            origins[..., k] = position
-            if element.kind == "rotation":
-                s, square = element.generators
-                turn = np.eye(3) + sine[..., k, None, None] * s + versine[..., k, None, None] * square
-                rotation = rotation @ turn
+            axis = frame[element.along] if element.along >= 0 else _along(np.asarray(element.axis), frame)
+            axes[:, k], origins[:, k] = axis, position
+            if element.kind == "translation":
+                position = position + axis * each[k]
+            elif element.along >= 0:
+                i, j = (element.along + 1) % 3, (element.along + 2) % 3
+                swung = sine[k] * frame[i]
+                frame[i] = cosine[k] * frame[i] + sine[k] * frame[j]
+                frame[j] = cosine[k] * frame[j] - swung
             else:
-                position = position + axis * values[..., k, None]
+                # Rodrigues' formula, on each of the frame's own axes.
+                for own, part in zip(frame, element.axis, strict=True):
+                    own[:] = cosine[k] * own + sine[k] * _cross(axis, own) + (1.0 - cosine[k]) * part * axis
             k += 1
-        return rotation, position, axes, origins
+        rotation = np.moveaxis(frame, (0, 1), (-1, -2))
+        return np.ascontiguousarray(rotation), np.moveaxis(position, 0, -1), axes, origins
+
+
+def _along(vectors: Array, frame: Array) -> Array:
+    """Vectors (..., 3) of a frame, whose axes are (3, 3, batch), in base axes (..., 3, batch)."""
+    return np.tensordot(vectors, frame, 1)
 
 
 def _cross(a: Array, b: Array) -> Array:
-    """Cross products of the columns of (..., 3, n)."""
-    x, y, z = a[..., 0, :], a[..., 1, :], a[..., 2, :]
-    u, v, w = b[..., 0, :], b[..., 1, :], b[..., 2, :]
-    return np.stack([y * w - z * v, z * u - x * w, x * v - y * u], axis=-2)
+    """Cross products of (3, ...)."""
+    return np.stack([a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]])
+
+
+def _columns(vectors: Array) -> Array:
+    """(3, n, ...) as (..., 3, n)."""
+    return np.ascontiguousarray(np.moveaxis(vectors, (0, 1), (-2, -1)))
 
 
 def _ordered_product(w: Array, z: Array) -> Array:
     """Symmetric (..., n, n) with the entries w_i·z_j, i up to j, of columns (..., 3, n)."""
     product = np.swapaxes(w, -1, -2) @ z
-    return np.triu(product) + np.swapaxes(np.triu(product, 1), -1, -2)
+    upper = np.arange(w.shape[-1])[:, None] <= np.arange(w.shape[-1])
+    return np.where(upper, product, np.swapaxes(product, -1, -2))

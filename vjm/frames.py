@@ -77,9 +77,11 @@ def rotation_jacobian(phi: ArrayLike) -> Array:
 def inverse_rotation_jacobian(phi: ArrayLike) -> Array:
     """B(phi) = A(phi)^-1 (..., 3, 3): phi_dot = B(phi) omega. Regular for |phi| < 2 pi."""
     phi = np.asarray(phi, dtype=float)
-    s = skew(phi)
-    c, _ = _inverse_coefficient(np.sum(phi * phi, axis=-1))
-    return np.eye(3) - 0.5 * s + c[..., None, None] * (s @ s)
+    square = np.sum(phi * phi, axis=-1)
+    c = _inverse_coefficient(square)
+    b = -0.5 * skew(phi) + c[..., None, None] * _outer(phi, phi)
+    b[..., range(3), range(3)] += (1.0 - c * square)[..., None]
+    return b
 
 
 def moment(phi: ArrayLike, mu: ArrayLike) -> Array:
@@ -95,7 +97,7 @@ def moment_gradient(phi: ArrayLike, mu: ArrayLike) -> Array:
     phi, mu = np.broadcast_arrays(np.asarray(phi, dtype=float), np.asarray(mu, dtype=float))
     square = np.sum(phi * phi, axis=-1)
     product = np.sum(phi * mu, axis=-1)
-    c, slope = _inverse_coefficient(square)
+    c, slope = _inverse_coefficient(square), _inverse_coefficient_slope(square)
     double_cross = phi * product[..., None] - mu * square[..., None]
     inner = product[..., None, None] * np.eye(3) + _outer(phi, mu) - 2.0 * _outer(mu, phi)
     return (
@@ -140,10 +142,15 @@ def _outer(a: Array, b: Array) -> Array:
 def _quaternion(r: Array) -> Array:
     """Unit quaternion (..., 4), scalar first and not negative, from 4 q q^T written with the entries of R."""
     xx, yy, zz = r[..., 0, 0], r[..., 1, 1], r[..., 2, 2]
+    trace = xx + yy + zz
     wx, wy, wz = r[..., 2, 1] - r[..., 1, 2], r[..., 0, 2] - r[..., 2, 0], r[..., 1, 0] - r[..., 0, 1]
+    if np.all(trace > 0.0):
+        # The scalar is more than a half: what is divided by it is accurate.
+        scalar = 0.5 * np.sqrt(1.0 + trace)
+        return _unit(np.stack([scalar, *(0.25 / scalar * part for part in (wx, wy, wz))], axis=-1))
     xy, xz, yz = r[..., 0, 1] + r[..., 1, 0], r[..., 0, 2] + r[..., 2, 0], r[..., 1, 2] + r[..., 2, 1]
     rows = (
-        (1 + xx + yy + zz, wx, wy, wz),
+        (1 + trace, wx, wy, wz),
         (wx, 1 + xx - yy - zz, xy, xz),
         (wy, xy, 1 - xx + yy - zz, yz),
         (wz, xz, yz, 1 - xx - yy + zz),
@@ -151,8 +158,12 @@ def _quaternion(r: Array) -> Array:
     square = np.stack([np.stack(row, axis=-1) for row in rows], axis=-2)
     largest = np.argmax(np.diagonal(square, axis1=-2, axis2=-1), axis=-1)
     row = np.take_along_axis(square, largest[..., None, None], axis=-2)[..., 0, :]
-    row = row / np.linalg.norm(row, axis=-1, keepdims=True)
+    row = _unit(row)
     return np.where(row[..., :1] < 0, -row, row)
+
+
+def _unit(vectors: Array) -> Array:
+    return np.asarray(vectors / np.linalg.norm(vectors, axis=-1, keepdims=True))
 
 
 def _cubic(square: Array) -> Array:
@@ -171,15 +182,25 @@ def _series(square: Array, coefficients: Array) -> Array:
     return np.asarray(np.polynomial.polynomial.polyval(small, coefficients), dtype=np.float64)
 
 
-def _inverse_coefficient(square: Array) -> tuple[Array, Array]:
-    """c = (1 - (t/2) cot(t/2)) / t² and dc/d(t²), as functions of t²."""
-    series = _series(square, _B_SQUARE), _series(square, _B_SQUARE_SLOPE)
+def _inverse_coefficient(square: Array) -> Array:
+    """c = (1 - (t/2) cot(t/2)) / t² as a function of t²."""
+    series = _series(square, _B_SQUARE)
     near = square < _SERIES_LIMIT
-    if np.all(near):
-        return series
+    return series if np.all(near) else np.where(near, series, _inverse_closed(square)[0])
+
+
+def _inverse_coefficient_slope(square: Array) -> Array:
+    """dc/d(t²) of `_inverse_coefficient`."""
+    series = _series(square, _B_SQUARE_SLOPE)
+    near = square < _SERIES_LIMIT
+    return series if np.all(near) else np.where(near, series, _inverse_closed(square)[1])
+
+
+def _inverse_closed(square: Array) -> tuple[Array, Array]:
+    """c and dc/d(t²) in closed form, t² kept off zero."""
     s = np.maximum(square, _SERIES_LIMIT)
     t = np.sqrt(s)
     cot = 1.0 / np.tan(t / 2)
     c = (1.0 - 0.5 * t * cot) / s
     h_slope = (0.5 * cot - 0.25 * t * (1.0 + cot * cot)) / (2.0 * t)
-    return np.where(near, series[0], c), np.where(near, series[1], -(h_slope + c) / s)
+    return c, -(h_slope + c) / s

@@ -105,7 +105,8 @@ class ElasticChain:
         for spring, numbers, part in zip(self.springs, self._groups, self._memories, strict=True):
             answer = spring.law.respond(strain[..., numbers], memory[..., part])
             force[..., numbers] += answer.force
-            tangent[..., numbers[:, None], numbers] += answer.tangent
+            both = (numbers, numbers) if isinstance(numbers, slice) else np.ix_(numbers, numbers)
+            tangent[..., *both] += answer.tangent
             energy = energy + answer.energy
             remembered.append(answer.memory)
         return Response(energy, force, tangent, np.concatenate(remembered, axis=-1))
@@ -121,9 +122,9 @@ class ElasticChain:
         return np.concatenate([np.zeros((*strain.shape[:-1], 0)), *kept], axis=-1)
 
     @cached_property
-    def _groups(self) -> tuple[np.ndarray, ...]:
-        """Numbers of each spring's coordinates among the moving ones."""
-        return tuple(np.searchsorted(self.moving, spring.coordinates) for spring in self.springs)
+    def _groups(self) -> tuple[np.ndarray | slice, ...]:
+        """Numbers of each spring's coordinates among the moving ones; a slice, which is faster, where they follow."""
+        return tuple(_followed(np.searchsorted(self.moving, spring.coordinates)) for spring in self.springs)
 
     @cached_property
     def _memories(self) -> tuple[slice, ...]:
@@ -157,6 +158,12 @@ class Mechanism(Protocol):
 
     @property
     def gauges(self) -> tuple[Gauge, ...]: ...
+
+
+def _followed(numbers: np.ndarray) -> np.ndarray | slice:
+    """The numbers as a slice if each is the last one's successor."""
+    first = int(numbers[0])
+    return slice(first, first + numbers.size) if np.all(np.diff(numbers) == 1) else numbers
 
 
 def initial_memory(mechanism: Mechanism) -> Array:

@@ -13,7 +13,7 @@ from vjm.frames import POSE_NAMES, Array
 from vjm.lagrangian import ChainRows
 from vjm.mechanism import Mechanism
 from vjm.newton import Step
-from vjm.readings import control_of, read
+from vjm.readings import channels, control_of, read
 
 Held = Collection[str] | np.ndarray
 """The control of the platform coordinates: names of the held ones among x y z rx ry rz, a mask (..., 6) of
@@ -80,7 +80,12 @@ class Problem:
 
     def readings(self, unknowns: Array) -> Array:
         """(B, 6) of the controlled channels at unknowns (B, N)."""
-        values = read(self.mechanism, unknowns, self.drives)
+        gauged = np.any(self.channels >= 12)
+        values = (
+            read(self.mechanism, unknowns, self.drives)
+            if gauged
+            else channels(self.mechanism, unknowns).values
+        )
         return np.asarray(np.take_along_axis(values, self.channels, axis=-1))
 
     def blockwise(self, unknowns: Array, members: np.ndarray) -> tuple[Array, Step]:
