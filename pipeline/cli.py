@@ -230,7 +230,7 @@ def challenge(
     workers: Annotated[int, typer.Option(min=1, help="Processes.")] = 2,
     out: Annotated[Path, typer.Option(help="Folder of the score.")] = Path("reports/challenge"),
     store: Annotated[Path, typer.Option(help="Where finished campaigns are kept.")] = Path(
-        ".parastiff/challenge.jsonl"
+        "reports/challenge/outcomes.jsonl"
     ),
     quiet: Quiet = False,
 ) -> None:

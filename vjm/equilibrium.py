@@ -80,6 +80,14 @@ class Equilibrium:
         return tuple(lagrangian.chain_coordinates(chain, self.unknowns[..., x], r) for chain, x, r in parts)
 
     @property
+    def strains(self) -> tuple[tuple[ElasticChain, Array, slice], ...]:
+        """Each chain with its coordinates (..., n) from rest and the place of its moving ones."""
+        place = lagrangian.layout(self.mechanism)
+        rest = lagrangian.rest(self.mechanism, self.drives)
+        parts = zip(self.mechanism.chains, self.coordinates, rest, place.coordinates, strict=True)
+        return tuple((chain, x - start, at) for chain, x, start, at in parts)
+
+    @property
     def unloaded_coordinates(self) -> tuple[Array, ...]:
         """All coordinates (..., n_i) of each chain when sensors were zeroed."""
         return lagrangian.rest(self.mechanism, self.drives, unloaded=True)

@@ -1,6 +1,5 @@
-"""Linkages whose bars slide in their base hinges: where to start, and how hard stops are pressed.
+"""Starts for linkages whose bars slide in their base hinges: the same linkage without slides, each let go.
 
-A start is the same linkage without slides, each let go.
 Laws of slides are steep beyond a kink; from rest Newton's method overshoots them and wanders. The force that a slide
 will carry is nearly that of the linkage without it, and its law's inverse is known.
 """
@@ -13,7 +12,6 @@ from typing import Protocol, runtime_checkable
 import numpy as np
 
 from vjm import lagrangian
-from vjm.clearance import Clearance
 from vjm.equilibrium import Equilibrium
 from vjm.frames import Array
 from vjm.mechanism import ElasticChain, Mechanism
@@ -52,29 +50,6 @@ def with_slides(state: Equilibrium, mechanism: Mechanism) -> Equilibrium:
         unknowns[..., new.coordinates[k]] = moving
         unknowns[..., new.multipliers[k]] = multiplier
     return replace(state, mechanism=mechanism, unknowns=unknowns)
-
-
-def pressed(state: Equilibrium, unknowns: Array) -> tuple[Array, Array]:
-    """Forces (..., K), N, by which the stops of the K plays of a mechanism are pressed, zero where none is,
-    with the sign of the stop.
-
-    unknowns: (..., N, k) derivatives of the state; returns also those of the forces (..., K, k).
-    """
-    place, forces, slopes = lagrangian.layout(state.mechanism), [], []
-    rest = lagrangian.rest(state.mechanism, state.drives)
-    for k, chain in enumerate(state.mechanism.chains):
-        for spring in chain.springs:
-            if not isinstance(spring.law, Clearance):
-                continue
-            (number,) = spring.coordinates
-            at = place.coordinates[k].start + int(np.searchsorted(chain.moving, number))
-            force, slope = spring.law.pressed(state.unknowns[..., at] - rest[k][..., number])
-            forces.append(force)
-            slopes.append(slope[..., None] * unknowns[..., at, :])
-    batch = state.converged.shape
-    if not forces:
-        return np.zeros((*batch, 0)), np.zeros((*batch, 0, unknowns.shape[-1]))
-    return np.stack(forces, axis=-1), np.stack(slopes, axis=-2)
 
 
 def _slides(chain: ElasticChain) -> list[int]:

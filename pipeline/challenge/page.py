@@ -50,6 +50,8 @@ def page(it: Scored) -> str:
         f"A case took {it.seconds_median:.0f} s of one processor in the median, {it.seconds_95:.0f} s at most in 95 %.",
         f"Wrong names and false alarms: {', '.join(f'case {n}' for n in it.wrong) or 'none'}.",
         "",
+        "`outcomes.jsonl` has every case, with the digest of its code; a run that was stopped goes on from it.",
+        "",
     ]
     return "\n".join(lines)
 

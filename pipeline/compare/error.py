@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -25,6 +26,16 @@ REASONS = {
 FEWEST = 3
 
 
+class _Whole(NamedTuple):
+    """What is left of all rows; zeros: number of unknown zeros that were fitted."""
+
+    whitened: Array
+    units: Array
+    sigma: Array
+    zeros: int
+    charged: float
+
+
 @dataclass(frozen=True, eq=False)
 class Discrepancy:
     """A prediction against its program; parameters: how many numbers were fitted to these measurements.
@@ -39,28 +50,29 @@ class Discrepancy:
     parameters: int = 0
 
     @cached_property
-    def _parts(self) -> tuple[Array, Array, Array, int, float]:
+    def _whole(self) -> _Whole:
         weights = whitening(self.program, self.prediction)
         found = residual(self.program, self.prediction)
         whitened, rank = _without_zeros(self.program, found.values, found.offsets)
         factors = np.linalg.inv(weights.factors)
         units = np.einsum("rij,rj->ri", factors, whitened)
-        return whitened, units, np.sqrt(np.sum(factors**2, axis=2)), rank, found.charged
+        sigma = np.sqrt(np.sum(factors**2, axis=2))
+        return _Whole(whitened, units, sigma, rank, found.charged)
 
     @property
     def whitened(self) -> Array:
         """(R, C) less the unknown zeros of the tests that have them; zero where nothing is compared."""
-        return self._parts[0]
+        return self._whole.whitened
 
     @property
     def units(self) -> Array:
         """(R, C) measured less predicted in the channels' units, less the same zeros; no meaning in lost rows."""
-        return self._parts[1]
+        return self._whole.units
 
     @property
     def sigma(self) -> Array:
         """(R, C) standard deviation of each by itself."""
-        return self._parts[2]
+        return self._whole.sigma
 
     @property
     def kept(self) -> Mask:
@@ -70,7 +82,7 @@ class Discrepancy:
     @property
     def degrees(self) -> int:
         """Residuals of the fitted tests less fitted numbers and unknown zeros."""
-        return int(self.program.predicted[self.program.fitted].sum()) - self.parameters - self._parts[3]
+        return int(self.program.predicted[self.program.fitted].sum()) - self.parameters - self._whole.zeros
 
     def rms(self, rows: Mask) -> float | None:
         """Whitened root mean square over rows (R,); None where nothing is compared."""
@@ -81,7 +93,7 @@ class Discrepancy:
         """Chi-square of the fitted tests, charges of rows beside their stops included; None without a degree of
         freedom."""
         flat = self.whitened[self.program.fitted][self.program.predicted[self.program.fitted]]
-        every = np.append(flat, np.sqrt(self._parts[4]))
+        every = np.append(flat, np.sqrt(self._whole.charged))
         return chi_square(every, every.size - self.degrees) if self.degrees > 0 else None
 
     def order(self) -> Check | None:

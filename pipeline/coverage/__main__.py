@@ -9,7 +9,7 @@ import typer
 
 from meshes.files import replacing
 from pipeline.coverage.study import run, tasks
-from pipeline.coverage.table import page, study
+from pipeline.coverage.table import Study, joined, page, study
 from pipeline.coverage.trial import Trial
 from pipeline.progress import Progress
 from pipeline.trials import kept
@@ -25,13 +25,16 @@ def main(
     store: Annotated[Path, typer.Option(help="Where finished benches are kept.")] = STORE,
     out: Annotated[Path, typer.Option(help="Folder of the page.")] = Path("reports/coverage"),
 ) -> None:
-    """Hide every effect on many benches, find it again, and count. Stopped and started again, it goes on."""
+    """Hide every effect on many benches, find it again, and count. Stopped and started again, it goes on.
+
+    Rows that the page has of more benches than are kept here stay, so that it can grow effect by effect.
+    """
     wanted = tasks(seeds, pairs, only or ())
     progress = Progress()
     with progress.stage("coverage") as stage:
         for done, _ in enumerate(run(wanted, store, workers), 1):
             stage.say(f"{done} of {len(wanted)} benches")
-    found = study(kept(store, Trial))
+    found = joined(study(kept(store, Trial)), _before(out / "coverage.json"))
     for name, text in (
         ("coverage.json", found.model_dump_json(indent=1) + "\n"),
         ("coverage.md", page(found)),
@@ -39,6 +42,10 @@ def main(
         with replacing(out / name) as part:
             part.write_text(text, encoding="utf-8")
     print(f"{out / 'coverage.md'}: {sum(row.noise.of for row in found.rows)} benches with hidden effects")
+
+
+def _before(path: Path) -> Study:
+    return Study.model_validate_json(path.read_text(encoding="utf-8")) if path.exists() else Study(rows=())
 
 
 if __name__ == "__main__":

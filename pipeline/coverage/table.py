@@ -69,6 +69,20 @@ def study(trials: Iterable[Trial]) -> Study:
     return Study(rows=tuple(_row(effects, found[effects]) for effects in order))
 
 
+def joined(found: Study, before: Study) -> Study:
+    """The rows of both; of two of the same effects that of more benches, the found one of as many."""
+    rows = {row.effects: row for row in before.rows}
+    for row in found.rows:
+        known = rows.get(row.effects)
+        rows[row.effects] = row if known is None or _benches(row) >= _benches(known) else known
+    order = sorted(rows, key=lambda effects: (len(effects), effects))
+    return Study(rows=tuple(rows[effects] for effects in order))
+
+
+def _benches(row: Row) -> int:
+    return row.noise.of + row.null_inside.of
+
+
 def _row(effects: tuple[str, ...], trials: Sequence[Trial]) -> Row:
     there = [t for t in trials if t.kind == "there"]
     whole = [t for t in there if t.steps == FULL_STEPS]

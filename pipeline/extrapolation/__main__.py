@@ -16,8 +16,8 @@ from pipeline.extrapolation.table import study
 from pipeline.extrapolation.trial import Trial
 from pipeline.progress import Progress
 
-STORE = Path(".parastiff/extrapolation.jsonl")
 OUT = Path("reports/extrapolation")
+STORE = OUT / "trials.jsonl"
 
 
 def main(

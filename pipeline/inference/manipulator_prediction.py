@@ -21,9 +21,9 @@ from vjm.manipulator.equilibrium import Loaded, equilibrium, unstable_directions
 from vjm.manipulator.lagrangian import System, system
 from vjm.manipulator.loops import looped
 from vjm.manipulator.parts import Manipulator
-from vjm.manipulator.plays import pressed
 from vjm.manipulator.posture import Postures, postures
 from vjm.manipulator.sensitivity import readings_along, unknowns_by_targets
+from vjm.stops import pressed
 
 Array = NDArray[np.float64]
 STEP = 1e-3

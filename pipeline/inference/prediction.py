@@ -22,7 +22,8 @@ from vjm.equilibrium import Equilibrium, drive_values, equilibrium
 from vjm.lagrangian import layout
 from vjm.mechanism import initial_memory
 from vjm.sensitivity import TARGETS, AnyDirection, Direction, DriveDirection, by_parameters
-from vjm.slides import pressed, with_slides
+from vjm.slides import with_slides
+from vjm.stops import pressed
 
 Array = NDArray[np.float64]
 _KELVIN = 1.0

@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike
 
 from vjm.frames import Array, moment
 from vjm.manipulator.lagrangian import System, gradient_and_hessian
+from vjm.manipulator.loops import LoopedLeg
 from vjm.newton import CONVERGED, Step, dense, newton
 from vjm.problem import held_mask
 from vjm.sensors import Channels, through
@@ -44,6 +45,13 @@ class Loaded:
         """(B, legs, 6) load that each leg takes, conjugate to (p, rotation vector)."""
         legs = range(len(self.system.legs))
         return np.stack([self.unknowns[:, self.system.multiplier(k)] for k in legs], axis=1)
+
+    @property
+    def strains(self) -> tuple[tuple[LoopedLeg, Array, slice], ...]:
+        """Each leg with its coordinates (B, n) from rest and the place of its moving ones."""
+        of = self.system
+        parts = enumerate(zip(of.legs, of.rest, of.coordinates, strict=True))
+        return tuple((leg, of.full(k, self.unknowns) - start, at) for k, (leg, start, at) in parts)
 
     @property
     def readings(self) -> Array:

@@ -8,7 +8,7 @@ import pytest
 
 from pipeline import trials
 from pipeline.coverage.study import run, tasks
-from pipeline.coverage.table import page, study
+from pipeline.coverage.table import joined, page, study
 from pipeline.coverage.trial import Trial
 from pipeline.trials import kept
 
@@ -51,6 +51,16 @@ def test_shares_are_counted() -> None:
     assert (row.null_inside.count, row.null_inside.of) == (1, 2)
     text = page(study(trials))
     assert "| modulus_error | 1.000 .. 1.155 | 80.0 % of 5 |" in text and text.startswith("# How often")
+
+
+def test_rows_of_more_benches_stay() -> None:
+    """A page grows effect by effect: what it has of more benches is not replaced, what it lacks is added."""
+    fewer, more = study([one(0, 0.5)]), study([one(0, 0.5), one(1, 0.1)])
+    other = study([one(0, 0.5, effects=("self_weight",))])
+    assert joined(fewer, more) == joined(more, fewer) == more
+    assert [row.effects for row in joined(other, more).rows] == [("modulus_error",), ("self_weight",)]
+    again = study([one(0, 9.0)])
+    assert joined(again, fewer) == again
 
 
 def test_a_study_goes_on_where_it_was_stopped(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
