@@ -7,7 +7,7 @@ from typing import Protocol
 
 import numpy as np
 
-from vjm.chain import Chain, Element, Joint, Role
+from vjm.chain import Chain, Element, Joint, Mark, Role
 from vjm.frames import Array
 from vjm.laws import Spring
 from vjm.link import Link
@@ -21,8 +21,8 @@ class Limb:
 
     elements: the chain's part. stiffness: (v, v) of its virtual coordinates. springs: further laws, their
     coordinates counted from the bar's first one. rest: (v,) coordinates of the unloaded bar. stretch: (v,)
-    change of them with a stress-free lengthening by 1 mm. stations: points that share out a line load, each
-    elements from the base to it and its share of the length; statically they replace it between the nodes.
+    change of them with a stress-free lengthening by 1 mm. stations: points that share out a line load, each with
+    its share of the length; statically they replace it between the nodes.
     """
 
     elements: tuple[Element, ...]
@@ -30,7 +30,7 @@ class Limb:
     rest: Array
     stretch: Array
     springs: tuple[Spring, ...] = ()
-    stations: tuple[tuple[tuple[Element, ...], float], ...] = ()
+    stations: tuple[tuple[Mark, float], ...] = ()
 
     def numbered_from(self, first: int) -> tuple[Spring, ...]:
         """The further laws for a chain whose coordinate number `first` is the bar's first one."""

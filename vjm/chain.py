@@ -115,22 +115,35 @@ class Tie:
 
 
 @dataclass(frozen=True, eq=False)
+class Mark:
+    """A point of a chain: `offset` (3,), mm, in the frame after so many of its elements."""
+
+    elements: int
+    offset: Array
+
+    def joints(self, chain: Chain) -> int:
+        """Number of the joints that move it."""
+        return sum(isinstance(e, Joint) for e in chain.elements[: self.elements])
+
+
+@dataclass(frozen=True, eq=False)
 class Kinematics:
     """A chain at given coordinates: its pose (..., 6); Jacobian and Hessian on demand.
 
-    _axes, _origins: (3, joints, ...). _turns: (joints,) of them that turn.
+    axes, origins: (3, joints, ...) of the joints. places: (3, s, ...) of the marks. turns: (joints,) that turn.
     """
 
     pose: Array
-    _axes: Array
-    _origins: Array
-    _turns: np.ndarray
-    _tie: Tie
+    axes: Array
+    origins: Array
+    places: Array
+    turns: np.ndarray
+    tie: Tie
 
     @cached_property
     def jacobian(self) -> Array:
         """(..., 6, n) of pose by the coordinates."""
-        return self._tie.fold(np.concatenate([self._linear, self._rate @ self._angular], axis=-2))
+        return self.tie.fold(np.concatenate([self._linear, self._rate @ self._angular], axis=-2))
 
     @cached_property
     def _rate(self) -> Array:
@@ -139,16 +152,16 @@ class Kinematics:
     @cached_property
     def _linear(self) -> Array:
         """(..., 3, joints) velocity of the platform point."""
-        linear, turns = self._axes.copy(), self._turns
+        linear, turns = self.axes.copy(), self.turns
         place = np.moveaxis(self.pose[..., :3], -1, 0)[:, None]
-        linear[:, turns] = _cross(linear[:, turns], place - self._origins[:, turns])
+        linear[:, turns] = _cross(linear[:, turns], place - self.origins[:, turns])
         return _columns(linear)
 
     @cached_property
     def _angular(self) -> Array:
         """(..., 3, joints) spatial angular velocity."""
-        angular = self._axes.copy()
-        angular[:, ~self._turns] = 0.0
+        angular = self.axes.copy()
+        angular[:, ~self.turns] = 0.0
         return _columns(angular)
 
     def hessian(self, multiplier: ArrayLike) -> Array:
@@ -164,7 +177,11 @@ class Kinematics:
         moment = np.einsum("...ji,...j->...i", self._rate, mu)
         slope = moment_gradient(self.pose[..., 3:], mu) @ self._rate
         z = (np.swapaxes(slope, -1, -2) - skew(moment)) @ w - skew(multiplier[..., :3]) @ self._linear
-        tie = self._tie
+        return self.second(z)
+
+    def second(self, z: Array) -> Array:
+        """Symmetric (..., n, n) by the coordinates of what is w_i·z_j for joints i up to j; z (..., 3, joints)."""
+        tie, w = self.tie, self._angular
         hessian = _ordered_product(tie.fold(w), tie.fold(z))
         for joints, coordinates in tie.interleaved:
             matrix = tie.matrix[joints, coordinates]
@@ -225,22 +242,27 @@ class Chain:
         """Second derivative of Psi = pose^T lambda by the coordinates: (..., n, n)."""
         return self.kinematics(coordinates).hessian(multiplier)
 
-    def kinematics(self, coordinates: ArrayLike) -> Kinematics:
-        """One forward pass for pose, Jacobian and Hessian. ValueError if the last axis is not n long."""
+    def kinematics(self, coordinates: ArrayLike, marks: tuple[Mark, ...] = ()) -> Kinematics:
+        """One forward pass for pose, Jacobian, Hessian and the places of marks, those nearer the base first.
+
+        ValueError if the last axis is not n long.
+        """
         x = np.asarray(coordinates, dtype=float)
         if x.shape[-1] != self.size:
             raise ValueError(f"this chain has {self.size} coordinates, got an array of shape {x.shape}")
-        rotation, position, axes, origins = self._forward(x[..., self.tie.coordinate] * self.tie.share)
+        rotation, position, axes, origins, places = self._forward(
+            x[..., self.tie.coordinate] * self.tie.share, marks
+        )
         phi = log(rotation @ self.reference.T)
         pose = np.concatenate([position, phi], axis=-1)
-        return Kinematics(pose, axes, origins, self._turns, self.tie)
+        return Kinematics(pose, axes, origins, places, self._turns, self.tie)
 
     @cached_property
     def _turns(self) -> np.ndarray:
         return np.array([joint.kind == "rotation" for joint in self.moved], dtype=bool)
 
-    def _forward(self, values: Array) -> tuple[Array, Array, Array, Array]:
-        """Last rotation (..., 3, 3) and position (..., 3); joint axes and origins (3, joints, ...).
+    def _forward(self, values: Array, marks: tuple[Mark, ...]) -> tuple[Array, Array, Array, Array, Array]:
+        """Last rotation (..., 3, 3) and position (..., 3); joint axes and origins (3, joints, ...), places of marks.
 
         Batch axes stand last: short products of small matrices cost more than the arithmetic in them.
         """
@@ -249,8 +271,12 @@ class Chain:
         position: Array = np.zeros((3, *batch))
         axes, origins = np.empty((2, 3, len(each), *batch))
         sine, cosine = np.sin(each), np.cos(each)
+        places, waiting = np.empty((3, len(marks), *batch)), list(enumerate(marks))
         k = 0
-        for element in self.elements:
+        for number, element in enumerate(self.elements):
+            while waiting and waiting[0][1].elements == number:
+                m, mark = waiting.pop(0)
+                places[:, m] = position + _along(mark.offset, frame)
             if isinstance(element, Fixed):
                 for i, part in element.steps:
                     position = position + part * frame[i]
@@ -271,8 +297,10 @@ class Chain:
                 for own, part in zip(frame, element.axis, strict=True):
                     own[:] = cosine[k] * own + sine[k] * _cross(axis, own) + (1.0 - cosine[k]) * part * axis
             k += 1
+        for m, mark in waiting:
+            places[:, m] = position + _along(mark.offset, frame)
         rotation = np.moveaxis(frame, (0, 1), (-1, -2))
-        return np.ascontiguousarray(rotation), np.moveaxis(position, 0, -1), axes, origins
+        return np.ascontiguousarray(rotation), np.moveaxis(position, 0, -1), axes, origins, places
 
 
 def _along(vectors: Array, frame: Array) -> Array:

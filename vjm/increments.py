@@ -31,7 +31,8 @@ def solve(
     and a stable one that this leads to takes its place: Newton's method may jump over to a solution that no
     loading reaches.
     """
-    end = _newton(problem, start, tolerance, limit)
+    # What wanders is approached in increments even if it gets there: it goes on only where they do not.
+    end = _newton(problem, start, tolerance, limit if follow else min(limit, _SOON))
     direct = np.where(end.reason == CONVERGED, end.iterations, 0)
     failed = np.flatnonzero(end.reason != CONVERGED)
     if failed.size:
@@ -39,7 +40,13 @@ def solve(
             failed,
             _in_increments(problem.take(failed), start[failed], before[failed], tolerance, limit, follow),
         )
-    doubtful = np.flatnonzero((end.unstable > 0) | ((end.unstable == 0) & (direct > 0) & _wandered(end)))
+    lost = np.flatnonzero(end.reason != CONVERGED)
+    if lost.size and not follow and limit > _SOON:
+        again = _newton(problem.take(lost), start[lost], tolerance, limit)
+        found = again.reason == CONVERGED
+        end.put(lost[found], _members(again, found))
+    unsure = (end.unstable > 0) | ((end.unstable == 0) & _wandered(end))
+    doubtful = np.flatnonzero((direct > 0) & unsure)
     if doubtful.size and not follow:
         again = _in_increments(
             problem.take(doubtful), start[doubtful], before[doubtful], tolerance, limit, follow
@@ -85,7 +92,9 @@ def _in_increments(
         share = np.minimum(reached[active] + step[active], 1.0)[:, None]
         aim = origin[active] + share * (problem.targets[active] - origin[active])
         drives = before[active] + share * (problem.drives[active] - before[active])
-        part = _newton(problem.take(active).aim(aim, drives), end.unknowns[active], tolerance, limit)
+        # Many iterations are of use to the least step alone.
+        most = limit if np.any(step[active] < 2.0 * LEAST_STEP) else min(limit, _SOON)
+        part = _newton(problem.take(active).aim(aim, drives), end.unknowns[active], tolerance, most)
         good = (part.reason == CONVERGED) & (follow | (part.unstable <= 0))
         # A smaller step tells whether one that wandered has found the continuation; the least one is believed.
         good &= ~_wandered(part) | (step[active] < 2.0 * LEAST_STEP)

@@ -8,7 +8,7 @@ from typing import Literal
 import numpy as np
 
 from vjm.bars import Limb, check_station, compliance_at_tip, spring_joints
-from vjm.chain import Element, Fixed
+from vjm.chain import Element, Fixed, Mark
 from vjm.frames import Array, move_stiffness
 from vjm.link import Link
 from vjm.refined import Refined
@@ -37,8 +37,8 @@ class Lumped:
         elements: tuple[Element, ...] = (_ahead(before), *spring_joints(), _ahead(link.length - before))
         stretch = np.eye(6)[0]
         # A uniform load is half at either end with w L²/12 each: half at a sixth of the length from the end.
-        sixth = link.length / 6
-        stations = (((_ahead(sixth),), 0.5), ((*elements, _ahead(-sixth)), 0.5))
+        sixth = np.array([link.length / 6, 0.0, 0.0])
+        stations = ((Mark(0, sixth), 0.5), (Mark(len(elements), -sixth), 0.5))
         stiffness = move_stiffness(self._at_tip(link), [before - link.length, 0.0, 0.0])
         return Limb(elements, stiffness, np.zeros(6), stretch, stations=stations)
 

@@ -13,7 +13,7 @@ from vjm.chain import Chain, Role
 from vjm.frames import Array
 from vjm.gauges import Gauge
 from vjm.laws import Response, Spring
-from vjm.loads import DeadLoad
+from vjm.loads import DeadLoads
 from vjm.sensors import Sensor
 
 
@@ -46,7 +46,7 @@ class ElasticChain:
     stiffness: Array
     rest: Array
     springs: tuple[Spring, ...] = ()
-    loads: tuple[DeadLoad, ...] = ()
+    loads: tuple[DeadLoads, ...] = ()
     drives: tuple[Drive, ...] = ()
 
     def __post_init__(self) -> None:

@@ -32,7 +32,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from vjm.bars import Limb, X, Y, Z, check_station
-from vjm.chain import Element, Fixed, Joint, Role
+from vjm.chain import Element, Fixed, Joint, Mark, Role
 from vjm.fibres import Fibres
 from vjm.frames import Array, exp
 from vjm.laws import BeamColumn, Law, Spring
@@ -219,17 +219,12 @@ def _bowed_ends(link: Link) -> tuple[tuple[Element, ...], tuple[Element, ...]]:
 
 def _stations(
     start: tuple[Element, ...], pieces: list[tuple[Element, ...]], size: float
-) -> tuple[tuple[tuple[Element, ...], float], ...]:
+) -> tuple[tuple[Mark, float], ...]:
     """Nodes with the consistent share of a uniform load; its end moments by a shift of a sixth of a segment."""
-    share = 1.0 / len(pieces)
-    sixth = Fixed(size / 6 * np.eye(3)[0])
-    back = Fixed(-size / 6 * np.eye(3)[0])
-    path = list(start)
-    out = [((*path, sixth), 0.5 * share)]
-    for piece in pieces[:-1]:
-        path.extend(piece)
-        out.append((tuple(path), share))
-    return (*out, ((*path, *pieces[-1], back), 0.5 * share))
+    share, sixth = 1.0 / len(pieces), np.array([size / 6, 0.0, 0.0])
+    nodes = np.cumsum([len(start), *(len(piece) for piece in pieces)])
+    inner = [(Mark(int(node), np.zeros(3)), share) for node in nodes[1:-1]]
+    return (Mark(int(nodes[0]), sixth), 0.5 * share), *inner, (Mark(int(nodes[-1]), -sixth), 0.5 * share)
 
 
 def _with_all_couplings(parts: Array, whole: Array, lever: Array) -> Array:

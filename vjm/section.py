@@ -56,8 +56,10 @@ class Section:
     def missing(self, strain: Array, before: Array) -> Missing:
         """At strains (..., S, 3), from plastic strains (..., S, f)."""
         plastic, slope = self.fibres.plastic(strain @ self.arms, before)
-        stress = plastic @ (self.rigidity[0] * self.weights * self.arms).T
-        return Missing(stress, (slope @ self._products).reshape(*strain.shape, 3), plastic)
+        return Missing(self._stress(plastic), (slope @ self._products).reshape(*strain.shape, 3), plastic)
+
+    def _stress(self, plastic: Array) -> Array:
+        return np.asarray(plastic @ (self.rigidity[0] * self.weights * self.arms).T)
 
     def strains(self, elastic: Array, before: Array, relief: Array) -> Array:
         """Strains e (N, S, 3) with e - D^-1 m + relief m = elastic, m the missing stress; NaN where not found.
@@ -65,7 +67,10 @@ class Section:
         elastic: (N, S, 3). before: (N, S, f). relief: (N, 3 S, 3 S). Newton's method with halved steps. The
         equations are piecewise linear and, since fibres harden, nowhere singular.
         """
-        strain, active = elastic.copy(), np.arange(len(elastic))
+        # If nothing yields any further the equations are linear.
+        held = self._stress(before)
+        strain = elastic + held / self.rigidity - (relief @ _column(held)).reshape(elastic.shape)
+        active = np.arange(len(elastic))
         for _ in range(_ITERATIONS):
             past, aim, by = before[active], elastic[active], relief[active]
             residual, missing = self._residual(strain[active], past, aim, by)

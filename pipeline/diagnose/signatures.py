@@ -125,7 +125,7 @@ def _probes_of(effect: Effect, besides: Model, without: Prediction, own: Program
     for value in effect.probes:
         say(f"{effect.name} at {value:g}")
         model = probed(besides.with_effects([effect]), effect, value)
-        there = predict(model, own, slopes=False)
+        there = predict(model, own, slopes=False, order=0)
         lost = (there.lost | without.lost)[:, None]
         out.append(Probe(effect, value, np.where(lost, 0.0, there.values - without.values)))
         if np.linalg.norm(weights.apply(np.where(used, out[-1].change, 0.0))[used]) > PLAIN:

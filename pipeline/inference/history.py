@@ -34,7 +34,7 @@ def history(
     tests, steps = group.targets.shape[:2]
     state, blank = _as_if_new(mechanism, group, inputs, start)
     by = np.zeros((*state.readings.shape, len(asked)))
-    if blank.any():
+    if asked and blank.any():
         by[blank] = by_parameters(state.member(blank), asked, order=order).readings
     begins = np.sum(blank, axis=1)
     slope = np.zeros((tests, state.memory.shape[-1], len(asked)))
@@ -49,10 +49,11 @@ def history(
             part = _step(mechanism, group, inputs, going, step, before).solved(before, guess)
         else:
             part = state.member((going, 0))
-        found = by_parameters(part, asked, memory_slope=slope[going], order=order)
         state = state.with_members((going, step), part)
-        by[going, step] = found.readings
-        slope[going] = found.memory
+        if asked:
+            found = by_parameters(part, asked, memory_slope=slope[going], order=order)
+            by[going, step] = found.readings
+            slope[going] = found.memory
         lost = going[~part.converged]
         if lost.size:
             rest = (lost[:, None], np.arange(step + 1, steps))

@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pipeline.inference.model import Model
-from pipeline.inference.parts import ARRAYS, states_at
+from pipeline.inference.parts import ARRAYS, states_at, states_with
 from pipeline.inference.prediction import Prediction, predict
 from pipeline.inference.program import Program
 from pipeline.inference.residual import Residual, residual
@@ -37,13 +37,16 @@ def linearised(
     if swapped is None:
         here = predict(model, cases, slopes, start=start, shift=shift)
         return here, residual(cases, here)
-    reached = predict(model, swapped, slopes=False, start=start)
-    here = predict(model, cases, slopes, start=reached, shift=shift)
+    reached = predict(model, swapped, slopes=False, start=start, order=0)
+    # Which side is better the readings say: what the numbers change is asked where that is settled.
+    here = predict(model, cases, slopes=False, start=reached, shift=shift)
     for rows, other in (
         (_elsewhere(reached, here), _shift_to(reached, swapped, cases)),
         (residual(cases, here).charge > 0.0, np.zeros_like(cases.input_sigma)),
     ):
-        here = _better(model, cases, here, _whole(cases, rows), other, slopes, reached)
+        here = _better(model, cases, here, _whole(cases, rows), other, reached)
+    if slopes:
+        here = predict(model, cases, start=here, shift=here.shift)
     return here, residual(cases, here)
 
 
@@ -53,7 +56,6 @@ def _better(
     here: Prediction,
     rows: NDArray[np.int64],
     shift: Array,
-    slopes: bool,
     start: Prediction,
 ) -> Prediction:
     """The prediction with those of these rows (N,) replaced that fit better with the inputs shifted like this."""
@@ -61,9 +63,10 @@ def _better(
         return here
     part = cases.only(rows)
     begin = replace(start, states=states_at(start, cases, part, rows))
-    other = predict(model, part, slopes, start=begin, shift=shift[rows])
+    other = predict(model, part, slopes=False, start=begin, shift=shift[rows])
     better = _squares(residual(part, other)) < _squares(residual(cases, here))[rows]
-    return _merged(here, other, rows, better)
+    states = states_with(here, cases, part, rows, other, better)
+    return replace(_merged(here, other, rows, better), states=states)
 
 
 def kinked(model: Model) -> bool:

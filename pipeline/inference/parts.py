@@ -47,6 +47,25 @@ def states_at(found: Prediction, cases: Program, part: Program, rows: Rows) -> t
     return tuple(out)
 
 
+def states_with(
+    found: Prediction, cases: Program, part: Program, rows: Rows, other: Prediction, some: NDArray[np.bool_]
+) -> tuple[Equilibrium, ...]:
+    """The states of a prediction of all cases, with those of `some` (N,) of these rows from one of them alone."""
+    out = list(found.states)
+    for group, state in zip(part.groups, other.states, strict=True):
+        number = next(k for k, one in enumerate(cases.groups) if one.rig is group.rig)
+        names = [cases.campaign.tests[n].id for n in cases.groups[number].numbers]
+        for k, own in enumerate(group.numbers):
+            test = names.index(part.campaign.tests[own].id)
+            place = cases.groups[number].numbers[test]
+            own_rows = np.flatnonzero(cases.test[rows] == place)
+            taken = np.flatnonzero(some[own_rows])
+            steps = rows[own_rows[taken]] - cases.first[place]
+            there = state.member((np.full(taken.size, k), taken))
+            out[number] = out[number].with_members((np.full(taken.size, test), steps), there)
+    return tuple(out)
+
+
 def joined(cases: Program, pieces: Sequence[tuple[Rows, Program, Prediction]]) -> Prediction:
     """The prediction of all cases from those of parts: rows, program and prediction of each, whole tests."""
     arrays: dict[str, NDArray[Any]] = {}

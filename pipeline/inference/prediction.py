@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cache
 from typing import cast
@@ -80,7 +81,8 @@ def predict(
     """Readings at all rows; start: a prediction of a like model, from whose states to begin.
 
     shift: (R, 7) added to the measured inputs and temperature. order: of the differences in derivatives by numbers,
-    see `vjm.sensitivity`. ValueError for an effect that the rig cannot have.
+    see `vjm.sensitivity`; 0 where readings alone are wanted: a bench has zeros for all derivatives then.
+    ValueError for an effect that the rig cannot have.
     """
     count = len(model.free) if slopes else 0
     rows, channels = program.measured.shape
@@ -133,9 +135,10 @@ def _group(
     inputs = {"q": np.broadcast_to(group.q[:, None], group.rise.shape), DRIVE: group.rise}
     inputs = {name: value for name, value in inputs.items() if name in drives}
     free = model.free if slopes else ()
-    asked: list[AnyDirection] = [*TARGETS, *(_direction(model, k, group, program) for k in range(len(free)))]
-    if DRIVE in drives:
-        asked.append(DriveDirection(DRIVE, _KELVIN))
+    asked: list[AnyDirection] = []
+    if order:
+        asked += [*TARGETS, *(_direction(model, k, group, program) for k in range(len(free)))]
+        asked += [DriveDirection(DRIVE, _KELVIN)] if DRIVE in drives else []
     begin = _begin(mechanism, group, inputs, start)
     if initial_memory(mechanism).size:
         state, by = history(mechanism, group, inputs, asked, begin, order)
@@ -143,13 +146,23 @@ def _group(
     else:
         state = equilibrium(mechanism, group.targets, group.channels[:, None], begin, drives=inputs)
         state = _branched(mechanism, group, inputs, state)
-        found = by_parameters(state, asked, order=order)
-        by, stops = found.readings, _stops(state, found.unknowns, DRIVE in drives)
+        by, change = _changes(state, asked, order)
+        stops = _stops(state, change, DRIVE in drives)
     values = state.readings.copy()
     values[..., :6] -= group.nominal
+    if not asked:
+        by = np.zeros((*values.shape, 7 + len(free)))
     warm = by[..., -1:] if DRIVE in drives else np.zeros((*values.shape, 1))
     by_inputs = np.concatenate([by[..., :6], warm], axis=-1)
     return _Part(values, by_inputs, by[..., 6 : 6 + len(free)], state, stops)
+
+
+def _changes(state: Equilibrium, asked: Sequence[AnyDirection], order: int) -> tuple[Array, Array]:
+    """Derivatives of readings and unknowns in the directions asked for; of the unknowns zeros where there are none."""
+    if not asked:
+        return np.zeros((*state.readings.shape, 0)), np.zeros((*state.unknowns.shape, INPUTS))
+    found = by_parameters(state, asked, order=order)
+    return found.readings, found.unknowns
 
 
 def _stops(state: Equilibrium, unknowns: Array, heated: bool) -> Array:

@@ -17,7 +17,7 @@ from vjm.chain import Chain, Element, Fixed, Role
 from vjm.frames import Array
 from vjm.laws import Spring
 from vjm.link import Link
-from vjm.loads import DeadLoad
+from vjm.loads import DeadLoads
 from vjm.manipulator.parts import MOVING, ElasticLink, Leg, Parallelogram, Part
 from vjm.manipulator.rest import elastic_elements
 from vjm.mechanisms.assembly import Assembly
@@ -54,7 +54,7 @@ class LoopedLeg:
     springs: tuple[Spring, ...]
     equivalents: tuple[tuple[Parallelogram, int, np.ndarray], ...]
     translations: np.ndarray
-    loads: tuple[DeadLoad, ...] = ()
+    loads: tuple[DeadLoads, ...] = ()
     inputs: tuple[tuple[str, Array], ...] = ()
 
     @cached_property
@@ -99,7 +99,7 @@ class _Builder:
     rest: dict[int, float] = field(default_factory=dict)
     posture: list[dict[int, float]] = field(default_factory=list)
     pending: list[_Place] = field(default_factory=list)
-    loads: list[DeadLoad] = field(default_factory=list)
+    loads: list[DeadLoads] = field(default_factory=list)
     inputs: list[tuple[str, int, Array]] = field(default_factory=list)
     equivalents: list[tuple[Parallelogram, int, np.ndarray]] = field(default_factory=list)
 
@@ -153,7 +153,8 @@ class _Builder:
         for load in bar.loads:
             path = Chain((*place.before, *load.path.elements))
             numbers = np.concatenate([np.arange(place.first), first + load.coordinates])
-            self.loads.append(DeadLoad(path, numbers, load.force))
+            marks = tuple(replace(m, elements=len(place.before) + m.elements) for m in load.marks)
+            self.loads.append(DeadLoads(path, numbers, marks, load.forces))
         self.size = first + bar.chain.size
         return self.size - 1
 

@@ -2,18 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass, field
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
 from vjm.bars import BarModel, X
-from vjm.chain import Chain, Element, Fixed, Joint, Role
+from vjm.chain import Chain, Element, Fixed, Joint, Mark, Role
 from vjm.frames import Array, exp
-from vjm.gauges import Gauge, gauge, path_numbers
+from vjm.gauges import Gauge, gauge
 from vjm.laws import Law, Spring
 from vjm.link import Link
-from vjm.loads import DeadLoad
+from vjm.loads import DeadLoads
 from vjm.mechanism import Drive, ElasticChain
 
 Alteration = Callable[[int, Link], Link]
@@ -73,8 +73,8 @@ class Assembly:
             slope = np.zeros(chain.size)
             slope[bar] = rate * limb.stretch
             drives.append(Drive(name, 0.0, slope))
-        loads = [self._load(path, share, chain) for path, share in limb.stations if np.any(self.line_load)]
-        return ElasticChain(chain, stiffness, rest, tuple(springs), tuple(loads), tuple(drives))
+        loads = (self._loads(limb.stations, chain),) if np.any(self.line_load) else ()
+        return ElasticChain(chain, stiffness, rest, tuple(springs), loads, tuple(drives))
 
     def gauge(self, number: int, chain: ElasticChain, place: GaugeAt) -> Gauge:
         """Gauge on the bar, whose chain has this number."""
@@ -89,9 +89,13 @@ class Assembly:
     def _hinge(self, end: int) -> tuple[Element, ...]:
         return (HINGE,) if self.hinged[end] else ()
 
-    def _load(self, path: tuple[Element, ...], share: float, chain: Chain) -> DeadLoad:
-        whole, numbers = path_numbers((*self._before, *path), chain)
-        return DeadLoad(whole, numbers, share * self.link.length * self.line_load)
+    def _loads(self, stations: Sequence[tuple[Mark, float]], chain: Chain) -> DeadLoads:
+        before = len(self._before)
+        marks = tuple(replace(mark, elements=before + mark.elements) for mark, _ in stations)
+        shares = np.array([share for _, share in stations])
+        return DeadLoads(
+            chain, np.arange(chain.size), marks, shares[:, None] * self.link.length * self.line_load
+        )
 
 
 def as_built(nominal: Link, count: int, alterations: tuple[Alteration, ...]) -> tuple[Link, ...]:
