@@ -13,7 +13,7 @@ from pipeline.coverage.cases import BASE
 from pipeline.coverage.trial import campaign
 from pipeline.inference.fit import Fit, fit
 from pipeline.inference.model import Model
-from pipeline.inference.parts import ARRAYS, at_rows, joined
+from pipeline.inference.parts import ARRAYS, at_rows, joined, states_with
 from pipeline.inference.prediction import predict
 from pipeline.inference.program import Program, program
 from vjm.effects import catalogue
@@ -60,6 +60,40 @@ def test_parts_are_the_whole(name: str) -> None:
         for group, one, other in zip(part.groups, again.states, alone.states, strict=True):
             np.testing.assert_array_equal(one.unknowns[group.real], other.unknowns[group.real])
         assert rows.size == part.test.size
+
+
+@pytest.mark.parametrize("name", ["joint_clearance", "joint_friction"])
+def test_readings_alone_are_those_with_derivatives(name: str) -> None:
+    alone, whole = (predict(model(name), cases(), slopes=False, order=order) for order in (0, 2))
+    np.testing.assert_array_equal(alone.values, whole.values)
+    np.testing.assert_array_equal(alone.stops[..., 0], whole.stops[..., 0])
+    assert not alone.by_inputs.any() and whole.by_inputs.any()
+    assert alone.by_free.shape == whole.by_free.shape and alone.lost.shape == whole.lost.shape
+
+
+def test_states_of_some_rows_take_their_place() -> None:
+    """Those of other inputs at some rows of two tests; all other rows keep theirs."""
+    it, rows = model("modulus_error"), np.array([1, 3, 4, 20, 22, 23])
+    some = np.array([True, False, True, False, True, False])
+    shift = np.zeros((len(cases().test), 7))
+    shift[rows, 0] = 1e-3
+    part = cases().only(rows)
+    before, moved = predict(it, cases()), predict(it, part, shift=shift[rows])
+    after = replace(before, states=states_with(before, cases(), part, rows, moved, some))
+    expected = predict(
+        it, cases(), shift=np.where(np.isin(np.arange(len(shift)), rows[some])[:, None], shift, 0.0)
+    )
+    for group, one, other in zip(cases().groups, after.states, expected.states, strict=True):
+        np.testing.assert_allclose(
+            one.unknowns[group.real],
+            other.unknowns[group.real],
+            rtol=1e-9,
+            atol=1e-9 * np.abs(other.unknowns).max(),
+        )
+    changed = [
+        not np.array_equal(a.unknowns, b.unknowns) for a, b in zip(after.states, before.states, strict=True)
+    ]
+    assert any(changed)
 
 
 def test_lost_rows_keep_their_reasons() -> None:
