@@ -12,6 +12,8 @@ from typing import TypeVar
 
 from pydantic import BaseModel, ValidationError
 
+from pipeline.memory import keep_freed
+
 Task = TypeVar("Task")
 Trial = TypeVar("Trial", bound=BaseModel)
 
@@ -58,4 +60,10 @@ def _pool(workers: int) -> multiprocessing.pool.Pool:
     # One thread each: the arrays are small, and threads of several processes are in each other's way.
     for name in ("OMP_NUM_THREADS", "MKL_NUM_THREADS", "OPENBLAS_NUM_THREADS"):
         os.environ.setdefault(name, "1")
-    return multiprocessing.get_context("spawn").Pool(workers, signal.signal, (signal.SIGINT, signal.SIG_IGN))
+    return multiprocessing.get_context("spawn").Pool(workers, _begin)
+
+
+def _begin() -> None:
+    """An interrupt is for the process that writes the store; the others end with it."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    keep_freed()

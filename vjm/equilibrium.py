@@ -15,7 +15,7 @@ from numpy.typing import ArrayLike
 
 from vjm import lagrangian
 from vjm.frames import POSE_NAMES, Array, moment
-from vjm.increments import solve
+from vjm.increments import directly, solve
 from vjm.laws import Response
 from vjm.mechanism import ElasticChain, Mechanism, initial_memory
 from vjm.newton import CONVERGED, Iterate, Step, dense, newton
@@ -234,6 +234,19 @@ def equilibrium(
     """
     problem, first, before, batch = _posed(mechanism, targets, held, start, drives, memory)
     return record(problem, solve(problem, first, before, tolerance, limit, follow), batch)
+
+
+def nearby(
+    mechanism: Mechanism,
+    targets: ArrayLike,
+    held: Held,
+    start: Equilibrium,
+    drives: Drives,
+    memory: Array,
+) -> Equilibrium:
+    """As `equilibrium`, by Newton's method alone: what wants a more careful approach has not converged."""
+    problem, first, _, batch = _posed(mechanism, targets, held, start, drives, memory)
+    return record(problem, directly(problem, first, TOLERANCE), batch)
 
 
 def picard(

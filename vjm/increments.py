@@ -17,6 +17,7 @@ _SOON = 8
 # Beyond a quarter of the first step, or this many iterations, there may be other solutions as near.
 _FAR, _MANY = 0.25, 6
 LOST_STABILITY = "no stable equilibrium further on"
+UNSURE = "unstable, or found after wandering"
 
 
 def solve(
@@ -53,6 +54,14 @@ def solve(
         )
         better = again.unstable == 0
         end.put(doubtful[better], _members(again, better))
+    return end
+
+
+def directly(problem: Problem, start: Array, tolerance: float) -> Iterate:
+    """Newton's method alone from a start (B, N) nearby; what `solve` would approach in increments has not converged."""
+    end = _in_chunks(problem, start, tolerance, _SOON)
+    found = end.reason == CONVERGED
+    end.reason[found & ((end.unstable > 0) | _wandered(end))] = UNSURE
     return end
 
 

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
+from typing import TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -28,6 +29,7 @@ _SCHEMES = {
 }
 """Offsets and weights of differences, by their order."""
 _STEP = 1e-3
+Size = TypeVar("Size", float, Array)
 
 
 @dataclass(frozen=True, eq=False)
@@ -128,7 +130,7 @@ def by_parameters(
             sides = channel_scale(place, state.channels)[..., direction.coordinate]
             slope[..., place.platform.start + direction.coordinate, k] -= 1.0 / sides
             continue
-        for step, weight in _steps(order, direction.size):
+        for step, weight in differences(order, direction.size):
             if not step:
                 slope[..., k] += weight * here[0]
                 own[..., k] += weight * here[1]
@@ -139,7 +141,7 @@ def by_parameters(
     slope[..., place.platform, :] -= target / channel_scale(place, state.channels)[..., None]
     unknowns, regular = _solve(state, -slope)
     change = _memory_change(state, directions, unknowns, memory, order)
-    return Sensitivity(state, unknowns, change, own + _readings(state, unknowns), regular)
+    return Sensitivity(state, unknowns, change, own + read_change(state, unknowns), regular)
 
 
 def by_parameter(
@@ -164,7 +166,17 @@ def _residual(state: Equilibrium, memory: Array, place: lagrangian.Layout) -> Ar
     return np.asarray(rows)
 
 
-def _readings(state: Equilibrium, unknowns: Array) -> Array:
+def by_forces(state: Equilibrium, places: np.ndarray) -> Array:
+    """Derivatives (..., N, c) of the unknowns by forces on c coordinates, unknowns of these numbers, that laws hold
+    against them beside their own."""
+    place = lagrangian.layout(state.mechanism)
+    sides = np.zeros((*state.unknowns.shape, places.size))
+    sides[..., places, range(places.size)] = place.scale[places] / place.energy
+    return _solve(state, -sides)[0]
+
+
+def read_change(state: Equilibrium, unknowns: Array) -> Array:
+    """Change (..., 12 + G, k) of the readings along k changes (..., N, k) of the unknowns."""
     return read_slope(state.mechanism, state.unknowns, state.drives, unknowns)
 
 
@@ -180,8 +192,8 @@ def _solve(state: Equilibrium, right: Array) -> tuple[Array, np.ndarray]:
     return unknowns, found.regular.reshape(state.converged.shape)
 
 
-def _steps(order: int, size: float) -> list[tuple[float, float]]:
-    """Changes of a parameter and their weights in its derivative."""
+def differences(order: int, size: Size) -> list[tuple[Size, Size]]:
+    """Changes of parameters of these typical sizes, and their weights in the derivatives."""
     step = _STEP * size
     return [(offset * step, weight / step) for offset, weight in _SCHEMES[order]]
 
@@ -199,7 +211,7 @@ def _memory_change(
     for k, direction in enumerate(directions):
         if isinstance(direction, Target):
             continue
-        for step, weight in _steps(order, direction.size):
+        for step, weight in differences(order, direction.size):
             moved = replace(
                 direction.moved(state, step),
                 unknowns=state.unknowns + step * unknowns[..., k],

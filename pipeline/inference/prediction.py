@@ -20,6 +20,7 @@ from vjm.effects.bar_initial_bow import BarInitialBow
 from vjm.effects.base import Rig, for_bars
 from vjm.effects.thermal_expansion import DRIVE
 from vjm.equilibrium import Equilibrium, drive_values, equilibrium
+from vjm.history import by_history
 from vjm.lagrangian import layout
 from vjm.mechanism import initial_memory
 from vjm.sensitivity import TARGETS, AnyDirection, Direction, DriveDirection, by_parameters
@@ -141,7 +142,8 @@ def _group(
         asked += [DriveDirection(DRIVE, _KELVIN)] if DRIVE in drives else []
     begin = _begin(mechanism, group, inputs, start)
     if initial_memory(mechanism).size:
-        state, by = history(mechanism, group, inputs, asked, begin, order)
+        state = history(mechanism, group, inputs, begin)
+        by = by_history(state, asked, order) if asked else np.zeros((*state.readings.shape, 0))
         stops = np.zeros((*group.rise.shape, 0, 1 + INPUTS))
     else:
         state = equilibrium(mechanism, group.targets, group.channels[:, None], begin, drives=inputs)
