@@ -7,9 +7,10 @@ import pytest
 from hypothesis import given
 
 from tests.vjm.strategies import LENGTH, WIDTH, angles, bar_stiffness, displacements, fixed_seed
-from vjm import paper
-from vjm.equilibrium import equilibrium, load_path, picard, unloaded
-from vjm.frames import exp, log
+from vjm import closed_forms, paper
+from vjm.equilibrium import equilibrium, load_path, nearby, picard, unloaded
+from vjm.frames import POSE_NAMES, exp, log
+from vjm.increments import UNSURE
 from vjm.mechanisms.parallelogram import Parallelogram
 from vjm.newton import DIVERGED, RUNNING, solve_each
 
@@ -123,6 +124,23 @@ def test_unreachable_poses_are_reported_and_stay_finite() -> None:
     assert state.converged.tolist() == [False, True]
     assert state.reason[0] in (DIVERGED, RUNNING)
     assert np.all(np.isfinite(state.unknowns))
+
+
+def test_nearby_is_what_newton_finds_at_once_and_nothing_else() -> None:
+    """A pose next to the start, and one where straight bars are unstable, which wants more than Newton's method."""
+    mechanism = linkage(0.0, "middle")
+    critical = closed_forms.in_plane_critical(mechanism).compression
+    assert critical is not None
+    shortening = critical / (2.0 * paper.BAR_STIFFNESS[0, 0])
+    poses = mechanism.unloaded_pose + np.outer([-0.1 * shortening, 1.5 * shortening], np.eye(6)[0])
+    held = ("x", "z", "rx", "ry", "rz")
+    targets = np.where([name in held for name in POSE_NAMES], poses, 0.0)
+    rest = unloaded(mechanism)
+    found = nearby(mechanism, targets, held, rest, {}, rest.memory)
+    careful = equilibrium(mechanism, targets, held, rest, follow=True)
+    assert found.converged.tolist() == [True, False] and found.reason[1] == UNSURE
+    assert careful.unstable.tolist() == [0, 2]
+    np.testing.assert_array_equal(found.unknowns[0], careful.unknowns[0])
 
 
 def test_too_few_iterations_are_reported() -> None:
