@@ -7,13 +7,15 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from pipeline.diagnose.signatures import probed
 from pipeline.inference.history import ENDED
 from pipeline.inference.model import Model
 from pipeline.inference.prediction import predict
-from pipeline.inference.program import program
+from pipeline.inference.program import Group, program
 from tests.pipeline.diagnose.bench import bench
 from vjm.effects import catalogue
-from vjm.equilibrium import load_path
+from vjm.effects.base import Rig
+from vjm.equilibrium import Equilibrium, load_path
 from vjm.lagrangian import layout
 
 CASES = program(bench("joint_friction.torque_Nmm", 200.0, ("swing_q+0", "axial_held_q+0", "axial_held_q+15")))
@@ -47,25 +49,43 @@ def test_all_tests_may_end() -> None:
     np.testing.assert_array_equal(after.lost, steps >= 5)
 
 
-@pytest.mark.parametrize("strain", [0.0199, 2e-3, 1.3e-3])
-def test_steps_that_leave_no_mark_need_not_wait_for_each_other(strain: float) -> None:
-    """Bars that yield never, or after some steps: as by going through all tests step by step."""
+@pytest.mark.parametrize(
+    ("effect", "value", "marks"),
+    [
+        ("material_yield", 0.0199, False),
+        ("material_yield", 2e-3, True),
+        ("material_yield", 1.3e-3, True),
+        ("joint_friction", 20.0, True),
+        ("joint_friction", 200.0, True),
+    ],
+)
+def test_all_steps_at_once_are_step_after_step(effect: str, value: float, marks: bool) -> None:
+    """From rest, and from the states of another size: as by going through all tests step by step, up and down."""
     cases = program(bench(ids=("lateral_q+0", "swing_q+0")))
-    yielding = Model().with_effects([catalogue()["material_yield"]]).at(np.array([strain]))
-    (group,), (state,) = cases.groups, predict(yielding, cases, slopes=False).states
-    mechanism = yielding.mechanism(group.rig, cases.campaign.gauges)
+    term = catalogue()[effect]
+    model = Model().with_effects([term])
+    here, other = (probed(model, term, v) for v in (value, 1.1 * value))
+    fresh = predict(here, cases, slopes=False)
+    moved = predict(here, cases, slopes=False, start=predict(other, cases, slopes=False))
+    mechanism = here.mechanism(cases.groups[0].rig, cases.campaign.gauges)
+    path = _step_by_step(mechanism, cases.groups[0])
+    size = np.max(np.abs(path.unknowns), axis=(0, 1)) + 1e-9
+    kept = np.max(np.abs(path.next_memory), axis=(0, 1)) + 1e-6
+    for (state,) in (fresh.states, moved.states):
+        assert state.converged.all() and path.converged.all()
+        for ours, theirs, scale in (
+            (state.unknowns, path.unknowns, size),
+            (state.next_memory, path.next_memory, kept),
+        ):
+            np.testing.assert_allclose(ours / scale, np.moveaxis(theirs, 0, 1) / scale, atol=1e-7)
+        marked = np.any(state.next_memory != 0.0, axis=-1)
+        assert marked.any() == marks
+
+
+def _step_by_step(mechanism: Rig, group: Group) -> Equilibrium:
     drives = {"q": group.q} if "q" in layout(mechanism).drives else {}
     steps = np.moveaxis(group.targets, 1, 0)
-    path = load_path(mechanism, steps, np.broadcast_to(group.channels, steps.shape), drives=drives)
-    assert state.converged.all() and path.converged.all()
-    size = np.max(np.abs(state.unknowns), axis=(0, 1)) + 1e-9
-    for ours, theirs, scale in (
-        (state.unknowns, path.unknowns, size),
-        (state.next_memory, path.next_memory, 1e-4),
-    ):
-        np.testing.assert_allclose(ours / scale, np.moveaxis(theirs, 0, 1) / scale, atol=1e-7)
-    marked = np.any(state.next_memory != 0.0, axis=-1)
-    assert marked.any() == (strain < 0.01) and not marked[:, 0].any()
+    return load_path(mechanism, steps, np.broadcast_to(group.channels, steps.shape), drives=drives)
 
 
 def test_a_start_that_leads_nowhere_is_left() -> None:
