@@ -70,7 +70,8 @@ def test_all_steps_at_once_are_step_after_step(effect: str, value: float, marks:
     mechanism = here.mechanism(cases.groups[0].rig, cases.campaign.gauges)
     path = _step_by_step(mechanism, cases.groups[0])
     size = np.max(np.abs(path.unknowns), axis=(0, 1)) + 1e-9
-    kept = np.max(np.abs(path.next_memory), axis=(0, 1)) + 1e-6
+    # Plastic strains are known to some 1e-11; slips and the work that they took by their own size.
+    kept = 1e-4 if effect == "material_yield" else np.max(np.abs(path.next_memory), axis=(0, 1)) + 1e-6
     for (state,) in (fresh.states, moved.states):
         assert state.converged.all() and path.converged.all()
         for ours, theirs, scale in (
@@ -80,6 +81,7 @@ def test_all_steps_at_once_are_step_after_step(effect: str, value: float, marks:
             np.testing.assert_allclose(ours / scale, np.moveaxis(theirs, 0, 1) / scale, atol=1e-7)
         marked = np.any(state.next_memory != 0.0, axis=-1)
         assert marked.any() == marks
+        assert effect == "joint_friction" or not marked[:, 0].any()
 
 
 def _step_by_step(mechanism: Rig, group: Group) -> Equilibrium:
