@@ -7,7 +7,7 @@ from dataclasses import fields, replace
 import numpy as np
 
 from vjm.frames import Array
-from vjm.newton import CONVERGED, RUNNING, Iterate, newton, unsolved
+from vjm.newton import CONVERGED, RUNNING, SMALL_STEP, Iterate, newton, unsolved
 from vjm.problem import Problem
 
 FIRST_STEP, LARGEST_STEP, LEAST_STEP = 1.0 / 16.0, 1.0 / 4.0, 1.0 / 128.0
@@ -46,7 +46,7 @@ def solve(
         again = _newton(problem.take(lost), start[lost], tolerance, limit)
         found = again.reason == CONVERGED
         end.put(lost[found], _members(again, found))
-    unsure = (end.unstable > 0) | ((end.unstable == 0) & _wandered(end))
+    unsure = (end.unstable > 0) | ((end.unstable == 0) & _wandered(problem, start, end))
     doubtful = np.flatnonzero((direct > 0) & unsure)
     if doubtful.size and not follow:
         again = _in_increments(
@@ -61,7 +61,7 @@ def directly(problem: Problem, start: Array, tolerance: float) -> Iterate:
     """Newton's method alone from a start (B, N) nearby; what `solve` would approach in increments has not converged."""
     end = _in_chunks(problem, start, tolerance, _SOON)
     found = end.reason == CONVERGED
-    end.reason[found & ((end.unstable > 0) | _wandered(end))] = UNSURE
+    end.reason[found & ((end.unstable > 0) | _wandered(problem, start, end))] = UNSURE
     return end
 
 
@@ -106,7 +106,7 @@ def _in_increments(
         part = _newton(problem.take(active).aim(aim, drives), end.unknowns[active], tolerance, most)
         good = (part.reason == CONVERGED) & (follow | (part.unstable <= 0))
         # A smaller step tells whether one that wandered has found the continuation; the least one is believed.
-        good &= ~_wandered(part) | (step[active] < 2.0 * LEAST_STEP)
+        good &= ~_wandered(problem, end.unknowns[active], part) | (step[active] < 2.0 * LEAST_STEP)
         part.unknowns[~good] = end.unknowns[active[~good]]
         end.put(active, part)
         reached[active[good]] = share[good, 0]
@@ -120,9 +120,18 @@ def _in_increments(
     return end
 
 
-def _wandered(end: Iterate) -> np.ndarray:
-    """Members that took many iterations or went far from their first step."""
-    return (end.iterations > _MANY) | (end.strayed > _FAR)
+def _wandered(problem: Problem, start: Array, end: Iterate) -> np.ndarray:
+    """Members that took many iterations or went far from their first step, begun at `start` (B, N).
+
+    Where there is play the first step goes as far as its soft spring lets it, and comes back from the stop: a member
+    that ends near its start has not wandered then.
+    """
+    far = end.strayed > _FAR
+    if problem.plays:
+        motion = slice(problem.place.platform.stop)
+        way = np.abs((end.unknowns - start)[:, motion] / problem.place.scale[motion])
+        far &= np.max(way, axis=-1, initial=0.0) > SMALL_STEP
+    return (end.iterations > _MANY) | far
 
 
 def _members(end: Iterate, mask: np.ndarray) -> Iterate:

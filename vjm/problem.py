@@ -9,6 +9,7 @@ from functools import cached_property
 import numpy as np
 
 from vjm import lagrangian
+from vjm.clearance import Clearance
 from vjm.frames import POSE_NAMES, Array
 from vjm.lagrangian import ChainRows
 from vjm.mechanism import Mechanism
@@ -68,6 +69,11 @@ class Problem:
     def held(self) -> np.ndarray:
         """(B, 6) coordinates that are held, by their own reading or by a gauge."""
         return (self.channels < 6) | (self.channels >= 12)
+
+    @cached_property
+    def plays(self) -> bool:
+        """Whether a law has a play, nearly free up to its stops."""
+        return any(isinstance(s.law, Clearance) for chain in self.mechanism.chains for s in chain.springs)
 
     def take(self, members: np.ndarray | slice) -> Problem:
         """The load cases with these numbers."""

@@ -13,6 +13,7 @@ from pipeline.diagnose.evidence import RAW
 from pipeline.diagnose.menu import Choice
 from pipeline.diagnose.refuse import judge
 from pipeline.diagnose.search import badness, needed, worse
+from pipeline.diagnose.seen_at import only_place
 from pipeline.inference.driving import column_name
 from vjm.effects.base import Effect
 
@@ -64,7 +65,18 @@ def _evidence(it: Diagnosis) -> Iterator[str]:
         what = f"{name}: {effect.title}, {effect.equation}. In data: {effect.signature}."
         if name == it.found.beyond:
             what += " The tests that were fitted do not show it, those held out need it."
-        yield f"{what}{shows}{again}{_values(it, effect)}"
+        yield f"{what}{shows}{again}{_values(it, effect)}{_where(it, name)}"
+
+
+def _where(it: Diagnosis, name: str) -> str:
+    place = only_place(it.fit, name)
+    if place is None:
+        return ""
+    tests = ", ".join(place.tests)
+    return (
+        f" Only tests at q = {place.q_deg:g}° show it ({tests}): whether it is there at other angles these data do "
+        "not say, the same at another angle would."
+    )
 
 
 def _values(it: Diagnosis, effect: Effect) -> str:

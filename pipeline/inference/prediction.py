@@ -62,7 +62,7 @@ class Prediction:
 
 @dataclass(frozen=True, eq=False)
 class _Part:
-    """One group's share, arrays (T, S, ...)."""
+    """One group's share: arrays (R, ...) of its rows, states (T, S)."""
 
     values: Array
     by_inputs: Array
@@ -102,12 +102,12 @@ def predict(
         begin = None if start is None else start.states[number]
         place, real = program.rows_of(group), group.real
         part = _group(model, program, _shifted(group, out.shift[place]), slopes, begin, order)
-        out.values[place], out.by_inputs[place] = part.values[real], part.by_inputs[real]
-        out.by_free[place] = part.by_free[real]
+        out.values[place], out.by_inputs[place] = part.values, part.by_inputs
+        out.by_free[place] = part.by_free
         count = part.stops.shape[-2]
         if count > out.stops.shape[1]:
             out = replace(out, stops=no_stops(rows, count))
-        out.stops[place, :count] = part.stops[real]
+        out.stops[place, :count] = part.stops
         lost = ~part.state.converged | (part.state.unstable > 0)
         out.lost[place] = lost[real]
         for row, reason in zip(place[lost[real]], part.state.reason[real][lost[real]], strict=True):
@@ -127,11 +127,28 @@ def _group(
     if group.rig.manipulator is not None:
         # Its states have what is asked of those of a bench: unknowns, whether they converged and are stable.
         whole = predict_manipulator(model, group, slopes, cast(States | None, start))
-        return _Part(
-            whole.values, whole.by_inputs, whole.by_free, cast(Equilibrium, whole.state), whole.stops
-        )
-    gauges = program.campaign.gauges
-    mechanism = model.mechanism(group.rig, gauges)
+        real, state = group.real, cast(Equilibrium, whole.state)
+        return _Part(whole.values[real], whole.by_inputs[real], whole.by_free[real], state, whole.stops[real])
+    mechanism = model.mechanism(group.rig, program.campaign.gauges)
+    if not initial_memory(mechanism).size:
+        # Filling would be solved for nothing; it gets the state that it repeats.
+        alone = group.by_steps
+        begin = None if start is None else start.member(np.nonzero(group.real)).reshaped(len(alone.q), 1)
+        part = _of_bench(model, program, alone, mechanism, slopes, begin, order)
+        state = part.state.member((group.places, np.zeros_like(group.places)))
+        return replace(part, state=state)
+    return _of_bench(model, program, group, mechanism, slopes, start, order)
+
+
+def _of_bench(
+    model: Model,
+    program: Program,
+    group: Group,
+    mechanism: Rig,
+    slopes: bool,
+    start: Equilibrium | None,
+    order: int,
+) -> _Part:
     drives = layout(mechanism).drives
     inputs = {"q": np.broadcast_to(group.q[:, None], group.rise.shape), DRIVE: group.rise}
     inputs = {name: value for name, value in inputs.items() if name in drives}
@@ -156,7 +173,8 @@ def _group(
         by = np.zeros((*values.shape, 7 + len(free)))
     warm = by[..., -1:] if DRIVE in drives else np.zeros((*values.shape, 1))
     by_inputs = np.concatenate([by[..., :6], warm], axis=-1)
-    return _Part(values, by_inputs, by[..., 6 : 6 + len(free)], state, stops)
+    real, by_free = group.real, by[..., 6 : 6 + len(free)]
+    return _Part(values[real], by_inputs[real], by_free[real], state, stops[real])
 
 
 def _changes(state: Equilibrium, asked: Sequence[AnyDirection], order: int) -> tuple[Array, Array]:

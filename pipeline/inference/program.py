@@ -46,6 +46,27 @@ class Group:
         """(T, S) steps that are not filling."""
         return np.arange(self.targets.shape[1]) < self.lengths[:, None]
 
+    @cached_property
+    def by_steps(self) -> Group:
+        """Every real step as a test of its own, without filling; numbers are those of their tests."""
+        test, step = np.nonzero(self.real)
+        return Group(
+            self.rig,
+            self.numbers[test],
+            np.ones(test.size, dtype=int),
+            self.targets[test, step][:, None],
+            self.channels[test],
+            self.q[test],
+            self.rise[test, step][:, None],
+        )
+
+    @cached_property
+    def places(self) -> np.ndarray:
+        """(T, S) of each step among the real ones; filling has the place of the step that it repeats."""
+        last = np.cumsum(self.lengths)[:, None] - 1
+        first = last - self.lengths[:, None] + 1
+        return np.asarray(np.minimum(first + np.arange(self.targets.shape[1]), last))
+
 
 @dataclass(frozen=True, eq=False)
 class Program:

@@ -11,7 +11,8 @@ from vjm import paper
 from vjm.clearance import Clearance
 from vjm.contact import Contact
 from vjm.effects.base import for_bars
-from vjm.equilibrium import equilibrium
+from vjm.equilibrium import equilibrium, load_path, nearby
+from vjm.increments import UNSURE
 from vjm.mechanisms.parallelogram import Parallelogram
 from vjm.slides import with_slides
 
@@ -48,6 +49,21 @@ def test_a_state_with_other_slides_serves_as_well() -> None:
     again = equilibrium(second, TARGETS, HELD, with_slides(state, second))
     np.testing.assert_allclose(again.pose, equilibrium(second, TARGETS, HELD).pose, rtol=0, atol=1e-10)
     assert again.iterations.max() <= 5
+
+
+def test_a_first_step_within_the_play_is_no_wandering() -> None:
+    """From inside the play to the stop: the soft spring's step goes 15 mm, the platform 0.02 mm. A way of 15 mm that
+    the platform does go is one."""
+    sliding = for_bars(LINKAGE, lambda link: replace(link, slides=(Clearance(0.01),)))
+    inside, pressed = (LINKAGE.unloaded_pose * [0, 1, 1, 1, 1, 1] + [f, 0, 0, 0, 0, 0] for f in (0.02, 600.0))
+    start = equilibrium(sliding, inside, HELD)
+    found = nearby(sliding, pressed, HELD, start, {}, start.memory)
+    path = np.linspace(inside, pressed, 300)
+    assert found.converged and np.abs(found.pose - start.pose)[0] < 0.03
+    np.testing.assert_allclose(found.pose, load_path(sliding, path, HELD, start).pose[-1], rtol=0, atol=1e-10)
+    wide = for_bars(LINKAGE, lambda link: replace(link, slides=(Clearance(1.0),)))
+    start = equilibrium(wide, inside, HELD)
+    assert nearby(wide, pressed, HELD, start, {}, start.memory).reason == UNSURE
 
 
 def test_another_mechanism_is_refused() -> None:

@@ -69,6 +69,19 @@ def test_friction_is_named() -> None:
     ]
     std = dict(zip([f.name for f in it.model.free], it.fit.std, strict=True))["joint_friction.torque_Nmm"]
     assert abs(value - 200.0) < 3 * std
+    assert any("Only tests at q = 0° show it (swing_q+0):" in said for said in sentences(it))
+
+
+def test_what_several_angles_show_is_there_at_all_of_them() -> None:
+    everywhere = found(
+        bench("joint_friction.torque_Nmm", 200.0, ("swing_q+0", "swing_q+30", "axial_held_q+0"))
+    )
+    assert "joint_friction" in everywhere.sets[0]
+    assert not any("Only tests at q" in said for said in sentences(everywhere))
+    # One angle is all that there is: nothing was left out.
+    one = found(bench("joint_friction.torque_Nmm", 200.0, ("swing_q+0", "axial_held_q+0")))
+    assert "joint_friction" in one.sets[0]
+    assert not any("Only tests at q" in said for said in sentences(one))
 
 
 def test_axial_tests_alone_cannot_tell() -> None:
