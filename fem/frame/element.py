@@ -4,10 +4,14 @@ from collections.abc import Callable
 
 import numpy as np
 
+from fem.frame.batch import Bools
 from fem.frame.local import Reference, curvature_of_strains, elastic, membrane, planes, strains
 from fem.frame.motion import geometric, rates, relative, to_ends
-from fem.frame.so3 import transpose
+from fem.frame.so3 import dot, transpose
 from meshes.solid import Floats
+
+LEAST_COSINE = 0.5
+"""Of the angle between an element and the axis of either end; its chord slopes are sines, small by assumption."""
 
 Correction = Callable[[Floats, Floats, Floats], tuple[Floats, Floats]]
 """What yielding takes from the elastic gradient and Hessian, for strain, membrane strain and its rate."""
@@ -38,6 +42,17 @@ def force_and_tangent(
     hessian += geometric(motion, force, g[..., 3:], spin, turn)
     gradient = (g[..., None, :] @ bent)[..., 0, :]
     return to_ends(motion, np.asarray(gradient), hessian)
+
+
+def turned_over(x: Floats, R: Floats) -> Bools:
+    """(..., n) whether an element lies across the axis of one of its ends or points backwards.
+
+    The strains are the same for an element that points backwards: it is without energy there, and no such bar.
+    """
+    along = x[..., 1:, :] - x[..., :-1, :]
+    least = LEAST_COSINE * np.sqrt(dot(along, along))
+    first, second = dot(along, R[..., :-1, :, 0]), dot(along, R[..., 1:, :, 0])
+    return np.asarray(np.minimum(first, second) < least)
 
 
 def energy(x: Floats, R: Floats, ref: Reference) -> Floats:

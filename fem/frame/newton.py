@@ -21,11 +21,12 @@ MISSED = 1e-9
 """Distance allowed to a prescribed mm or rad; a reading may miss as much force or moment as any node."""
 RUNAWAY = 1e15
 
-CONVERGED, SINGULAR, TOO_MANY = 0, 1, 2
+CONVERGED, SINGULAR, TOO_MANY, TURNED = 0, 1, 2, 3
 REASONS = {
     CONVERGED: "",
     SINGULAR: "the tangent is singular: the prescribed quantities do not hold the linkage",
     TOO_MANY: f"no equilibrium within {ITERATIONS} iterations",
+    TURNED: "an element has turned over: bars bend too sharply for so few elements",
 }
 
 
@@ -123,7 +124,8 @@ def _recorded(
     out.iterations[index] = iteration
     out.residual[index] = error
     out.code[index[lost]] = SINGULAR
-    ready = np.flatnonzero(done)
+    out.code[index[done & system.turned]] = TURNED
+    ready = np.flatnonzero(done & ~system.turned)
     if not len(ready):
         return out
     model, _, state, *_ = parts

@@ -12,7 +12,7 @@ from fem.frame import chain
 from fem.frame.base import base_spring
 from fem.frame.batch import Bools
 from fem.frame.condensation import Condensed, condense
-from fem.frame.element import force_and_tangent
+from fem.frame.element import force_and_tangent, turned_over
 from fem.frame.fibres import yielded
 from fem.frame.joints import joint_forces
 from fem.frame.loads import line_load, point_on_axis
@@ -40,7 +40,8 @@ class System:
     tangent (B, m, m), load (B, m): condensed stiffness and out-of-balance force, without the platform wrench;
     raw (B, m): the same force before condensation; inner (B, K, n - 1, 6): out-of-balance at inner nodes.
     gauge (B, G): coordinates of the gauged points, mm; gauge_rates (B, G, m); gauge_shift (B, G): what the inner
-    out-of-balance adds to them in the next step. slider, plastic: memories that this state would leave.
+    out-of-balance adds to them in the next step. slider, plastic: memories that this state would leave. turned (B,):
+    whether an element has turned over, so that the frame is none.
     """
 
     tangent: Floats
@@ -54,6 +55,7 @@ class System:
     rates: Floats
     slider: Floats
     plastic: Floats
+    turned: Bools
 
 
 def active(model: Model) -> Bools:
@@ -122,6 +124,7 @@ def evaluate(model: Model, unloaded: Unloaded, state: State, dead: Floats) -> Sy
         nodes.rates,
         slider,
         plastic,
+        np.any(turned_over(nodes.x, nodes.R), axis=(1, 2)),
     )
 
 

@@ -106,7 +106,7 @@ def outcome(number: int, commit: str, code: str) -> Outcome:
         answer = diagnose(campaign, Model(), catalogue())
     except (RuntimeError, ArithmeticError, ValueError) as error:
         return Outcome(**common, error=str(error), seconds=round(process_time() - began, 2))
-    sets = tuple(tuple(n for n in names if n != ALWAYS) for names in answer.sets)
+    sets = tuple(tuple(n for n in names if n != ALWAYS) for names in answer.possible)
     score = judged(it, answer.verdict, sets)
     common |= {
         "gamma": _confusable(answer.shelf, it.effects, sizes),

@@ -19,6 +19,7 @@ from pipeline.diagnose.menu import Choice
 from pipeline.diagnose.next_test import NextTest, best_next_test
 from pipeline.diagnose.refuse import Judgement, judge
 from pipeline.diagnose.search import Found, search, taken
+from pipeline.diagnose.sensor_faults import Instead, faults_instead
 from pipeline.diagnose.shelf import Names, Shelf
 from pipeline.diagnose.signatures import Say
 from pipeline.errors import InputError
@@ -37,7 +38,8 @@ FEW = 3
 
 @dataclass(frozen=True, eq=False)
 class Diagnosis:
-    """What was found. sets: the effects to add, the simplest first; one where the verdict is certain.
+    """What was found. sets: the effects to add, the simplest first; one where the verdict is certain. instead: faults
+    of sensors that explain as much as an effect of the best set.
 
     refused: effects that the rig or the campaign cannot have, and why.
     """
@@ -46,6 +48,7 @@ class Diagnosis:
     verdict: Verdict
     found: Found
     sets: tuple[tuple[str, ...], ...]
+    instead: tuple[Instead, ...]
     judgement: Judgement
     alike: tuple[Likeness, ...]
     agreement: Mapping[str, float]
@@ -61,6 +64,11 @@ class Diagnosis:
     def shelf(self) -> Shelf:
         """All that was fitted."""
         return self.found.shelf
+
+    @property
+    def possible(self) -> tuple[tuple[str, ...], ...]:
+        """The sets, and those that need a fault of a sensor beside them."""
+        return (*self.sets, *dict.fromkeys(self.shelf.order(it.without) for it in self.instead))
 
     @property
     def model(self) -> Model:
@@ -85,12 +93,14 @@ def diagnose(
     found = with_what_held_out_tests_need(search(shelf))
     judgement = judge(shelf.fit(found.best))
     sets = sorted((found.best, *found.rivals), key=lambda n: _simplicity(shelf, n))
-    verdict = _verdict(found, judgement)
+    say("what a sensor's fault would explain")
+    instead = faults_instead(found) if judgement.noise else ()
+    verdict = _verdict(found, judgement, instead)
     if verdict != "ambiguous":
         sets = [found.best]
     say("what could be taken for what")
     next_test = None
-    if verdict == "ambiguous":
+    if len(sets) > 1:
         say("the next test")
         next_test = best_next_test([shelf.fit(n) for n in sets[:FEW]], shelf.whole)
     named = tuple(shelf.order(names) for names in sets)
@@ -100,6 +110,7 @@ def diagnose(
         verdict,
         found,
         named,
+        instead,
         judge(shelf.fit(sets[0])),
         tuple(likenesses(shelf, found.best)),
         {name: share for name, share in stable.items() if share is not None},
@@ -125,12 +136,12 @@ def suitable(
     return can, cannot
 
 
-def _verdict(found: Found, judgement: Judgement) -> Verdict:
+def _verdict(found: Found, judgement: Judgement, instead: tuple[Instead, ...]) -> Verdict:
     if not judgement.noise:
         return "unknown"
     if not found.best:
         return "within_noise"
-    return "ambiguous" if found.rivals else "identified"
+    return "ambiguous" if found.rivals or instead else "identified"
 
 
 def _simplicity(shelf: Shelf, names: Names) -> tuple[int, int, float]:
@@ -151,7 +162,7 @@ def answer_of(it: Diagnosis, sentences: tuple[str, ...] = ()) -> Answer:
         verdict=it.verdict,
         effects=it.model.names,
         added=it.sets[0],
-        alternatives=tuple((*shelf.base.names, *names) for names in it.sets[1:]),
+        alternatives=tuple((*shelf.base.names, *names) for names in it.possible[1:]),
         parameters=values,
         error=tuple(error_of(each, whole, len(each.model.free)) for each in steps),
         tests=changes(before, it.fit, whole),

@@ -40,7 +40,7 @@ def scores(found: Fit) -> list[Pattern]:
     whole = found.residual.program
     used = whole.predicted & whole.fitted[:, None]
     weights = whitening(whole, found.prediction)
-    taken = _basis(np.hstack([found.jacobian, found.residual.flat(found.residual.offsets)]))
+    taken = basis(np.hstack([found.jacobian, found.residual.flat(found.residual.offsets)]))
     residual, readings = found.whitened, _expected(found)
     out = []
     for channel in range(whole.measured.shape[1]):
@@ -53,14 +53,14 @@ def scores(found: Fit) -> list[Pattern]:
         sizes, whole_sizes = np.linalg.norm(left, axis=0), np.linalg.norm(columns, axis=0)
         seen = sizes > FLAT * np.maximum(whole_sizes, 1e-300)
         for k in np.flatnonzero(seen):
-            score = _steady(left[:, k], residual)
+            score = steady(left[:, k], residual)
             largest = float(np.abs(errors[..., k]).max())
             words = f"{column_name(channel, whole.campaign.gauges)} {named[k][0]}"
             out.append(Pattern(channel, words, score, score / float(sizes[k]) * largest))
     return sorted(out, key=lambda it: -abs(it.score))
 
 
-def _steady(column: Array, residual: Array) -> float:
+def steady(column: Array, residual: Array) -> float:
     """Sigmas by which a residual (N,) follows a column (N,), without the one reading that says most for it.
 
     A faulty sensor shows in many readings; near a kink of the model a single one may be off by far.
@@ -147,7 +147,8 @@ def _direction(whole: Program, m: Array) -> Array:
     return np.asarray(np.sign(np.where(np.abs(steps) > 0.01, steps, 0.0)))
 
 
-def _basis(columns: Array) -> Array:
+def basis(columns: Array) -> Array:
+    """(N, r) orthonormal basis of the span of columns."""
     sizes = np.maximum(np.linalg.norm(columns, axis=0), 1e-300)
     left, values, _ = np.linalg.svd(columns / sizes, full_matrices=False)
     return np.asarray(left[:, values > 1e-9])

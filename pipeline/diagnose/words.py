@@ -41,7 +41,8 @@ def _verdict(it: Diagnosis) -> Iterator[str]:
     elif it.verdict == "identified":
         yield f"identified: {_and(it.sets[0])}; {fall}."
     elif it.verdict == "ambiguous":
-        sets = " or ".join(_and(names) for names in it.sets)
+        fault = ["a fault of a sensor"] if it.instead else []
+        sets = " or ".join([*(_and(names) for names in it.sets), *fault])
         yield f"ambiguous: {sets}; these tests cannot tell; {fall}."
     elif it.sets[0]:
         rest = "what is left is no noise and nothing known explains it"
@@ -129,7 +130,13 @@ def _described(it: Diagnosis) -> Iterator[str]:
 
 def _rivals(it: Diagnosis) -> Iterator[str]:
     shelf = it.shelf
-    if it.verdict == "ambiguous":
+    for fault in it.instead:
+        yield (
+            f"Instead of {fault.effect} a sensor may be at fault: {fault.words}. That takes {fault.explains:.3g} off "
+            f"chi-square with one number, {fault.effect} {fault.of:.3g}: check that sensor, or measure again with "
+            "another."
+        )
+    if len(it.sets) > 1:
         least = min(map(frozenset, it.sets), key=lambda names: badness(shelf, names))
         for names in it.sets:
             more = worse(shelf, frozenset(names), least)
@@ -147,7 +154,7 @@ def _rivals(it: Diagnosis) -> Iterator[str]:
 
 
 def _next(it: Diagnosis) -> Iterator[str]:
-    if it.verdict != "ambiguous":
+    if len(it.sets) < 2:
         return
     if it.next_test is None or not it.next_test.apart:
         yield "No test of these kinds tells them apart on this rig: measure the part itself."

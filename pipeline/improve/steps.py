@@ -24,7 +24,7 @@ class Step:
 def certain(it: Diagnosis) -> Names:
     """Effects that the diagnosis is certain of: all of one set, what all of several share, none of the unknown."""
     if it.verdict in ("identified", "ambiguous"):
-        return frozenset.intersection(*(frozenset(names) for names in it.sets))
+        return frozenset.intersection(*(frozenset(names) for names in it.possible))
     return frozenset()
 
 

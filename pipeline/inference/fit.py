@@ -30,6 +30,8 @@ SETTLE = 3
 """Times that a fit is linearised anew before it ends."""
 LOSING, LOSSES = 1.0, 8
 """Damping after a step on which rows lost their equilibrium, and how often that may be before a fit ends there."""
+MOST = 100.0
+"""Damping, at most, that one step not taken asks for: of as much of it as a parabola through both ends wants."""
 HELD = 0.1
 """Of the number that shows most, in typical sizes each: a damped step takes no other for less."""
 LATE, DRAGGING = 10, 0.01
@@ -191,7 +193,8 @@ def _descend(aim: Objective, watch: Callable[[str], None] | None, plausible: flo
         else:
             # Beyond what the linkage bears every row costs many tries: back at once, and no soon return.
             losing = aim.lost > lost
-            damping = max(10.0 * damping, LOSING if losing else 1e-2)
+            curved = min(1.0 - float(gain / promise), MOST)
+            damping = max(10.0 * damping, LOSING if losing else max(1e-2, curved))
             least, losses = (damping, losses + 1) if losing else (least, losses)
             aim.back(place)
         past.append(float(here @ here))

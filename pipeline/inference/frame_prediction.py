@@ -9,7 +9,7 @@ from fem.frame.errors import Errors
 from fem.frame.rig import Gauge as FrameGauge
 from pipeline.campaign.names import DISPLACEMENT, SUPPORT
 from pipeline.inference.manipulator_linear import by_frame, predict_constant
-from pipeline.inference.prediction import Prediction, no_stops, zeroed
+from pipeline.inference.prediction import Prediction, no_slides, no_stops, zeroed
 from pipeline.inference.program import INPUTS, Program
 from pipeline.virtual.bench import frame_rig
 
@@ -47,6 +47,7 @@ def predict_frame(program: Program, tangent: Prediction) -> Prediction:
         np.zeros((*values.shape, 0)),
         np.zeros((len(values), INPUTS)),
         no_stops(len(values)),
+        no_slides(len(values)),
         lost,
         reasons,
         (),

@@ -5,15 +5,19 @@ measured ones does not point: within a play of ± 10 µm a force of half a newto
 with a noise of one. What a row prescribed as force is then better looked for from the displacement that was measured
 with it: solved with displacements prescribed, the model says which forces it takes to be where the platform was.
 Rows that press other stops there are tried from there as well, those charged for the stop that they press
-(`pipeline.inference.residual`) from the measured inputs, and keep what leaves the lesser chi-square.
+(`pipeline.inference.residual`) from the measured inputs, and keep what leaves the lesser chi-square. A row that fits
+badly with a slide inside its play may belong to one of its stops, where a displacement that was prescribed is read with
+a noise as large as the play: it is tried from the nearest inputs at which the slide touches.
 """
 
 from __future__ import annotations
 
 from dataclasses import replace
+from itertools import product
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.stats import chi2
 
 from pipeline.inference.model import Model
 from pipeline.inference.parts import ARRAYS, states_at, states_with
@@ -23,6 +27,14 @@ from pipeline.inference.residual import Residual, residual
 
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
+BADLY = 1e-3
+"""Chance that noise makes a row so bad that other sides are tried: sides tried for all rows would take up noise."""
+MOST = 0.5
+"""Part of the rows: a model that fits fewer has other faults than their sides."""
+WITHIN = 4.0
+"""Sigmas of the inputs within which a stop may have been touched."""
+OVER = 0.01
+"""Of half the play, by which the stop is passed, so that the slide is at it."""
 
 
 def linearised(
@@ -45,9 +57,28 @@ def linearised(
         (residual(cases, here).charge > 0.0, np.zeros_like(cases.input_sigma)),
     ):
         here = _better(model, cases, here, _whole(cases, rows), other, reached)
+    for play, side in product(range(here.slides.shape[1]), (1.0, -1.0)):
+        rows, other = _touching(cases, here, play, side)
+        here = _better(model, cases, here, _whole(cases, rows), other, here)
     if slopes:
         here = predict(model, cases, start=here, shift=here.shift)
     return here, residual(cases, here)
+
+
+def _touching(cases: Program, here: Prediction, play: int, side: float) -> tuple[Mask, Array]:
+    """(R,) rows that fit badly with this slide inside its play, and the shift (R, 7) to the nearest inputs, in their
+    sigmas, at which it touches the stop on that side; none that are far, and none where the model fits no row."""
+    strain, half, slope = here.slides[:, play, 0], here.slides[:, play, 1], here.slides[:, play, 2:]
+    count = np.sum(cases.predicted, axis=1)
+    bad = _squares(residual(cases, here)) > chi2.isf(BADLY, np.maximum(count, 1))
+    inside = (np.abs(strain) < half) & np.isfinite(half) & ~here.lost
+    rows = bad & inside & (np.mean(bad) < MOST)
+    gap = np.where(rows, side * (1.0 + OVER) * half - strain, 0.0)
+    moved = cases.input_sigma**2 * slope
+    variance = np.sum(slope * moved, axis=1)
+    rows &= (gap**2 < WITHIN**2 * variance) & (variance > 0.0)
+    way = np.divide(gap, variance, out=np.zeros_like(gap), where=rows)
+    return rows, here.shift + way[:, None] * moved
 
 
 def _better(

@@ -6,7 +6,7 @@ import numpy as np
 
 from pipeline.inference.manipulator_linear import by_springs, predict_constant
 from pipeline.inference.model import Model
-from pipeline.inference.prediction import Prediction, no_stops, zeroed
+from pipeline.inference.prediction import Prediction, no_slides, no_stops, zeroed
 from pipeline.inference.program import INPUTS, Group, Program
 from vjm.equilibrium import equilibrium
 from vjm.lagrangian import layout
@@ -36,7 +36,7 @@ def predict_linear(program: Program) -> Prediction:
         for row, reason in zip(place, np.broadcast_to(why[:, None], real.shape)[real], strict=True):
             if reason:
                 lost[row], reasons[int(row)] = True, str(reason)
-    empty = np.zeros((rows, channels, 0)), np.zeros((rows, INPUTS)), no_stops(rows)
+    empty = np.zeros((rows, channels, 0)), np.zeros((rows, INPUTS)), no_stops(rows), no_slides(rows)
     plain = Prediction(values, by_inputs, *empty, lost, reasons, ())
     return zeroed(plain, program)
 

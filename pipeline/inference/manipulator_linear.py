@@ -7,7 +7,7 @@ from collections.abc import Callable
 import numpy as np
 from numpy.typing import NDArray
 
-from pipeline.inference.prediction import Prediction, no_stops, zeroed
+from pipeline.inference.prediction import Prediction, no_slides, no_stops, zeroed
 from pipeline.inference.program import INPUTS, Group, Program
 from pipeline.manipulator.frame import frame_stiffness
 from vjm.manipulator.parts import Manipulator
@@ -48,7 +48,7 @@ def predict_constant(program: Program, stiffness: Stiffness) -> Prediction:
         predicted, tangent = solved(group, stiffness(group.rig.manipulator, group.nominal[0, 0]))
         values[place] = predicted[real]
         by_inputs[place, :, :6] = np.broadcast_to(tangent[:, None], (*real.shape, channels, 6))[real]
-    empty = np.zeros((rows, channels, 0)), np.zeros((rows, INPUTS)), no_stops(rows)
+    empty = np.zeros((rows, channels, 0)), np.zeros((rows, INPUTS)), no_stops(rows), no_slides(rows)
     return zeroed(Prediction(values, by_inputs, *empty, np.zeros(rows, dtype=bool), {}, ()), program)
 
 

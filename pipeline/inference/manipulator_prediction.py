@@ -23,7 +23,7 @@ from vjm.manipulator.loops import looped
 from vjm.manipulator.parts import Manipulator
 from vjm.manipulator.posture import Postures, postures
 from vjm.manipulator.sensitivity import readings_along, unknowns_by_targets
-from vjm.stops import pressed
+from vjm.stops import pressed, slid
 
 Array = NDArray[np.float64]
 STEP = 1e-3
@@ -35,14 +35,15 @@ TOGETHER = 64
 
 @dataclass(frozen=True, eq=False)
 class ManipulatorPart:
-    """One group's share, arrays (T, S, ...): readings less the nominal pose, derivatives, the states, and stops as in
-    `pipeline.inference.prediction.Prediction`."""
+    """One group's share, arrays (T, S, ...): readings less the nominal pose, derivatives, the states, stops and
+    slides as in `pipeline.inference.prediction.Prediction`."""
 
     values: Array
     by_inputs: Array
     by_free: Array
     state: States
     stops: Array
+    slides: Array
 
 
 def predict_manipulator(
@@ -57,13 +58,13 @@ def predict_manipulator(
     states = found.states
     values = found.readings - np.pad(group.nominal, ((0, 0), (0, 0), (0, 6)))
     by_inputs = np.zeros((*values.shape, INPUTS))
-    by_inputs[..., :6], stops = found.slopes
+    by_inputs[..., :6], stops, slides = found.slopes
     by_inputs[..., 6] = _by_heat(whole, group, states)
     count = len(model.free) if slopes else 0
     by_free = np.zeros((*values.shape, count))
     for number in range(count):
         by_free[..., number] = _by_number(model, number, group, states)
-    return ManipulatorPart(values, by_inputs, by_free, states, stops)
+    return ManipulatorPart(values, by_inputs, by_free, states, stops, slides)
 
 
 def _whole(model: Model, group: Group) -> Manipulator:
@@ -101,21 +102,25 @@ class _Solved:
         return out
 
     @property
-    def slopes(self) -> tuple[Array, Array]:
-        """(T, S, 12, 6) derivative of the readings by the targets, and (T, S, K, 8) how hard stops are pressed; zero
-        where there is no equilibrium."""
-        tangent, stops = np.zeros((*self.shape, 12, 6)), np.zeros((*self.shape, 0, 1 + INPUTS))
+    def slopes(self) -> tuple[Array, Array, Array]:
+        """(T, S, 12, 6) derivative of the readings by the targets, (T, S, K, 8) how hard stops are pressed and
+        (T, S, K, 9) where the slides are; zero where there is no equilibrium."""
+        tangent = np.zeros((*self.shape, 12, 6))
+        stops, slides = (np.zeros((*self.shape, 0, count + INPUTS)) for count in (1, 2))
         for piece in self.pieces:
             part, place = piece.converged()
             if not len(part.unknowns):
                 continue
             change = unknowns_by_targets(part, piece.held)
             tangent[place] = readings_along(part, change)
-            force, slope = pressed(part, change)
+            force, pressing = pressed(part, change)
+            strain, half, sliding = slid(part, change)
             if stops.shape[2] != force.shape[1]:
-                stops = np.zeros((*self.shape, force.shape[1], 1 + INPUTS))
-            stops[place] = np.concatenate([force[..., None], slope, np.zeros((*force.shape, 1))], axis=-1)
-        return tangent, stops
+                stops, slides = (np.zeros((*self.shape, force.shape[1], n + INPUTS)) for n in (1, 2))
+            cold, width = np.zeros((*force.shape, 1)), np.broadcast_to(half, force.shape)[..., None]
+            stops[place] = np.concatenate([force[..., None], pressing, cold], axis=-1)
+            slides[place] = np.concatenate([strain[..., None], width, sliding, cold], axis=-1)
+        return tangent, stops, slides
 
     @property
     def states(self) -> States:

@@ -18,7 +18,7 @@ from pipeline.inference.program import Program
 from vjm.equilibrium import Equilibrium
 
 Rows = NDArray[np.int64]
-ARRAYS = ("values", "by_inputs", "by_free", "shift", "stops", "lost")
+ARRAYS = ("values", "by_inputs", "by_free", "shift", "stops", "slides", "lost")
 """Of a prediction, by rows."""
 
 

@@ -25,7 +25,7 @@ from vjm.lagrangian import layout
 from vjm.mechanism import initial_memory
 from vjm.sensitivity import TARGETS, AnyDirection, Direction, DriveDirection, by_parameters
 from vjm.slides import with_slides
-from vjm.stops import pressed
+from vjm.stops import pressed, slid
 
 Array = NDArray[np.float64]
 _KELVIN = 1.0
@@ -47,6 +47,8 @@ class Prediction:
     same step, and by its temperature. by_free: (R, C, P), empty where not asked for. shift: (R, 7) by which
     inputs differ from the measured ones. stops: (R, K, 8) force, N, by which a stop is pressed at each play, with the
     sign of the stop and zero where none is, and its derivatives by the inputs; infinite where there is no play.
+    slides: (R, K, 9) strain of each play, mm, half its width, and derivatives of the strain by the inputs; the width is
+    infinite where there is no play.
     lost: (R,) rows without a stable equilibrium. reasons: of the lost rows. states: of each group, to start from again.
     """
 
@@ -55,6 +57,7 @@ class Prediction:
     by_free: Array
     shift: Array
     stops: Array
+    slides: Array
     lost: np.ndarray
     reasons: dict[int, str]
     states: tuple[Equilibrium, ...]
@@ -69,6 +72,7 @@ class _Part:
     by_free: Array
     state: Equilibrium
     stops: Array
+    slides: Array
 
 
 def predict(
@@ -93,6 +97,7 @@ def predict(
         np.zeros((rows, channels, count)),
         np.zeros((rows, INPUTS)) if shift is None else shift,
         no_stops(rows),
+        no_slides(rows),
         np.zeros(rows, dtype=bool),
         {},
         (),
@@ -106,8 +111,8 @@ def predict(
         out.by_free[place] = part.by_free
         count = part.stops.shape[-2]
         if count > out.stops.shape[1]:
-            out = replace(out, stops=no_stops(rows, count))
-        out.stops[place, :count] = part.stops
+            out = replace(out, stops=no_stops(rows, count), slides=no_slides(rows, count))
+        out.stops[place, :count], out.slides[place, :count] = part.stops, part.slides
         lost = ~part.state.converged | (part.state.unstable > 0)
         out.lost[place] = lost[real]
         for row, reason in zip(place[lost[real]], part.state.reason[real][lost[real]], strict=True):
@@ -121,6 +126,13 @@ def no_stops(rows: int, plays: int = PLAYS) -> Array:
     return np.concatenate([np.full((rows, plays, 1), np.inf), np.zeros((rows, plays, INPUTS))], axis=-1)
 
 
+def no_slides(rows: int, plays: int = PLAYS) -> Array:
+    """`Prediction.slides` without plays."""
+    out = np.zeros((rows, plays, 2 + INPUTS))
+    out[..., 1] = np.inf
+    return out
+
+
 def _group(
     model: Model, program: Program, group: Group, slopes: bool, start: Equilibrium | None, order: int
 ) -> _Part:
@@ -128,7 +140,8 @@ def _group(
         # Its states have what is asked of those of a bench: unknowns, whether they converged and are stable.
         whole = predict_manipulator(model, group, slopes, cast(States | None, start))
         real, state = group.real, cast(Equilibrium, whole.state)
-        return _Part(whole.values[real], whole.by_inputs[real], whole.by_free[real], state, whole.stops[real])
+        rows = whole.values[real], whole.by_inputs[real], whole.by_free[real]
+        return _Part(*rows, state, whole.stops[real], whole.slides[real])
     mechanism = model.mechanism(group.rig, program.campaign.gauges)
     if not initial_memory(mechanism).size:
         # Filling would be solved for nothing; it gets the state that it repeats.
@@ -161,12 +174,12 @@ def _of_bench(
     if initial_memory(mechanism).size:
         state = history(mechanism, group, inputs, begin)
         by = by_history(state, asked, order) if asked else np.zeros((*state.readings.shape, 0))
-        stops = np.zeros((*group.rise.shape, 0, 1 + INPUTS))
+        stops, slides = (np.zeros((*group.rise.shape, 0, count + INPUTS)) for count in (1, 2))
     else:
         state = equilibrium(mechanism, group.targets, group.channels[:, None], begin, drives=inputs)
         state = _branched(mechanism, group, inputs, state)
         by, change = _changes(state, asked, order)
-        stops = _stops(state, change, DRIVE in drives)
+        stops, slides = _stops(state, change, DRIVE in drives)
     values = state.readings.copy()
     values[..., :6] -= group.nominal
     if not asked:
@@ -174,7 +187,7 @@ def _of_bench(
     warm = by[..., -1:] if DRIVE in drives else np.zeros((*values.shape, 1))
     by_inputs = np.concatenate([by[..., :6], warm], axis=-1)
     real, by_free = group.real, by[..., 6 : 6 + len(free)]
-    return _Part(values[real], by_inputs[real], by_free[real], state, stops[real])
+    return _Part(values[real], by_inputs[real], by_free[real], state, stops[real], slides[real])
 
 
 def _changes(state: Equilibrium, asked: Sequence[AnyDirection], order: int) -> tuple[Array, Array]:
@@ -185,11 +198,22 @@ def _changes(state: Equilibrium, asked: Sequence[AnyDirection], order: int) -> t
     return found.readings, found.unknowns
 
 
-def _stops(state: Equilibrium, unknowns: Array, heated: bool) -> Array:
-    """(T, S, K, 8) as in `Prediction`, from the derivatives of the unknowns in the directions asked for."""
-    force, slope = pressed(state, unknowns)
-    warm = slope[..., -1:] if heated else np.zeros((*force.shape, 1))
-    return np.concatenate([force[..., None], slope[..., :6], warm], axis=-1)
+def _stops(state: Equilibrium, unknowns: Array, heated: bool) -> tuple[Array, Array]:
+    """(T, S, K, 8) and (T, S, K, 9) as in `Prediction`, from the derivatives of the unknowns in the directions asked
+    for."""
+    force, pressing = pressed(state, unknowns)
+    strain, half, sliding = slid(state, unknowns)
+    width = np.broadcast_to(half, strain.shape)
+    return (
+        np.concatenate([force[..., None], _inputs(pressing, heated)], axis=-1),
+        np.concatenate([strain[..., None], width[..., None], _inputs(sliding, heated)], axis=-1),
+    )
+
+
+def _inputs(slopes: Array, heated: bool) -> Array:
+    """(..., 7) by the targets and, where there is heat, by the temperature, of slopes in the directions asked for."""
+    warm = slopes[..., -1:] if heated else np.zeros((*slopes.shape[:-1], 1))
+    return np.concatenate([slopes[..., :6], warm], axis=-1)
 
 
 def _branched(mechanism: Rig, group: Group, inputs: dict[str, Array], state: Equilibrium) -> Equilibrium:

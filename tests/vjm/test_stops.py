@@ -20,7 +20,7 @@ from vjm.manipulator.posture import postures
 from vjm.manipulator.sensitivity import unknowns_by_targets
 from vjm.mechanisms.parallelogram import Parallelogram as Bench
 from vjm.sensitivity import by_targets
-from vjm.stops import pressed
+from vjm.stops import pressed, slid
 
 HELD = ("y", "z", "rx", "ry", "rz")
 
@@ -49,6 +49,27 @@ def test_how_hard_stops_are_pressed_and_how_that_changes() -> None:
         differences = (forces(change)[0] - forces(-change)[0])[away] / (2.0 * step)
         np.testing.assert_allclose(
             slope[away][..., k], differences, rtol=1e-3, atol=1e-3 * abs(slope[..., k]).max()
+        )
+
+
+def test_where_the_slides_are_and_how_that_changes() -> None:
+    """Strains inside and outside the play, with the slopes of differences."""
+    linkage = Bench(310.0, 80.0, paper.BAR_STIFFNESS, q=np.radians(15))
+    sliding = for_bars(linkage, lambda link: replace(link, slides=(Clearance(0.01),)))
+    targets = linkage.unloaded_pose * [0, 1, 1, 1, 1, 1] + np.outer([-0.2, 0.1, 900.0], np.eye(6)[0])
+
+    def strains(change: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        state = parallel.equilibrium(sliding, targets + change, HELD)
+        return slid(state, by_targets(state).unknowns)
+
+    here, half, slope = strains(np.zeros(6))
+    assert here.shape == (3, 2) and half.tolist() == [0.01, 0.01]
+    assert (np.abs(here[:2]) < 0.01).all() and (np.abs(here[2]) > 0.01).all()
+    for k, step in enumerate([0.01, 1e-5, 1e-5, 1e-7, 1e-7, 1e-7]):
+        change = step * np.eye(6)[k]
+        differences = (strains(change)[0] - strains(-change)[0]) / (2.0 * step)
+        np.testing.assert_allclose(
+            slope[..., k], differences, rtol=1e-3, atol=1e-3 * abs(slope[..., k]).max()
         )
 
 

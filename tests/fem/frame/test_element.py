@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from fem.frame.base import base_spring
-from fem.frame.element import energy, force_and_tangent
+from fem.frame.element import energy, force_and_tangent, turned_over
 from fem.frame.fibres import Fibres, grid, yielded
 from fem.frame.local import Reference
 from fem.frame.motion import geometric, rates, relative, to_ends
@@ -178,3 +178,14 @@ def test_tangent_of_yielding_elements(bar: tuple[Reference, Floats, Floats]) -> 
     )
     product = np.einsum("ei,eij,ej->", ends[0, 0], tangent[0, 0], ends[0, 0])
     assert (up - down) / (2 * size) == pytest.approx(product, rel=1e-5)
+
+
+def test_an_element_that_points_backwards_is_seen(bar: tuple[Reference, Floats, Floats]) -> None:
+    """Its strains are those of one that points forwards, its energy is none; bent bars have no such element."""
+    _, x, R = bar
+    assert not turned_over(x, R).any()
+    straight = Bars.of([[SECTION]], np.zeros((1, 2)), 8)
+    x, R = bowed_axis(straight, LENGTHS)
+    x[..., 4:, :] -= 2.0 * (x[..., 4:5, :] - x[..., 3:4, :])
+    assert np.abs(energy(x, R, reference(straight, LENGTHS))).max() < 1e-9
+    assert turned_over(x, R)[0, 0].tolist() == [False, False, False, True, False, False, False, False]

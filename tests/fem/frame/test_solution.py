@@ -14,7 +14,8 @@ from fem.frame.control import GAUGE as GAUGE_0
 from fem.frame.errors import Errors
 from fem.frame.history import settled, unloaded_bars
 from fem.frame.linkages import Setup, model
-from fem.frame.rig import Gauge
+from fem.frame.rig import Gauge, Rig
+from fem.frame.section import uniform
 from tests.fem.frame.rigs import ORTHOGLIDE, control, measure, parallelogram, steps
 
 RIG = parallelogram(ORTHOGLIDE)
@@ -172,3 +173,24 @@ def test_a_gauge_is_zero_in_the_unloaded_state() -> None:
     gauge = Gauge("mid", 1, 0.5, (0.0, 1.0, 0.0))
     found = measure(RIG, ("z",), steps(z=0.0), 0, effects, gauges=(gauge,))
     np.testing.assert_allclose(found.gauges, 0.0, atol=1e-9)
+
+
+def test_a_load_reversed_through_the_play_turns_no_element_over() -> None:
+    """Short stiff bars with play on a soft base, pulled with 10 kN and pushed with 10 kN at the next step: Newton's
+    method may end with one element of each bar pointing backwards, 28 mm away, in balance and stable."""
+    bar = uniform(EA=9474782.27, EIy=662925701.17, EIz=149158282.76, GJ=35797987.86)
+    rig = Rig("parallelogram", 186.4, bar, 58.2)
+    effects = {
+        "joint_clearance.play_mm": 0.006148,
+        "base_compliance.x_mm_per_N": 7.3646e-07,
+        "base_compliance.y_mm_per_N": 1.58618e-06,
+        "base_compliance.z_mm_per_N": 1.35196e-06,
+        "base_compliance.rx_rad_per_Nmm": 3.8043e-10,
+        "base_compliance.ry_rad_per_Nmm": 3.9475e-10,
+        "base_compliance.rz_rad_per_Nmm": 7.9734e-10,
+    }
+    forces = [0.0, 20985.46, 31478.19, 10492.73, -10492.73, -31478.19, -20985.46, 0.0]
+    found = measure(rig, GUIDED, steps(x=forces), -30.0, effects)
+    x = found.displacement[:, 0]
+    assert found.negative.max() == 0
+    np.testing.assert_allclose(x[[3, 2]], -x[[4, 5]], rtol=5e-3)

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from pipeline.compare.error import Discrepancy
-from pipeline.inference.prediction import Prediction, no_stops
+from pipeline.inference.prediction import Prediction, no_slides, no_stops
 from pipeline.inference.program import INPUTS, Program, program
 from tests.pipeline.bench import bench
 
@@ -22,6 +22,7 @@ def planted(cases: Program, difference: np.ndarray, inputs: float = 0.0) -> Pred
         np.zeros((rows, channels, 0)),
         np.zeros((rows, INPUTS)),
         no_stops(rows),
+        no_slides(rows),
         np.zeros(rows, dtype=bool),
         {},
         (),
