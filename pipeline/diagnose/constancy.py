@@ -11,8 +11,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from pipeline.diagnose.patterns import FLAT, basis, steady
+from pipeline.diagnose.patterns import FLAT, steady
 from pipeline.inference.fit import Fit
+from pipeline.inference.span import basis
 
 
 @dataclass(frozen=True)

@@ -17,6 +17,7 @@ from pipeline.inference.driving import column_name
 from pipeline.inference.fit import Fit
 from pipeline.inference.program import Program
 from pipeline.inference.residual import whitening
+from pipeline.inference.span import basis
 
 Array = NDArray[np.float64]
 LAG = 0.7
@@ -145,10 +146,3 @@ def _direction(whole: Program, m: Array) -> Array:
     steps = np.diff(m, prepend=0.0)
     steps[whole.first[:-1]] = m[whole.first[:-1]]
     return np.asarray(np.sign(np.where(np.abs(steps) > 0.01, steps, 0.0)))
-
-
-def basis(columns: Array) -> Array:
-    """(N, r) orthonormal basis of the span of columns."""
-    sizes = np.maximum(np.linalg.norm(columns, axis=0), 1e-300)
-    left, values, _ = np.linalg.svd(columns / sizes, full_matrices=False)
-    return np.asarray(left[:, values > 1e-9])

@@ -13,9 +13,9 @@ from scipy.optimize import lsq_linear
 
 from pipeline.diagnose.signatures import Look, Signature
 from pipeline.inference.fit import Fit
+from pipeline.inference.span import RANK, basis
 
 Array = NDArray[np.float64]
-RANK = 1e-8
 
 
 @dataclass(frozen=True)
@@ -54,12 +54,12 @@ class Picture:
     @cached_property
     def _small(self) -> tuple[Array, dict[str, list[Array]]]:
         """Residual and columns, free of what the fit can move, in an orthonormal basis of all columns."""
-        free = _basis(self.base)
+        free = basis(self.base)
         every = [c for s in self.signatures.values() for c in s.columns]
         flat = np.hstack([np.zeros((self.residual.size, 0)), *every])
         flat = flat - free @ (free.T @ flat)
-        basis, _ = np.linalg.qr(flat)
-        small = basis.T @ flat
+        axes, _ = np.linalg.qr(flat)
+        small = axes.T @ flat
         place = 0
         out: dict[str, list[Array]] = {}
         for name, signature in self.signatures.items():
@@ -68,7 +68,7 @@ class Picture:
                 out[name].append(small[:, place : place + columns.shape[1]])
                 place += columns.shape[1]
         rest = self.residual - free @ (free.T @ self.residual)
-        return basis.T @ rest, out
+        return axes.T @ rest, out
 
     def gain(self, names: Sequence[str]) -> Gain:
         """By how much chi-square of the whole campaign falls when these effects are added together."""
@@ -108,15 +108,6 @@ def picture(found: Fit, every: Sequence[Signature], at: Look, rescues: Mapping[s
     return Picture(
         found, {s.effect.name: s for s in every}, it.values[rows][mask], base, tests, share, rescues
     )
-
-
-def _basis(columns: Array) -> Array:
-    """(N, r) orthonormal basis of the span of columns."""
-    if not columns.shape[1]:
-        return columns
-    sizes = np.maximum(np.linalg.norm(columns, axis=0), 1e-300)
-    left, values, _ = np.linalg.svd(columns / sizes, full_matrices=False)
-    return np.asarray(left[:, values > RANK])
 
 
 def _fall(matrix: Array, residual: Array, low: Array) -> float:

@@ -67,7 +67,8 @@ def linearised(
 
 def _touching(cases: Program, here: Prediction, play: int, side: float) -> tuple[Mask, Array]:
     """(R,) rows that fit badly with this slide inside its play, and the shift (R, 7) to the nearest inputs, in their
-    sigmas, at which it touches the stop on that side; none that are far, and none where the model fits no row."""
+    sigmas, at which it touches the stop on that side; none that are far, and none where half of all rows fit
+    badly: there the model is wrong, not a stop missed."""
     strain, half, slope = here.slides[:, play, 0], here.slides[:, play, 1], here.slides[:, play, 2:]
     count = np.sum(cases.predicted, axis=1)
     bad = _squares(residual(cases, here)) > chi2.isf(BADLY, np.maximum(count, 1))
