@@ -25,8 +25,9 @@ from vjm.frames import Array
 from vjm.laws import Response, block_diagonal
 from vjm.section import Section
 
-STATIONS = 9
-"""Along the bending part of a segment, its ends among them, where the largest strains of a bar are."""
+STATIONS = 15
+"""Along the bending part of a segment, its ends among them, where the largest strains of a bar are. They find where
+the plastic zone ends within the segment: the plastic deflection of a cantilever to 5e-4, with nine to 2.4e-3."""
 _PLACES, _SHARES = lobatto(STATIONS)
 
 

@@ -265,7 +265,8 @@ def test_a_bar_yields_at_its_outer_fibre() -> None:
     loads = [0.99 * first, 1.0, 1.3 * first, 0.0]
     effects = {"material_yield.strain": limit}
     turn, elastic = (measure(rig, (), steps(rz=loads), 0, e).displacement[:, 5] for e in (effects, {}))
-    np.testing.assert_allclose(turn[:2], elastic[:2], rtol=1e-9)
+    # The second keeps the rounding of the first, some thousand times larger.
+    np.testing.assert_allclose(turn[:2], elastic[:2], rtol=1e-9, atol=1e-11 * elastic[0])
     assert turn[2] > 1.02 * elastic[2]
     # Unloading is elastic: what stays is what was lost.
     assert turn[3] == pytest.approx(turn[2] - elastic[2], rel=1e-6)

@@ -14,10 +14,11 @@ import pytest
 from scipy.integrate import quad
 from scipy.optimize import brentq
 
+from vjm import yielding
 from vjm.effects import catalogue
 from vjm.effects.base import Rig
 from vjm.equilibrium import load_path
-from vjm.fibres import HARDENING, Fibres
+from vjm.fibres import HARDENING, Fibres, lobatto
 from vjm.mechanisms.bar import Bar
 from vjm.refined import Refined
 
@@ -100,6 +101,23 @@ def test_a_cantilever_under_a_force_at_its_tip(share: float) -> None:
     assert path.pose[0, 1] == pytest.approx(deflection(moment), rel=LAYERS)
     # Nor is this the elastic one: at 1.45 M_y the plastic part is a seventh of it.
     assert exact > elastic * (1.003 if share < 1.2 else 1.03)
+
+
+def test_the_stations_resolve_the_edge_of_the_plastic_zone(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Wherever it ends within a segment, four times as many move the tip by a thousandth of the plastic part."""
+    forces = np.linspace(1.05, 1.45, 9)[:, None] * M_Y / LENGTH * np.eye(6)[1]
+
+    def deflection(it: Rig) -> np.ndarray:
+        paths = [load_path(it, force[None], ()) for force in forces]
+        assert all(path.converged.all() for path in paths)
+        return np.array([path.pose[0, 1] for path in paths])
+
+    found = deflection(bar())
+    plastic = found - deflection(Bar(LENGTH, stiffness(), bar=Refined(6)))
+    places, shares = lobatto(4 * yielding.STATIONS)
+    for name, value in (("STATIONS", len(places)), ("_PLACES", places), ("_SHARES", shares)):
+        monkeypatch.setattr(yielding, name, value)
+    np.testing.assert_allclose(deflection(bar()), found, rtol=0, atol=1e-3 * plastic.max())
 
 
 def test_unloading_is_elastic_and_leaves_a_set() -> None:
