@@ -240,11 +240,28 @@ def with_rivals(shelf: Shelf, best: Names) -> Found:
         ]
         for e in near[: None if few else WIDTH]:
             shelf.fit(e.names, e.probes)
+    if _few(shelf):
+        _fit_together(shelf, best)
     winner = min(shelf.fits, key=lambda names: cost(shelf, names))
     if winner != best:
         return with_rivals(shelf, winner)
     simple = [n for n in shelf.fits if len(n) <= len(best) or taken(shelf, n) <= taken(shelf, best)]
     return Found(shelf, best, tuple(sorted(possible(shelf, simple, best), key=lambda n: badness(shelf, n))))
+
+
+def _fit_together(shelf: Shelf, best: Names) -> None:
+    """Fit those that explain only together and take no more numbers than the best set: one of many numbers, that is
+    looked at alone, would hide them."""
+    root, room = _root(shelf, best), taken(shelf, best)
+    begun = [
+        n
+        for n in shelf.fits
+        if n != root and _root(shelf, n) == root and taken(shelf, n) < room and not _is_noise(shelf, n)
+    ]
+    for start in sorted(begun, key=lambda names: cost(shelf, names))[:BEAM]:
+        for e in _estimates(shelf, start, (1,)):
+            if e.names != start and taken(shelf, e.names) <= room:
+                shelf.fit(e.names, e.probes)
 
 
 def possible(shelf: Shelf, sets: list[Names], best: Names) -> list[Names]:

@@ -30,8 +30,10 @@ SETTLE = 3
 """Times that a fit is linearised anew before it ends."""
 LOSING, LOSSES = 1.0, 8
 """Damping after a step on which rows lost their equilibrium, and how often that may be before a fit ends there."""
-MOST = 100.0
-"""Damping, at most, that one step not taken asks for: of as much of it as a parabola through both ends wants."""
+SHORTEST = 0.03
+"""Of a step not taken, at least, that the next one takes: else as much as a parabola through both its ends wants."""
+WEAK = 1e-10
+"""Damping that a step is first shortened by: along what the data hardly see the least shortens most."""
 HELD = 0.1
 """Of the number that shows most, in typical sizes each: a damped step takes no other for less."""
 LATE, DRAGGING = 10, 0.01
@@ -171,10 +173,15 @@ def _descend(aim: Objective, watch: Callable[[str], None] | None, plausible: flo
     here = pulled.residuals(values)
     slopes, lost, place = pulled.jacobian(values), aim.lost, aim.place
     for _ in range(STEPS):
-        step = _step(slopes, here, (bounds - values) / scale, damping)
+        room = (bounds - values) / scale
+        step = _step(slopes, here, room, damping)
         promise = here @ here - np.sum((here + slopes @ step) ** 2)
         unit = max(1.0, float(here @ here) / here.size)
         if not promise > PROMISE * unit:
+            if damping > 0.0:
+                # It may be the damping that promises so little.
+                damping, least = _less(damping), least / 10.0
+                continue
             if settled == SETTLE or aim.unsettled(values) <= NEAR:
                 break
             settled += 1
@@ -188,13 +195,13 @@ def _descend(aim: Objective, watch: Callable[[str], None] | None, plausible: flo
             watch(f"{aim.count} evaluations, chi-square {min(here @ here, there @ there):.5g}")
         if gain > 0.1 * promise:
             values, here, slopes, lost, place = tried, there, pulled.jacobian(tried), aim.lost, aim.place
-            damping = max(damping / 10.0 if damping > 1e-3 else 0.0, least)
+            damping = max(_less(damping), least)
             least /= 10.0
         else:
             # Beyond what the linkage bears every row costs many tries: back at once, and no soon return.
             losing = aim.lost > lost
-            curved = min(1.0 - float(gain / promise), MOST)
-            damping = max(10.0 * damping, LOSING if losing else max(1e-2, curved))
+            share = max(1.0 / (2.0 - float(gain / promise)), SHORTEST)
+            damping = max(10.0 * damping, LOSING) if losing else _shorter(slopes, here, room, damping, share)
             least, losses = (damping, losses + 1) if losing else (least, losses)
             aim.back(place)
         past.append(float(here @ here))
@@ -218,14 +225,36 @@ def drags(past: list[float], count: int) -> bool:
     return past[-1 - LATE] - past[-1] < DRAGGING * (past[-1] - count)
 
 
+def _less(damping: float) -> float:
+    return damping / 10.0 if damping > 1e-3 else 0.0
+
+
+def _shorter(slopes: Array, residuals: Array, box: Array, damping: float, share: float) -> float:
+    """The damping that makes the step at least so much shorter."""
+    held = _held(np.linalg.norm(slopes, axis=0))
+
+    def length(damping: float) -> float:
+        return float(np.linalg.norm(held * _step(slopes, residuals, box, damping)))
+
+    longest = share * length(damping)
+    damping = max(10.0 * damping, WEAK)
+    while length(damping) > longest:
+        damping *= 10.0
+    return damping
+
+
+def _held(size: Array) -> Array:
+    """(P,) what numbers are damped by, of their sizes: those that hardly show like those that do, else they would go
+    far before their curvature is seen."""
+    return np.maximum(size, HELD * size.max(initial=0.0))
+
+
 def _step(slopes: Array, residuals: Array, box: Array, damping: float) -> Array:
     """(P,) step of least sum of squares within the box (2, P), each column damped by its own size."""
     orthogonal, triangle = np.linalg.qr(slopes)
     size = np.linalg.norm(triangle, axis=0)
     size = np.where(size > 0, size, 1.0)
-    # Numbers that hardly show are damped like those that do: they would go far before their curvature is seen.
-    held = np.maximum(size, HELD * size.max(initial=0.0))
-    matrix = np.vstack([triangle, np.sqrt(damping) * np.diag(held)]) / size
+    matrix = np.vstack([triangle, np.sqrt(damping) * np.diag(_held(size))]) / size
     right = np.concatenate([-(orthogonal.T @ residuals), np.zeros(size.size)])
     low, high = np.minimum(box[0], 0.0) * size, np.maximum(box[1], 0.0) * size
     found = lsq_linear(matrix, right, bounds=(low - TINY, high + TINY), method="bvls", tol=1e-14)

@@ -86,6 +86,15 @@ def test_one_effect_at_a_time_is_misled_and_both_together_explain_it() -> None:
     assert np.sqrt(np.mean(error**2)) < 2.5
 
 
+def test_a_number_that_hardly_shows_holds_no_other_back() -> None:
+    """Weight across the bending shows in second order alone: with it free the fit is no worse than without."""
+    both = [EFFECTS[LARGE], EFFECTS[HEAVY]]
+    every = best_fit(Model().with_effects(both), CASES, (HEAVY,))
+    fewer = best_fit(Model(fixed=frozenset({f"{HEAVY}.platform_y_N"})).with_effects(both), CASES, (HEAVY,))
+    assert len(every.model.free) == len(fewer.model.free) + 1 == 4
+    assert every.chi_square < fewer.chi_square + 0.01 < 0.1
+
+
 @pytest.mark.long
 def test_without_a_hint_both_are_named() -> None:
     """One at a time is misled; from the plain model with the whole catalogue both are found, and nothing else."""
