@@ -9,7 +9,7 @@ import pytest
 
 from pipeline.diagnose import search
 from pipeline.diagnose.evidence import APART, apart
-from pipeline.diagnose.search import possible, seen, taken
+from pipeline.diagnose.search import Estimate, possible, seen, taken
 from pipeline.diagnose.shelf import Names, Shelf
 from pipeline.inference.model import Model
 from pipeline.inference.program import program
@@ -64,3 +64,35 @@ def test_numbers_that_the_data_do_not_see_take_no_degree() -> None:
         counts.append(seen(shelf, base))
         assert seen(shelf, frozenset({"bar_geometric_nonlinearity"})) == 1 and seen(shelf, frozenset()) == 0
     assert 1 <= counts[0] < counts[1] <= taken(shelf, base) == 6
+
+
+class Few:
+    """A shelf of fits that are not made: those that are asked for are written down."""
+
+    candidates = catalogue()
+
+    def __init__(self, *fits: str) -> None:
+        self.fits = {frozenset(names.split("+")): None for names in fits}
+        self.asked: list[str] = []
+
+    def fit(self, names: Names, _: object) -> None:
+        """Written down only."""
+        self.asked.append("+".join(sorted(names)))
+
+
+def test_what_explains_only_together_is_fitted_beside_one_of_many_numbers(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """Three numbers of a tilt may hide a bow, two, with another modulus, one; not a bow with six compliances."""
+    more = ("modulus_error", "base_compliance", "joint_torsional_stiffness")
+    shelf = Few("mounting_tilt", "bar_initial_bow", "self_weight")
+
+    def estimates(_: Shelf, start: Names, counts: tuple[int, ...]) -> list[Estimate]:
+        assert counts == (1,)
+        return [Estimate(start | set(names), 0.0, {}) for names in ([], *([name] for name in more))]
+
+    monkeypatch.setattr(search, "_estimates", estimates)
+    monkeypatch.setattr(search, "_is_noise", lambda _, names: names == {"mounting_tilt"})
+    monkeypatch.setattr(search, "cost", lambda *_: 0.0)
+    search._fit_together(cast(Shelf, shelf), frozenset({"mounting_tilt"}))
+    assert shelf.asked == ["bar_initial_bow+modulus_error", "bar_initial_bow+joint_torsional_stiffness"]
