@@ -102,7 +102,7 @@ def search(shelf: Shelf) -> Found:
             like = {root, *(names for names in starts if _root(shelf, names) == root)}
             if any(_is_noise(shelf, names) for names in like):
                 continue
-            for names in sorted(like - {root}, key=lambda names: cost(shelf, names))[:BEAM]:
+            for names in _leading(shelf, like - {root}):
                 starts += [e.names for e in _estimates(shelf, names, (1,)) if e.names != names]
     best = min(starts, key=lambda names: cost(shelf, names))
     while True:
@@ -118,6 +118,13 @@ def search(shelf: Shelf) -> Found:
 
 def _few(shelf: Shelf) -> bool:
     return int(shelf.whole.fitted.sum()) <= FEW
+
+
+def _leading(shelf: Shelf, sets: set[Names]) -> list[Names]:
+    """The best of these sets, as many as are grown side by side: where every row is lost no slope says by what."""
+    rows = shelf.whole.fitted
+    able = [names for names in sets if not shelf.fit(names).prediction.lost[rows].all()]
+    return sorted(able, key=lambda names: cost(shelf, names))[:BEAM]
 
 
 def _root(shelf: Shelf, names: Names) -> Names:
@@ -253,12 +260,12 @@ def _fit_together(shelf: Shelf, best: Names) -> None:
     """Fit those that explain only together and take no more numbers than the best set: one of many numbers, that is
     looked at alone, would hide them."""
     root, room = _root(shelf, best), taken(shelf, best)
-    begun = [
+    begun = {
         n
         for n in shelf.fits
         if n != root and _root(shelf, n) == root and taken(shelf, n) < room and not _is_noise(shelf, n)
-    ]
-    for start in sorted(begun, key=lambda names: cost(shelf, names))[:BEAM]:
+    }
+    for start in _leading(shelf, begun):
         for e in _estimates(shelf, start, (1,)):
             if e.names != start and taken(shelf, e.names) <= room:
                 shelf.fit(e.names, e.probes)
