@@ -47,8 +47,8 @@ CANONICAL = {
 }
 """Names that campaigns and results use; others follow from these or have three axes."""
 
-UNSEEN_ON_A_HINGE = ("base_compliance", "ry_rad_per_Nmm")
-"""A bar that is hinged about y at the base origin exerts no moment about y there."""
+UNSEEN_ON_A_BAR = {("base_compliance", "ry_rad_per_Nmm"), ("dimension_error", "width_mm")}
+"""A bar that is hinged about y at the base origin exerts no moment about y there; one bar has no width."""
 
 PARAMETERS = [(name, p.name) for name, effect in EFFECTS.items() for p in effect.parameters]
 
@@ -108,7 +108,7 @@ def test_every_parameter_moves_something(name: str, rig: str) -> None:
         moved = with_values(name, RIGS[rig], {p.name: p.null + 1.05 * p.typical})
         change = np.max(np.abs(run(moved).readings - base) / NOISE)
         # A twentieth of a typical size; some parameters meet hardly any load here. Solving leaves 1e-9 of the noise.
-        assert (change > 1e-6) != (rig.endswith("bar") and (name, p.name) == UNSEEN_ON_A_HINGE), p.name
+        assert (change > 1e-6) != (rig.endswith("bar") and (name, p.name) in UNSEEN_ON_A_BAR), p.name
 
 
 @pytest.mark.parametrize(("name", "rig"), CASES)
@@ -118,8 +118,8 @@ def test_derivatives_agree_with_solving_again(name: str, rig: str) -> None:
     directions, expected = [], []
     for p in effect.parameters:
         value = p.null + p.typical
-        # A difference must not reach over a kink, as where another fibre begins to yield.
-        size = abs(p.typical) * (1.0 if effect.smooth else 1e-3)
+        # A difference must not reach over a kink, as where another of a thousand fibres begins to yield.
+        size = abs(p.typical) * (1.0 if effect.smooth else 1e-4)
 
         def build(value: float, parameter: str = p.name) -> Rig:
             return with_values(name, RIGS[rig], {parameter: value})
