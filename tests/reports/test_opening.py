@@ -7,7 +7,7 @@ from tests.reports.browser import NEEDS_BROWSER, browser, seconds_to_open, watch
 
 INDEX = ROOT / "reports" / "validation" / "index.html"
 OPENS, SIZE = 2.0, 8e6
-"""Seconds and bytes that are promised."""
+"""Bytes and, on the machine of reference, seconds that are promised."""
 CUT = """[...document.querySelectorAll(".table, .draw")]
   .filter((it) => it.scrollWidth > it.clientWidth + 1).map((it) => it.textContent.slice(0, 40))"""
 UNTITLED = """[...document.querySelectorAll(".plot")].filter((it) => {
