@@ -9,8 +9,10 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+from pipeline.diagnose.exclusion import possible
+from pipeline.diagnose.merit import badness
 from pipeline.diagnose.refuse import HELD_OUT, judge
-from pipeline.diagnose.search import Found, badness, possible
+from pipeline.diagnose.rivals import Found
 from pipeline.diagnose.shelf import Names
 
 NEAR = 25.0

@@ -16,9 +16,11 @@ from pipeline.diagnose.apart import Likeness, likenesses
 from pipeline.diagnose.beyond import with_what_held_out_tests_need
 from pipeline.diagnose.folds import agreement, crossvalidated, crossvalidated_with
 from pipeline.diagnose.menu import Choice
+from pipeline.diagnose.merit import taken
 from pipeline.diagnose.next_test import NextTest, best_next_test
 from pipeline.diagnose.refuse import Judgement, judge
-from pipeline.diagnose.search import Found, search, taken
+from pipeline.diagnose.rivals import Found
+from pipeline.diagnose.search import search
 from pipeline.diagnose.sensor_faults import Instead, faults_instead
 from pipeline.diagnose.shelf import Names, Shelf
 from pipeline.diagnose.signatures import Say

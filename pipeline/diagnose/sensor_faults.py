@@ -5,8 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from pipeline.diagnose.evidence import apart, numbers
+from pipeline.diagnose.merit import badness
 from pipeline.diagnose.patterns import scores
-from pipeline.diagnose.search import Found, badness
+from pipeline.diagnose.rivals import Found
 from pipeline.diagnose.shelf import Names
 
 

@@ -10,9 +10,10 @@ from pipeline.campaign.names import COORDINATES
 from pipeline.diagnose.description import descriptions
 from pipeline.diagnose.diagnosis import Diagnosis, in_words
 from pipeline.diagnose.evidence import RAW
+from pipeline.diagnose.exclusion import needed, worse
 from pipeline.diagnose.menu import Choice
+from pipeline.diagnose.merit import badness
 from pipeline.diagnose.refuse import judge
-from pipeline.diagnose.search import badness, needed, worse
 from pipeline.diagnose.seen_at import only_place
 from pipeline.inference.driving import column_name
 from vjm.effects.base import Effect

@@ -6,7 +6,7 @@ each fitted number, but for a constant.
 
 from __future__ import annotations
 
-from pipeline.diagnose.search import DOUBT, KINKED
+from pipeline.diagnose.estimates import DOUBT, KINKED
 from pipeline.diagnose.shelf import Names, Shelf
 from pipeline.inference.sides import SIDE, sided
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from pipeline.diagnose.evidence import APART
-from pipeline.diagnose.search import excluded, needed
+from pipeline.diagnose.exclusion import excluded, needed
 from pipeline.diagnose.shelf import Names, Shelf
 from pipeline.inference.model import Model
 from pipeline.inference.program import program

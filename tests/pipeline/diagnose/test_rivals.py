@@ -7,9 +7,12 @@ from typing import cast
 import numpy as np
 import pytest
 
-from pipeline.diagnose import search
+from pipeline.diagnose import exclusion, few_rows
+from pipeline.diagnose.estimates import Estimate
 from pipeline.diagnose.evidence import APART, apart
-from pipeline.diagnose.search import Estimate, possible, seen, taken
+from pipeline.diagnose.exclusion import possible
+from pipeline.diagnose.few_rows import fit_together
+from pipeline.diagnose.merit import seen, taken
 from pipeline.diagnose.shelf import Names, Shelf
 from pipeline.inference.model import Model
 from pipeline.inference.program import program
@@ -22,8 +25,8 @@ BEST = frozenset({"modulus_error"})
 def kept(monkeypatch: pytest.MonkeyPatch, gaps: dict[str, float]) -> set[str]:
     """Which of these sets, "a+b" to their gaps, remain beside the best one."""
     of = {frozenset(names.split("+")): value for names, value in gaps.items()}
-    monkeypatch.setattr(search, "worse", lambda shelf, rival, best: of[rival])
-    monkeypatch.setattr(search, "needed", lambda shelf, rival, best: APART)
+    monkeypatch.setattr(exclusion, "worse", lambda shelf, rival, best: of[rival])
+    monkeypatch.setattr(exclusion, "needed", lambda shelf, rival, best: APART)
     found = possible(cast(Shelf, None), [*of, BEST, frozenset[str]()], BEST)
     return {"+".join(sorted(names)) for names in found}
 
@@ -91,8 +94,8 @@ def test_what_explains_only_together_is_fitted_beside_one_of_many_numbers(
         assert counts == (1,)
         return [Estimate(start | set(names), 0.0, {}) for names in ([], *([name] for name in more))]
 
-    monkeypatch.setattr(search, "_estimates", estimates)
-    monkeypatch.setattr(search, "_is_noise", lambda _, names: names == {"mounting_tilt"})
-    monkeypatch.setattr(search, "_leading", lambda _, sets: sorted(sets, key=sorted))
-    search._fit_together(cast(Shelf, shelf), frozenset({"mounting_tilt"}))
+    monkeypatch.setattr(few_rows, "estimates", estimates)
+    monkeypatch.setattr(few_rows, "is_noise", lambda _, names: names == {"mounting_tilt"})
+    monkeypatch.setattr(few_rows, "leading", lambda _, sets: sorted(sets, key=sorted))
+    fit_together(cast(Shelf, shelf), frozenset({"mounting_tilt"}))
     assert shelf.asked == ["bar_initial_bow+modulus_error", "bar_initial_bow+joint_torsional_stiffness"]

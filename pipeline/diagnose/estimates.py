@@ -1,0 +1,51 @@
+"""Sets of effects that could be fitted, and what each would cost to first order."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from itertools import combinations
+
+from pipeline.diagnose.merit import price
+from pipeline.diagnose.shelf import Names, Shelf
+
+LEADERS = 7
+"""Candidates of which pairs are looked at."""
+DOUBT, KINKED = 0.15, 0.6
+"""Part of what an effect explains by which its first-order estimate may be wrong; of one with kinks, from a probe."""
+
+
+@dataclass(frozen=True)
+class Estimate:
+    """A set that could be fitted: to first order its cost, and where effects with kinks begin."""
+
+    names: Names
+    cost: float
+    probes: dict[str, float]
+
+
+def estimates(shelf: Shelf, start: Names, counts: Iterable[int]) -> list[Estimate]:
+    """Sets with so many further effects, to first order, best first; always at least one."""
+    found = shelf.picture(start)
+    every = [name for name in found.signatures if start >= set(shelf.candidates[name].includes)]
+    left = found.fit.residual
+    base = found.fit.chi_square + left.doubt + left.spread + price(shelf, start)
+    single = {name: found.gain([name]) for name in every}
+    leaders = sorted(single, key=lambda name: -single[name].value)[:LEADERS]
+    out = [Estimate(start, base, {})]
+    for count in counts:
+        groups = [(n,) for n in single] if count == 1 else list(combinations(leaders, count))
+        for group in groups:
+            gain = single[group[0]] if count == 1 else found.gain(group)
+            out.append(Estimate(start | set(group), base - gain.value + price(shelf, group), gain.probes))
+    return sorted(out, key=lambda e: e.cost)
+
+
+def doubt(shelf: Shelf, names: Names) -> float:
+    """Part of what these effects explain by which the estimate may be wrong."""
+    return DOUBT if all(shelf.candidates[name].smooth for name in names) else KINKED
+
+
+def raw(shelf: Shelf, e: Estimate) -> float:
+    """Cost without the advantage of having few numbers."""
+    return e.cost - price(shelf, e.names) + min(price(shelf, [n]) for n in e.names) * len(e.names)

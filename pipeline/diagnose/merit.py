@@ -1,0 +1,64 @@
+"""What a set of effects costs: what it leaves, how plausible its numbers are, and what its effects have to show."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+import numpy as np
+
+from pipeline.diagnose.evidence import PLAUSIBLE, entry, numbers
+from pipeline.diagnose.shelf import Names, Shelf
+from pipeline.inference.fit import Fit
+
+
+def cost(shelf: Shelf, names: Names) -> float:
+    """Chi-square of the fit, how far its numbers are from plausible ones, and what each effect has to show."""
+    return badness(shelf, names) + price(shelf, names) + shelf.fit(names).residual.spread
+
+
+def badness(shelf: Shelf, names: Names) -> float:
+    """Chi-square of the fit, what choices of sides took off it, and of its numbers, each `PLAUSIBLE` typical sizes a
+    sigma."""
+    found = shelf.fit(names)
+    return found.chi_square + found.residual.doubt + implausibility(found)
+
+
+def implausibility(found: Fit) -> float:
+    """Chi-square of the numbers alone."""
+    return float(
+        sum(
+            ((value - f.parameter.null) / (PLAUSIBLE * f.parameter.typical)) ** 2
+            for f, value in zip(found.model.free, found.model.values, strict=True)
+        )
+    )
+
+
+def price(shelf: Shelf, names: Iterable[str]) -> float:
+    """What the effects of a set have to show, in chi-square."""
+    return sum(entry(shelf.candidates[name], len(shelf.candidates)) for name in names)
+
+
+def seen(shelf: Shelf, names: Names) -> int:
+    """Degrees of freedom that a set takes from these data: directions of its numbers that plausible sizes move by a
+    sigma, and one for an effect that is there or not. What the data do not see fits no noise."""
+    found = shelf.fit(names)
+    scale = np.array([PLAUSIBLE * f.parameter.typical for f in found.model.free])
+    sizes = np.linalg.svd(found.jacobian * scale, compute_uv=False) if scale.size else np.zeros(0)
+    switches = sum(not shelf.candidates[name].parameters for name in names)
+    return int(np.sum(sizes > 1.0)) + switches
+
+
+def taken(shelf: Shelf, names: Iterable[str]) -> int:
+    """Degrees of freedom that a set takes."""
+    return sum(numbers(shelf.candidates[name]) for name in names)
+
+
+def root_of(shelf: Shelf, names: Names) -> Names:
+    """Those effects of a set that are there or not."""
+    return frozenset(name for name in names if not shelf.candidates[name].parameters)
+
+
+def is_noise(shelf: Shelf, names: Names) -> bool:
+    """Whether chi-square is no larger than noise makes it, within three of its standard deviations."""
+    found = shelf.fit(names)
+    return bool(found.chi_square < found.degrees + 3.0 * np.sqrt(2.0 * max(found.degrees, 1)))

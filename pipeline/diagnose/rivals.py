@@ -1,0 +1,47 @@
+"""The sets of effects that do as well as the best one."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from pipeline.diagnose.estimates import DOUBT, estimates, raw
+from pipeline.diagnose.exclusion import possible
+from pipeline.diagnose.few_rows import few, fit_together
+from pipeline.diagnose.merit import badness, cost, taken
+from pipeline.diagnose.shelf import Names, Shelf
+
+NEARLY = 0.9
+"""Part of what an effect stands for by which a rival may promise less and still be fitted, where rows are few."""
+WIDTH = 4
+"""Rivals of one effect that are fitted, at most, where rows are many."""
+
+
+@dataclass(frozen=True, eq=False)
+class Found:
+    """What was found. best: the set of least cost. rivals: sets as simple that the data do not exclude. beyond: an
+    effect of the best set that only tests held out show, "" if there is none."""
+
+    shelf: Shelf
+    best: Names
+    rivals: tuple[Names, ...]
+    beyond: str = ""
+
+
+def with_rivals(shelf: Shelf, best: Names) -> Found:
+    """Every effect of the set is exchanged for every other; those that do as well are rivals."""
+    for name in [n for n in best if shelf.candidates[n].parameters]:
+        start = best - {name}
+        gap = cost(shelf, start) - cost(shelf, best)
+        limit = cost(shelf, best) + max(25.0, (NEARLY if few(shelf) else DOUBT) * gap)
+        near = [
+            e for e in estimates(shelf, start, (1,)) if e.names not in (start, best) and raw(shelf, e) < limit
+        ]
+        for e in near[: None if few(shelf) else WIDTH]:
+            shelf.fit(e.names, e.probes)
+    if few(shelf):
+        fit_together(shelf, best)
+    winner = min(shelf.fits, key=lambda names: cost(shelf, names))
+    if winner != best:
+        return with_rivals(shelf, winner)
+    simple = [n for n in shelf.fits if len(n) <= len(best) or taken(shelf, n) <= taken(shelf, best)]
+    return Found(shelf, best, tuple(sorted(possible(shelf, simple, best), key=lambda n: badness(shelf, n))))
