@@ -4,6 +4,7 @@ import io
 
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.patheffects import withStroke
 
 from reports.curves import Panel, panels
 from reports.formats import fixed, symbol
@@ -89,10 +90,14 @@ def draw(ax: Axes, panel: Panel) -> None:
             text,
             (1.0, load),
             xycoords=("axes fraction", "data"),
+            xytext=(0, 2),
+            textcoords="offset points",
             ha="right",
             va="bottom",
             fontsize=7.5,
             color=INK,
+            # Where curves pass below a label it stays readable.
+            path_effects=[withStroke(linewidth=3.0, foreground="white")],
         )
     ax.set_xlim(*panel.x_range)
     ax.set_ylim(*panel.y_range)
