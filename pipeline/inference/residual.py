@@ -29,6 +29,8 @@ from pipeline.inference.sides import SIDE, SPREAD
 Array = NDArray[np.float64]
 LOST = 30.0
 """Sigmas that stand for a reading for which the model has no stable equilibrium."""
+FARTHEST = 5.0
+"""Sigmas from where it was read that an input is looked for."""
 SURE = 2.0
 """Standard deviations from which a row is sure of its stop."""
 
@@ -69,9 +71,9 @@ class Residual:
     """e whitened: (R, C), zero where nothing is compared.
 
     slopes: (R, C, P) of the prediction, whitened. offsets: (R, C, O) whitened columns of unknown zeros.
-    shift: (R, 7) of the inputs that fit best, from the measured ones. charge: (R,) chi-square that it costs to bring
-    the inputs to where the row was linearised, if they fit best on the other side of a stop. undecided: (R,) rows that
-    may as well lie on another side of a play.
+    shift: (R, 7) of the inputs that fit best, from the measured ones, as far as noise may move them. charge: (R,)
+    chi-square that it costs to bring the inputs to where the row was linearised, if they fit best on the other side of
+    a stop. undecided: (R,) rows that may as well lie on another side of a play.
     """
 
     program: Program
@@ -137,10 +139,20 @@ def residual(program: Program, prediction: Prediction) -> Residual:
     gain = np.einsum("rij,rjk->rik", weights.factors, through)
     shift = program.input_sigma**2 * np.einsum("rik,ri->rk", gain, values)
     charge, undecided = _beside_stops(prediction, shift, program.input_sigma, gain)
+    shift = _near(shift, program.input_sigma)
     values[prediction.lost] = np.where(program.predicted[prediction.lost], LOST, 0.0)
     slopes[prediction.lost] = 0.0
     offsets[prediction.lost] = 0.0
     return Residual(program, values, slopes, offsets, shift, charge, undecided)
+
+
+def _near(shift: Array, sigma: Array) -> Array:
+    """(R, 7) shifts of the inputs, each row shortened to what noise could be: what would take more is explained by
+    something else, and a model that is linearised so far away is another one."""
+    size = np.divide(np.abs(shift), sigma, out=np.zeros_like(shift), where=sigma > 0.0).max(
+        axis=1, keepdims=True
+    )
+    return shift * (FARTHEST / np.maximum(size, FARTHEST))
 
 
 def _beside_stops(

@@ -14,8 +14,8 @@ from tests.pipeline.challenge.small import first
     [
         ("clean", "", 0.0, "right"),
         ("single", "self_weight", 4.0, "right"),
-        # Softer bars, or a compliance in series, under axial loads alone.
-        ("untold", "modulus_error", 0.02, "in set"),
+        # A compliance in series, or softer bars, under axial loads alone.
+        ("untold", "axis_flexibility", 0.0, "in set"),
     ],
 )
 def test_small_cases_are_answered_as_they_were(kind: Kind, effect: str, least: float, score: str) -> None:
