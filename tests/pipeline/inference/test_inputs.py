@@ -18,7 +18,10 @@ from pipeline.inference.model import Model
 from pipeline.inference.objective import Objective
 from pipeline.inference.prediction import predict
 from pipeline.inference.program import Program, program
-from pipeline.inference.residual import residual
+from pipeline.inference.residual import FARTHEST, residual
+from pipeline.simulate import bench_rig
+from pipeline.virtual.bench import measure
+from pipeline.virtual.plan import GAUGES, SENSORS, bench_plan
 from vjm.effects import catalogue
 
 
@@ -140,6 +143,20 @@ def test_a_fit_ends_linearised_near_the_inputs_that_fit_best() -> None:
     assert far > 1.0
     aim.again(found.model.values)
     assert aim.unsettled(found.model.values) < 0.5 * far
+
+
+def test_a_model_far_from_the_data_moves_no_input_farther_than_noise_may() -> None:
+    """Ends askew by a degree, held: without them the inputs that fit best are hundreds of sigmas off, and the step that
+    finds the truth looks worse there than none."""
+    turns = {"mounting_tilt.rx_rad": 0.0092, "mounting_tilt.ry_rad": 0.013, "mounting_tilt.rz_rad": -0.01}
+    plan = [test for test in bench_plan(8) if test.id == "axial_held_q+0"]
+    tests = program(measure("askew", bench_rig(), plan, SENSORS, turns, 1, GAUGES))
+    plain = residual(tests, predict(Model().with_effects([catalogue()[BASE]]), tests, slopes=False))
+    sigma = np.where(tests.input_sigma > 0.0, tests.input_sigma, np.inf)
+    assert np.max(np.abs(plain.shift) / sigma) == pytest.approx(FARTHEST)
+    found = fit(Model().with_effects([catalogue()[each] for each in (BASE, "mounting_tilt")]), tests)
+    assert found.chi_square < 1.5 * found.degrees
+    assert np.all(np.abs(found.model.values - list(turns.values())) < 4.0 * found.std)
 
 
 def test_no_force_read_no_displacement_prescribed() -> None:
