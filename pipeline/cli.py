@@ -301,9 +301,9 @@ def sweep(
     quiet: Quiet = False,
 ) -> None:
     """Stiffness and critical load of a manipulator over a grid of postures; interrupt and resume as you like."""
-    from pipeline.executors import single_threaded
+    from pipeline.threads import one_thread
 
-    single_threaded()
+    one_thread()
     from pipeline.manipulator.sweep_command import Asked, run_sweep
 
     asked = Asked(manipulator, out, low, high, points, workers, dask, chunk, quiet)

@@ -10,18 +10,9 @@ from signal import SIG_IGN, SIGINT, signal
 from typing import Any, TypeVar
 
 from pipeline.errors import InputError
+from pipeline.threads import EVERY
 
 Out = TypeVar("Out")
-THREADS = ("OMP_NUM_THREADS", "MKL_NUM_THREADS", "OPENBLAS_NUM_THREADS")
-
-
-def single_threaded() -> None:
-    """Linear algebra with one thread, unless the environment says otherwise; for many small matrices more only wait.
-
-    Has to come before numpy is imported.
-    """
-    for name in THREADS:
-        os.environ.setdefault(name, "1")
 
 
 class Serial(Executor):
@@ -51,8 +42,8 @@ def executor(workers: int = 1, dask: str | None = None) -> Iterator[tuple[Execut
     elif workers == 1:
         yield Serial(), 1
     else:
-        before = {name: os.environ.get(name) for name in THREADS}
-        os.environ.update(dict.fromkeys(THREADS, "1"))
+        before = {name: os.environ.get(name) for name in EVERY}
+        os.environ.update(dict.fromkeys(EVERY, "1"))
         try:
             pool = ProcessPoolExecutor(workers, mp_context=get_context("spawn"), initializer=_deaf)
             try:

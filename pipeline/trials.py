@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import multiprocessing
 import multiprocessing.pool
-import os
 import signal
 from collections.abc import Callable, Hashable, Iterator, Mapping
 from pathlib import Path
@@ -13,6 +12,7 @@ from typing import TypeVar
 from pydantic import BaseModel, ValidationError
 
 from pipeline.memory import keep_freed
+from pipeline.threads import one_thread
 
 Task = TypeVar("Task")
 Trial = TypeVar("Trial", bound=BaseModel)
@@ -58,8 +58,7 @@ def kept(store: Path, kind: type[Trial]) -> list[Trial]:
 
 def _pool(workers: int) -> multiprocessing.pool.Pool:
     # One thread each: the arrays are small, and threads of several processes are in each other's way.
-    for name in ("OMP_NUM_THREADS", "MKL_NUM_THREADS", "OPENBLAS_NUM_THREADS"):
-        os.environ.setdefault(name, "1")
+    one_thread()
     return multiprocessing.get_context("spawn").Pool(workers, _begin)
 
 

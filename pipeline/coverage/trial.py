@@ -15,7 +15,7 @@ from pipeline.campaign import Campaign
 from pipeline.compare.error import Discrepancy
 from pipeline.coverage.cases import BASE, is_size, typical
 from pipeline.inference.fit import Fit
-from pipeline.inference.intervals import intervals, landscape
+from pipeline.inference.intervals import holds_null, landscape
 from pipeline.inference.model import Model
 from pipeline.inference.prediction import Prediction
 from pipeline.inference.program import Program, program
@@ -123,9 +123,9 @@ def _deviations(best: Fit, truth: dict[str, float]) -> dict[str, float | None]:
 
 
 def _inside(best: Fit, cases: Program) -> dict[str, bool]:
-    out = {}
-    for each, it in zip(best.model.free, intervals(landscape(best, cases)), strict=True):
-        if is_size(each.effect, each.parameter.name):
-            null = each.parameter.null
-            out[each.name] = (it.low is None or it.low <= null) and (it.high is None or null <= it.high)
-    return out
+    land = landscape(best, cases)
+    return {
+        each.name: holds_null(land, k)
+        for k, each in enumerate(best.model.free)
+        if is_size(each.effect, each.parameter.name)
+    }

@@ -150,6 +150,16 @@ def _end(land: Landscape, k: int, side: int, guess: float, room: float, way: Arr
     return step
 
 
+def holds_null(land: Landscape, k: int) -> bool:
+    """Whether the interval of a number holds its null, without a search for the ends: by the rise there."""
+    span = land.ranges[k]
+    way, variance = land.ridge(k)
+    shift = float(np.clip(span.null, span.low, span.high)) - float(land.values[k])
+    if not np.sqrt(variance) < span.high - span.low or abs(shift) <= 1e-6 * (span.high - span.low):
+        return True
+    return land.rise(k, shift, way)[0] < RISE + (span.doubt if span.one_sided else 0.0)
+
+
 def correlations(land: Landscape, least: float = 0.9) -> list[tuple[int, int, float]]:
     """Pairs of numbers whose errors go together, strongest first: (i, j, correlation) of at least this size."""
     free = np.flatnonzero(~land.active)

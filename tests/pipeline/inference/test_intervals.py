@@ -10,7 +10,7 @@ import pytest
 from numpy.typing import NDArray
 from scipy.optimize import least_squares
 
-from pipeline.inference.intervals import Interval, correlations, intervals, only_together
+from pipeline.inference.intervals import Interval, correlations, holds_null, intervals, only_together
 from pipeline.inference.landscape import CLOSE, RISE, Landscape, Range
 
 Array = NDArray[np.float64]
@@ -158,3 +158,27 @@ def test_correlations_are_those_of_the_inverse() -> None:
     ((i, j, r),) = correlations(there)
     assert (i, j) == (0, 1) and r == pytest.approx(-c, abs=1e-9)
     assert correlations(there, least=0.98) == []
+
+
+def test_whether_an_interval_holds_null_needs_no_ends() -> None:
+    """Curved sums of squares of three numbers, the last of one sign only; both answers occur for each."""
+    rng, said = np.random.default_rng(3), []
+    for _ in range(60):
+        matrix, curved = rng.normal(size=(2, 12, 3))
+        measured = matrix @ np.array([0.5, -0.5, 0.4]) + rng.normal(size=12)
+
+        def function(v: Array, a: Array = matrix, b: Array = curved, y: Array = measured) -> Array:
+            return np.asarray(a @ v + 0.05 * b @ v**2 - y)
+
+        def slopes(v: Array, a: Array = matrix, b: Array = curved) -> Array:
+            return np.asarray(a + 0.1 * b * v)
+
+        there = land(Toy(function, slopes), np.array([0.1, 0.1, 0.1]), [WIDE, WIDE, POSITIVE])
+        for k, it in enumerate(intervals(there)):
+            low, high = ends(it)
+            near = min(abs(low), abs(high)) if k < 2 else low
+            if 0.0 < near < 2 * CLOSE * (high - low):
+                continue
+            said.append((k, holds_null(there, k)))
+            assert said[-1][1] == (low <= 0.0 <= high), (it, said[-1])
+    assert set(said) == {(k, holds) for k in range(3) for holds in (False, True)} and len(said) > 120
