@@ -40,6 +40,9 @@ ALWAYS = "bar_geometric_nonlinearity"
 """On every bench, so nothing that could be hidden."""
 SMALLEST, LARGEST = 0.05, 5.0
 """Sizes of what is hidden, in typical sizes."""
+WITHIN: Mapping[str, Mapping[str, tuple[float, float]]] = {"material_yield": {"strain": (0.93, 1.11)}}
+"""Smallest and largest of what else would nearly always be out of sight or at its bound: bars yield from strains of
+0.1 to 0.4 % on."""
 STEPS = (8, 10, 12)
 
 
@@ -88,7 +91,10 @@ def drawn(name: str, generator: np.random.Generator) -> dict[str, float]:
     for p in effect.parameters:
         if is_size(name, p.name):
             sign = 1.0 if p.one_sided else float(generator.choice((-1.0, 1.0)))
-            move = sign * size * float(generator.uniform(0.3, 1.0)) * p.typical
+            part = size * float(generator.uniform(0.3, 1.0))
+            if p.name in WITHIN.get(name, ()):
+                part = float(np.interp(np.log(part), np.log((SMALLEST, LARGEST)), WITHIN[name][p.name]))
+            move = sign * part * p.typical
             # Towards a bound it stays on this side of it.
             out[f"{name}.{p.name}"] = float(np.clip(p.null + move, *_within(p.null, p.low, p.high)))
         else:

@@ -16,6 +16,7 @@ from pipeline.inference.parts import at_rows, joined
 from pipeline.inference.prediction import Prediction
 from pipeline.inference.program import Program
 from pipeline.inference.residual import Residual, residual
+from vjm.effects.base import Parameter
 
 Array = NDArray[np.float64]
 STEPS = 40
@@ -26,6 +27,8 @@ VAIN = 0.05
 """Of chi-square, a fifth of a standard error: a smaller promise that is not kept is left, as happens at kinks."""
 NEAR = 0.1
 """Of their sigmas: so near to the inputs that fit best a fit must have been linearised to end there."""
+HALFWAY = 0.5
+"""Of what is left to a bound: a step from where an effect hardly shows may lead to what no linkage bears."""
 SETTLE = 3
 """Times that a fit is linearised anew before it ends."""
 LOSING, LOSSES = 1.0, 8
@@ -166,6 +169,7 @@ def _descend(aim: Objective, watch: Callable[[str], None] | None, plausible: flo
     near the measured ones slopes would be too small by what their noise adds to their spread.
     """
     bounds = np.array([each.bounds for each in aim.model.free]).T
+    reach = np.array([_reach(each.parameter) for each in aim.model.free]).T
     pulled = _Pulled.of(aim, plausible)
     scale, values = pulled.scale, np.clip(aim.model.values, *bounds)
     damping, least = 0.0, 0.0
@@ -173,7 +177,7 @@ def _descend(aim: Objective, watch: Callable[[str], None] | None, plausible: flo
     here = pulled.residuals(values)
     slopes, lost, place = pulled.jacobian(values), aim.lost, aim.place
     for _ in range(STEPS):
-        room = (bounds - values) / scale
+        room = (bounds - values) / scale * reach
         step = _step(slopes, here, room, damping)
         promise = here @ here - np.sum((here + slopes @ step) ** 2)
         unit = max(1.0, float(here @ here) / here.size)
@@ -216,6 +220,12 @@ def _descend(aim: Objective, watch: Callable[[str], None] | None, plausible: flo
     if aim.unsettled(values) > NEAR:
         aim.again(values)
     return values
+
+
+def _reach(it: Parameter) -> tuple[float, float]:
+    """Of the way to its bounds, how far one step may take a number: half of that to where an effect is strongest."""
+    low, high = (HALFWAY if it.one_sided and it.null == other else 1.0 for other in (it.high, it.low))
+    return low, high
 
 
 def drags(past: list[float], count: int) -> bool:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Iterator
+from collections.abc import Callable, Collection, Iterator, Mapping
 from dataclasses import replace
 
 import numpy as np
@@ -27,6 +27,8 @@ HOPELESS = 4.0
 """A ladder ends where chi-square is so many times that of its best rung, and grows."""
 WORTH = 1.0
 """Fall of chi-square that is worth another fit, in the mean square of what the first one leaves."""
+BETWEEN = 4
+"""Looks between the last rung at which an effect does not show and the first at which there is too much of it."""
 MINIMA = 2
 """Valleys of the ladder that are fitted."""
 
@@ -82,19 +84,41 @@ def _ladder(
     heights: list[float] = []
     rungs: list[Model] = []
     at = {s.name: s.parameter.null for s in sizes}
+
+    def look(at: Mapping[str, float], place: int) -> float:
+        values = [at.get(each.name, value) for each, value in zip(model.free, model.values, strict=True)]
+        rungs.insert(place, model.at(np.array(values)))
+        heights.insert(place, _height(rungs[place], program, start))
+        if watch is not None:
+            watch(f"{effect.name}: " + ", ".join(f"{name} {value:.3g}" for name, value in at.items()))
+        return heights[place]
+
     for size in _rungs(heights):
         at = {s.name: _rung(s, size, at[s.name]) for s in sizes}
-        values = [at.get(each.name, value) for each, value in zip(model.free, model.values, strict=True)]
-        rungs.append(model.at(np.array(values)))
-        heights.append(_height(rungs[-1], program, start))
-        if watch is not None:
-            watch(f"{effect.name} at {size:.3g} times its typical size")
+        look(at, len(rungs))
         if heights[-1] > HOPELESS * min(heights) and heights[-1] == max(heights[-2:]):
             break
+    for _ in range(BETWEEN):
+        edge = _edge(heights)
+        if not edge:
+            break
+        pair = [
+            dict(zip((f.name for f in model.free), rungs[k].values, strict=True)) for k in (edge - 1, edge)
+        ]
+        look({s.name: 0.5 * (pair[0][s.name] + pair[1][s.name]) for s in sizes}, edge)
     padded = [np.inf, *heights, np.inf]
     valleys = [k for k, h in enumerate(heights) if h <= padded[k] and h < padded[k + 2]]
     valleys.sort(key=lambda k: heights[k])
     return [rungs[k] for k in valleys[:MINIMA]], len(rungs)
+
+
+def _edge(heights: list[float]) -> int:
+    """Number of the first rung worse than those before, where these are several and none is better; else 0.
+
+    Up to such an edge the effect does not show, and beyond it there is too much of it: what is between may be best.
+    """
+    worse = [k for k, height in enumerate(heights) if height > heights[0] + WORTH]
+    return worse[0] if worse and worse[0] > 1 and min(heights) > heights[0] - WORTH else 0
 
 
 def _rung(each: Free, size: float, before: float) -> float:

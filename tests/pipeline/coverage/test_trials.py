@@ -77,6 +77,6 @@ def test_an_absent_effect_is_held_to_be_possibly_absent(name: str) -> None:
 def test_a_presliding_angle_is_no_size() -> None:
     assert is_size("joint_friction", "torque_Nmm") and not is_size("joint_friction", "presliding_rad")
     assert typical(["joint_friction"]) == {
-        "joint_friction.torque_Nmm": 285.0,
+        "joint_friction.torque_Nmm": 309.0,
         "joint_friction.presliding_rad": 0.002,
     }

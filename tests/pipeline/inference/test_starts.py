@@ -3,19 +3,22 @@
 from __future__ import annotations
 
 from functools import cache
+from itertools import pairwise
 
 import numpy as np
 import pytest
-from scipy.stats import norm
+from scipy.stats import chi2, norm
 
-from pipeline.inference.fit import Fit, fit
+from pipeline.coverage.trial import campaign
+from pipeline.inference.fit import Fit, _descend, fit
 from pipeline.inference.intervals import intervals, landscape
 from pipeline.inference.landscape import NEARLY
 from pipeline.inference.model import Model
+from pipeline.inference.objective import Objective
 from pipeline.inference.prediction import predict
 from pipeline.inference.program import Program, program
 from pipeline.inference.residual import residual
-from pipeline.inference.starts import SIZES, _rungs, best_fit
+from pipeline.inference.starts import SIZES, _edge, _rungs, best_fit
 from pipeline.simulate import bench_rig
 from pipeline.virtual.bench import measure
 from pipeline.virtual.plan import SENSORS, PlannedTest
@@ -86,6 +89,42 @@ def test_the_ladder_goes_on_while_that_helps_and_keeps_valleys_only() -> None:
         heights.append(abs(np.log(size / 100.0)))
     # 100 is the seventh rung; the eighth is worse and ends it.
     assert len(heights) == len(SIZES) + 3
+
+
+@cache
+def yielding(strain: float) -> Program:
+    return program(campaign((("material_yield.strain", strain),), 3, 8))
+
+
+@pytest.mark.parametrize("strain", [0.00215, 0.0026])
+def test_a_strain_of_yielding_between_two_sizes_of_the_ladder_is_found(strain: float) -> None:
+    """At the larger of the two nothing yields, at the smaller one so much that the plain model fits better."""
+    best = best_fit(BENT.with_effects([EFFECTS["material_yield"]]), yielding(strain), ("material_yield",))
+    assert chi2.sf(best.chi_square, best.degrees) > 1e-3
+    assert abs(best.model.values[0] - strain) < 4.0 * best.std[0]
+
+
+def test_no_step_of_a_fit_goes_most_of_the_way_to_where_an_effect_is_strongest() -> None:
+    model, tried = BENT.with_effects([EFFECTS["material_yield"]]), [0.0026]
+    aim = Objective(model.at(np.array(tried)), yielding(0.00215).by_role[0][1])
+    residuals = aim.residuals
+
+    def seen(values: np.ndarray) -> np.ndarray:
+        tried.append(float(values[0]))
+        return residuals(values)
+
+    aim.residuals = seen  # type: ignore[method-assign]
+    assert _descend(aim, None, np.inf)[0] == pytest.approx(0.00215, rel=0.01)
+    low = model.free[0].bounds[0]
+    assert all(value >= low + 0.499 * (before - low) for before, value in pairwise(tried))
+    assert min(tried) < low + 0.501 * (max(tried) - low), "the first step would have gone farther"
+
+
+def test_the_edge_of_a_ladder_is_looked_at_only_where_an_effect_does_not_show_before_it() -> None:
+    assert _edge([10.0, 10.0, 10.0, 90.0]) == 3
+    assert _edge([10.0, 10.0, 7.0, 90.0]) == 0
+    assert _edge([10.0, 15.0, 90.0]) == 0
+    assert _edge([10.0, 10.0, 10.0]) == 0
 
 
 def test_a_smooth_effect_that_is_there_is_fitted_once() -> None:
