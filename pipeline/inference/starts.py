@@ -44,9 +44,10 @@ def best_fit(
     """The best of several fits by chi-square; `evaluations` counts those of all, in solutions of the campaign.
 
     new: names of the effects that were just added, at null. One with kinks (`smooth` False) begins at the valleys
-    of a ladder of sizes of its one-sided numbers, 0.1 to 10 times typical and on while that helps. If all are smooth
-    the fit begins at null, and again at typical sizes if it ends at a bound, with lost rows, or where it says nothing
-    about one of their numbers, and a look from there promises more. start: a prediction of a like model.
+    of a ladder of sizes of its one-sided numbers, 0.1 to 10 times typical and on while that helps, closer where all
+    at once there is too much of it. If all are smooth the fit begins at null, and again at typical sizes if it ends at
+    a bound, with lost rows, or where it says nothing about one of their numbers, and a look from there promises more.
+    start: a prediction of a like model.
     plausible: see `fit`.
     """
     begins, spent = [model], 0
@@ -82,34 +83,34 @@ def _ladder(
     if not sizes:
         return [model], 0
     heights: list[float] = []
-    rungs: list[Model] = []
-    at = {s.name: s.parameter.null for s in sizes}
+    places: list[dict[str, float]] = []
 
-    def look(at: Mapping[str, float], place: int) -> float:
+    def rung(at: Mapping[str, float]) -> Model:
         values = [at.get(each.name, value) for each, value in zip(model.free, model.values, strict=True)]
-        rungs.insert(place, model.at(np.array(values)))
-        heights.insert(place, _height(rungs[place], program, start))
-        if watch is not None:
-            watch(f"{effect.name}: " + ", ".join(f"{name} {value:.3g}" for name, value in at.items()))
-        return heights[place]
+        return model.at(np.array(values))
 
+    def look(number: int, at: dict[str, float]) -> None:
+        places.insert(number, at)
+        heights.insert(number, _height(rung(at), program, start))
+        if watch is not None:
+            watch(", ".join(f"{name} = {value:.3g}" for name, value in at.items()))
+
+    at = {s.name: s.parameter.null for s in sizes}
     for size in _rungs(heights):
         at = {s.name: _rung(s, size, at[s.name]) for s in sizes}
-        look(at, len(rungs))
+        look(len(places), at)
         if heights[-1] > HOPELESS * min(heights) and heights[-1] == max(heights[-2:]):
             break
     for _ in range(BETWEEN):
         edge = _edge(heights)
         if not edge:
             break
-        pair = [
-            dict(zip((f.name for f in model.free), rungs[k].values, strict=True)) for k in (edge - 1, edge)
-        ]
-        look({s.name: 0.5 * (pair[0][s.name] + pair[1][s.name]) for s in sizes}, edge)
+        before, beyond = places[edge - 1 : edge + 1]
+        look(edge, {name: 0.5 * (value + beyond[name]) for name, value in before.items()})
     padded = [np.inf, *heights, np.inf]
     valleys = [k for k, h in enumerate(heights) if h <= padded[k] and h < padded[k + 2]]
     valleys.sort(key=lambda k: heights[k])
-    return [rungs[k] for k in valleys[:MINIMA]], len(rungs)
+    return [rung(places[k]) for k in valleys[:MINIMA]], len(places)
 
 
 def _edge(heights: list[float]) -> int:
