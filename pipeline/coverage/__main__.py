@@ -14,7 +14,8 @@ from pipeline.coverage.trial import Trial
 from pipeline.progress import Progress
 from pipeline.trials import kept
 
-STORE = Path(".parastiff/coverage/trials.jsonl")
+OUT = Path("reports/coverage")
+STORE = OUT / "trials.jsonl"
 
 
 def main(
@@ -23,7 +24,7 @@ def main(
     only: Annotated[list[str] | None, typer.Option(help="Effects; repeatable.")] = None,
     workers: Annotated[int, typer.Option(help="Processes.")] = 2,
     store: Annotated[Path, typer.Option(help="Where finished benches are kept.")] = STORE,
-    out: Annotated[Path, typer.Option(help="Folder of the page.")] = Path("reports/coverage"),
+    out: Annotated[Path, typer.Option(help="Folder of the page.")] = OUT,
 ) -> None:
     """Hide every effect on many benches, find it again, and count. Stopped and started again, it goes on.
 
