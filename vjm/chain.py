@@ -145,6 +145,17 @@ class Kinematics:
         """(..., 6, n) of pose by the coordinates."""
         return self.tie.fold(np.concatenate([self._linear, self._rate @ self._angular], axis=-2))
 
+    def pull(self, multiplier: Array) -> Array:
+        """Jacobian^T lambda (..., n) of lambda (..., 6), without the Jacobian."""
+        force = np.moveaxis(multiplier[..., :3], -1, 0)[:, None]
+        moment = np.einsum("...ji,...j->...i", self._rate, multiplier[..., 3:])
+        place, turns = np.moveaxis(self.pose[..., :3], -1, 0)[:, None], self.turns
+        along = np.empty(self.axes.shape[1:])
+        along[~turns] = np.sum(self.axes[:, ~turns] * force, axis=0)
+        whole = _cross(place - self.origins[:, turns], force) + np.moveaxis(moment, -1, 0)[:, None]
+        along[turns] = np.sum(self.axes[:, turns] * whole, axis=0)
+        return self.tie.fold(np.ascontiguousarray(np.moveaxis(along, 0, -1)))
+
     @cached_property
     def _rate(self) -> Array:
         return inverse_rotation_jacobian(self.pose[..., 3:])

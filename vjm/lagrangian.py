@@ -144,21 +144,22 @@ def chain_rows(
     """
     coordinates = chain_coordinates(chain, moving, rest)
     kinematics = chain.chain.kinematics(coordinates)
-    jacobian = kinematics.jacobian
-    partial = chain.moving.size < chain.chain.size
-    if partial:
-        jacobian = jacobian[..., chain.moving]
-    answer = chain.respond(moving - rest[..., chain.moving], memory)
-    balance = answer.force - np.einsum("...ji,...j->...i", jacobian, multiplier)
+    strain = moving - rest[..., chain.moving]
     m = chain.moving.size
-    matrix = np.zeros((*moving.shape[:-1], m + 6, m + 6)) if second else np.zeros(0)
     if second:
+        answer, jacobian = chain.respond(strain, memory), kinematics.jacobian
         curvature = kinematics.hessian(multiplier)
-        if partial:
+        if m < chain.chain.size:
+            jacobian = jacobian[..., chain.moving]
             curvature = curvature[..., chain.moving[:, None], chain.moving]
+        matrix = np.zeros((*moving.shape[:-1], m + 6, m + 6))
         matrix[..., :m, :m] = answer.tangent - curvature
         matrix[..., m:, :m] = -jacobian
         matrix[..., :m, m:] = -np.swapaxes(jacobian, -1, -2)
+        balance = answer.force - np.einsum("...ji,...j->...i", jacobian, multiplier)
+    else:
+        matrix = np.zeros(0)
+        balance = chain.force(strain, memory) - kinematics.pull(multiplier)[..., chain.moving]
     for load in chain.loads:
         pull, slope = load.pull(coordinates, second)
         balance = balance - pull[..., chain.moving]

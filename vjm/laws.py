@@ -7,7 +7,7 @@ strain (..., k), force (..., k), tangent (..., k, k), memory (..., m). Laws of o
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Protocol
+from typing import Protocol, runtime_checkable
 
 import numpy as np
 
@@ -39,6 +39,13 @@ class Law(Protocol):
     def initial_memory(self) -> Array: ...
 
     def respond(self, strain: Array, memory: Array) -> Response: ...
+
+
+@runtime_checkable
+class Direct(Protocol):
+    """A law whose force (..., k) is to be had alone, at less cost than the whole `Response`."""
+
+    def force(self, strain: Array, memory: Array) -> Array: ...
 
 
 @dataclass(frozen=True, eq=False)
@@ -110,6 +117,16 @@ class BeamColumn:
         return np.zeros(0)
 
     def respond(self, strain: Array, memory: Array) -> Response:
+        block = np.zeros((*strain.shape[:-1], len(self.stiffness), 6, 6))
+        energy, force = self._answer(strain, block)
+        return Response(energy, force, block_diagonal(block), memory)
+
+    def force(self, strain: Array, memory: Array) -> Array:
+        """(..., k) without what a tangent costs."""
+        return self._answer(strain, None)[1]
+
+    def _answer(self, strain: Array, block: Array | None) -> tuple[Array, Array]:
+        """Energy (...) and force (..., k); adds second derivatives to the block (..., n, 6, 6) of each segment."""
         theta = strain.reshape(*strain.shape[:-1], -1, 6)
         k, axial = self.stiffness[:, :, 0], self.stiffness[:, 0, 0]
         whole = theta + self.shape
@@ -124,25 +141,29 @@ class BeamColumn:
         force = h[..., None] * k + (tension * ease)[..., None] * bow
         force -= relief[..., None] * slope + 0.5 * (tension**2)[..., None] * give
         energy = h * linear + 0.5 * axial * h * h - 0.5 * ease * g * tension**2
-        block = self._tangent(bow, give, slope, ease, tension, g)
+        if block is not None:
+            block += self._tangent(bow, give, slope, ease, tension, g)
         for coupling, triple in zip(self.coupling.T, _TWISTED, strict=True):
             energy += self._twist(coupling, triple, theta, force, block)
-        return Response(np.sum(energy, axis=-1), force.reshape(strain.shape), block_diagonal(block), memory)
+        return np.asarray(np.sum(energy, axis=-1)), force.reshape(strain.shape)
 
     def _twist(
-        self, b: Array, triple: tuple[int, int, int], theta: Array, force: Array, block: Array
+        self, b: Array, triple: tuple[int, int, int], theta: Array, force: Array, block: Array | None
     ) -> Array:
-        """Energy (..., n) of b phi_x phi s completed to a square; adds to force and tangent."""
-        for i, j, k in (triple, (*triple[1:], triple[0]), (triple[2], *triple[:2])):
-            force[..., i] += b * theta[..., j] * theta[..., k]
-            block[..., j, k] += b * theta[..., i]
-            block[..., k, j] += b * theta[..., i]
+        """Energy (..., n) of b phi_x phi s completed to a square; adds to force and, where there is one, to tangent."""
         x, turn, shift = triple
         fourth = b * b / self.stiffness[:, shift, shift]
+        for i, j, k in (triple, (turn, shift, x), (shift, x, turn)):
+            force[..., i] += b * theta[..., j] * theta[..., k]
         for i, j in ((x, turn), (turn, x)):
             force[..., i] += fourth * theta[..., i] * theta[..., j] ** 2
-            block[..., i, i] += fourth * theta[..., j] ** 2
-            block[..., i, j] += 2.0 * fourth * theta[..., i] * theta[..., j]
+        if block is not None:
+            for i, j, k in (triple, (turn, shift, x), (shift, x, turn)):
+                block[..., j, k] += b * theta[..., i]
+                block[..., k, j] += b * theta[..., i]
+            for i, j in ((x, turn), (turn, x)):
+                block[..., i, i] += fourth * theta[..., j] ** 2
+                block[..., i, j] += 2.0 * fourth * theta[..., i] * theta[..., j]
         product = theta[..., x] * theta[..., turn]
         return np.asarray(b * product * theta[..., shift] + 0.5 * fourth * product**2)
 

@@ -12,7 +12,7 @@ import numpy as np
 from vjm.chain import Chain, Role
 from vjm.frames import Array
 from vjm.gauges import Gauge
-from vjm.laws import Response, Spring
+from vjm.laws import Direct, Response, Spring
 from vjm.loads import DeadLoads
 from vjm.sensors import Sensor
 
@@ -110,6 +110,16 @@ class ElasticChain:
             energy = energy + answer.energy
             remembered.append(answer.memory)
         return Response(energy, force, tangent, np.concatenate(remembered, axis=-1))
+
+    def force(self, strain: Array, memory: Array) -> Array:
+        """(..., m) as in `respond`; laws that can do so leave out their tangent."""
+        force = strain @ self.full_stiffness
+        for spring, numbers, part in zip(self.springs, self._groups, self._memories, strict=True):
+            own, past = strain[..., numbers], memory[..., part]
+            law = spring.law
+            alone = law.force(own, past) if isinstance(law, Direct) else law.respond(own, past).force
+            force[..., numbers] += alone
+        return np.asarray(force)
 
     def remember(self, strain: Array, memory: Array) -> Array:
         """Memory (..., M) of the laws after a step that ends at the strain (..., m)."""

@@ -46,6 +46,24 @@ def test_hessian(chain: Chain, seed: int) -> None:
     np.testing.assert_array_equal(hessian, hessian.T)
 
 
+def check_pull(chain: Chain, seed: int) -> None:
+    generator = np.random.default_rng(seed)
+    x, multiplier = generator.uniform(-0.3, 0.3, (2, chain.size)), generator.uniform(-1, 1, (2, 6))
+    kinematics = chain.kinematics(x)
+    whole = np.einsum("bji,bj->bi", kinematics.jacobian, multiplier)
+    np.testing.assert_allclose(kinematics.pull(multiplier), whole, atol=1e-12 * max(1.0, np.abs(whole).max()))
+
+
+@fixed_seed(40)
+@given(chains(), seeds)
+def test_a_multiplier_pulls_by_the_transposed_jacobian(chain: Chain, seed: int) -> None:
+    check_pull(chain, seed)
+
+
+def test_a_multiplier_pulls_on_tied_joints_by_their_shares() -> None:
+    check_pull(Parallelogram(LENGTH, WIDTH, paper.BAR_STIFFNESS).refined(3).chains[0].chain, 5)
+
+
 @fixed_seed(20)
 @given(chains(), seeds)
 def test_leading_axes_are_batch_axes(chain: Chain, seed: int) -> None:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from hypothesis import given
@@ -12,7 +14,7 @@ from tests.vjm.strategies import LENGTH, WIDTH, fixed_seed
 from vjm import paper, stiffness
 from vjm.equilibrium import equilibrium, load_path
 from vjm.friction import Jenkins
-from vjm.laws import Law, Linear, Polynomial, Spring
+from vjm.laws import Direct, Law, Linear, Polynomial, Spring
 from vjm.link import Link
 from vjm.mechanism import ElasticChain
 from vjm.mechanisms.parallelogram import Parallelogram
@@ -40,6 +42,16 @@ def test_force_and_tangent_are_derivatives(law: Law, size: int, scale: float, se
     np.testing.assert_allclose(here.force, slope, atol=1e-7 * np.abs(here.force).max() + 1e-9)
     tangent = (plus.force - minus.force) / (2e-4 * scale)
     np.testing.assert_allclose(here.tangent, tangent, atol=1e-6 * np.abs(here.tangent).max() + 1e-9)
+
+
+def test_the_force_of_a_chain_alone_is_that_with_its_tangent() -> None:
+    """Laws that leave their tangent out, and one that cannot."""
+    linkage = replace(Parallelogram(LENGTH, WIDTH, paper.BAR_STIFFNESS), hinges=(Jenkins(3.0, 2.0),)).refined(4)
+    chain = linkage.chains[0]
+    assert [isinstance(spring.law, Direct) for spring in chain.springs].count(True) == 1
+    strain = np.random.default_rng(2).uniform(-0.1, 0.1, (3, 2, chain.moving.size))
+    memory = np.broadcast_to(chain.initial_memory, (3, 2, chain.initial_memory.size))
+    np.testing.assert_array_equal(chain.force(strain, memory), chain.respond(strain, memory).force)
 
 
 def test_the_bent_bar_has_no_linear_part() -> None:
