@@ -46,7 +46,9 @@ def test_force_and_tangent_are_derivatives(law: Law, size: int, scale: float, se
 
 def test_the_force_of_a_chain_alone_is_that_with_its_tangent() -> None:
     """Laws that leave their tangent out, and one that cannot."""
-    linkage = replace(Parallelogram(LENGTH, WIDTH, paper.BAR_STIFFNESS), hinges=(Jenkins(3.0, 2.0),)).refined(4)
+    linkage = replace(Parallelogram(LENGTH, WIDTH, paper.BAR_STIFFNESS), hinges=(Jenkins(3.0, 2.0),)).refined(
+        4
+    )
     chain = linkage.chains[0]
     assert [isinstance(spring.law, Direct) for spring in chain.springs].count(True) == 1
     strain = np.random.default_rng(2).uniform(-0.1, 0.1, (3, 2, chain.moving.size))
