@@ -101,6 +101,7 @@ def test_a_strain_of_yielding_between_two_sizes_of_the_ladder_is_found(strain: f
     """At the larger of the two nothing yields, at the smaller one so much that the plain model fits better."""
     best = best_fit(BENT.with_effects([EFFECTS["material_yield"]]), yielding(strain), ("material_yield",))
     assert chi2.sf(best.chi_square, best.degrees) > 1e-3
+    assert best.std[0] < 0.02 * strain, "the yielding shows"
     assert abs(best.model.values[0] - strain) < 4.0 * best.std[0]
 
 
