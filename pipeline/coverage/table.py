@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from scipy.stats import chi2
 
 from pipeline.coverage.cases import BESIDE
-from pipeline.coverage.trial import Trial
+from pipeline.coverage.trial import FAR, Trial
 from pipeline.record import Record
 
 Z = 1.96
@@ -30,11 +30,26 @@ class Share(Record):
         return f"{100.0 * self.count / self.of:.1f} % of {self.of}" if self.of else "–"
 
 
+class Beyond(Record):
+    """A parameter that was found beyond three of its standard errors from the truth: by how many (None without one),
+    and the root of what chi-square rises by there, where it was computed."""
+
+    name: str
+    seed: int
+    deviation: float | None
+    height: float | None
+
+    def __str__(self) -> str:
+        by = "without a standard error" if self.deviation is None else f"{self.deviation:+.1f}"
+        return f"{self.name} {by}" + ("" if self.height is None else f" ({self.height:+.1f})")
+
+
 class Row(Record):
     """One set of effects: benches that hid it, and benches without it to which it was added.
 
     noise: chi-square with p > 0.001. size: whitened RMS within the bounds of noise. within_1_96, within_3: of all
-    parameters, so many of their standard errors from the truth. mean, spread: of these deviations, by parameter.
+    parameters, so many of their standard errors from the truth. beyond: those that are not within three. mean,
+    spread: of these deviations, by parameter.
     holdout: held-out tests of 24 rows with a whitened RMS of at most 1.15. null_inside: 95 % intervals of an absent
     effect's sizes that hold null. lost: rows without a prediction. commits: of the code.
     """
@@ -46,6 +61,7 @@ class Row(Record):
     size: Share
     within_1_96: Share
     within_3: Share
+    beyond: tuple[Beyond, ...] = ()
     mean: dict[str, float | None]
     spread: dict[str, float | None]
     holdout: Share
@@ -99,7 +115,8 @@ def _row(effects: tuple[str, ...], trials: Sequence[Trial]) -> Row:
         noise=_share(chi2.sf(t.chi_square, t.degrees) > NOISE_P for t in there),
         size=_share(abs(t.rms - 1.0) <= SIZE / np.sqrt(t.degrees) for t in there),
         within_1_96=_share(off < Z),
-        within_3=_share(off < 3.0),
+        within_3=_share(off < FAR),
+        beyond=tuple(each for t in there for each in _beyond(t)),
         mean={name: _rounded(np.mean, own) for name, own in known.items()},
         spread={name: _rounded(np.std, own) for name, own in known.items()},
         holdout=_share(rms <= HOLDOUT for rms in held_out),
@@ -108,6 +125,14 @@ def _row(effects: tuple[str, ...], trials: Sequence[Trial]) -> Row:
         seconds=round(sum(t.seconds for t in trials), 1),
         commits=tuple(sorted({t.commit for t in trials})),
     )
+
+
+def _beyond(it: Trial) -> list[Beyond]:
+    return [
+        Beyond(name=name, seed=it.seed, deviation=off, height=it.heights.get(name))
+        for name, off in it.deviations.items()
+        if off is None or abs(off) >= FAR
+    ]
 
 
 def _share(holds: Iterable[bool | np.bool_]) -> Share:
@@ -142,5 +167,13 @@ def page(found: Study) -> str:
         shares = (row.noise, row.size, row.within_1_96, row.within_3, row.holdout, row.null_inside)
         cells = [" + ".join(row.effects), span, *map(str, shares)]
         lines.append(f"| {' | '.join(cells)} |")
+    beyond = [each for row in found.rows for each in row.beyond]
+    if beyond:
+        lines += [
+            "",
+            "Beyond three standard errors, of the benches in `trials.jsonl`, in brackets the root of the rise of",
+            "chi-square at the truth, by which the program's intervals go (the same where chi-square is a parabola):",
+            f"{', '.join(map(str, beyond))}.",
+        ]
     lines += ["", "`coverage.json` has the mean and the spread of every parameter's deviation.", ""]
     return "\n".join(lines)

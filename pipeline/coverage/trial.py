@@ -27,6 +27,8 @@ from pipeline.virtual.plan import GAUGES, SENSORS, bench_plan
 from vjm.effects import catalogue
 
 Kind = Literal["there", "absent"]
+FAR = 3.0
+"""Standard errors; of a number in which chi-square is curved they say little at that distance."""
 _near: dict[tuple[str, ...], Prediction] = {}
 """Of each fit the first prediction in this process: its equilibria are where those of other noise begin."""
 
@@ -36,8 +38,10 @@ class Trial(Record):
 
     kind: whether the effects were hidden or added to a bench without them. residuals: that were fitted. rms: over
     the degrees of freedom. holdout: whitened RMS of each held-out test. deviations: error of each parameter in its
-    own standard errors, None where it has none. inside: whether the 95 % interval of each size holds null.
-    steps: of each test. lost: rows without a prediction. seconds: of processor time. commit: of the code.
+    own standard errors, None where it has none. heights: of those beyond `FAR` standard errors, the root of what
+    chi-square rises by at the truth, all others fitted again: the same number where chi-square is a parabola.
+    inside: whether the 95 % interval of each size holds null. steps: of each test. lost: rows without a prediction.
+    seconds: of processor time. commit: of the code.
     """
 
     kind: Kind
@@ -49,6 +53,7 @@ class Trial(Record):
     chi_square: float
     holdout: tuple[float, ...]
     deviations: dict[str, float | None] = {}  # noqa: RUF012 (pydantic copies it)
+    heights: dict[str, float] = {}  # noqa: RUF012
     inside: dict[str, bool] = {}  # noqa: RUF012
     lost: int
     seconds: float
@@ -69,6 +74,7 @@ def trial(kind: Kind, effects: Sequence[str], seed: int, steps: int, commit: str
     case = (kind, str(steps), *effects)
     best = best_fit(Model().with_effects(named), cases, effects, _near.get(case))
     _near.setdefault(case, best.prediction)
+    deviations = _deviations(best, hidden) if hidden else {}
     return Trial(
         kind=kind,
         effects=tuple(effects),
@@ -78,7 +84,8 @@ def trial(kind: Kind, effects: Sequence[str], seed: int, steps: int, commit: str
         degrees=best.degrees,
         chi_square=best.chi_square,
         holdout=_held_out(best, cases),
-        deviations=_deviations(best, hidden) if hidden else {},
+        deviations=deviations,
+        heights=_heights(best, cases, hidden, deviations),
         inside={} if hidden else _inside(best, cases),
         lost=int(best.prediction.lost.sum()),
         seconds=round(process_time() - began, 2),
@@ -119,6 +126,22 @@ def _deviations(best: Fit, truth: dict[str, float]) -> dict[str, float | None]:
     out: dict[str, float | None] = {}
     for each, value, std in zip(best.model.free, best.model.values, best.std, strict=True):
         out[each.name] = float((value - truth[each.name]) / std) if np.isfinite(std) and std > 0.0 else None
+    return out
+
+
+def _heights(
+    best: Fit, cases: Program, truth: dict[str, float], deviations: dict[str, float | None]
+) -> dict[str, float]:
+    far = {name for name, off in deviations.items() if off is not None and abs(off) >= FAR}
+    if not far:
+        return {}
+    land = landscape(best, cases)
+    out = {}
+    for k, each in enumerate(best.model.free):
+        if each.name in far:
+            shift = truth[each.name] - float(land.values[k])
+            rise = land.rise(k, shift, land.ridge(k)[0])[0]
+            out[each.name] = float(-np.sign(shift) * np.sqrt(max(rise, 0.0)))
     return out
 
 

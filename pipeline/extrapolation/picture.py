@@ -7,7 +7,7 @@ from matplotlib.figure import Figure
 from pipeline.extrapolation.approaches import APPROACHES, TRUTH
 from pipeline.extrapolation.table import Study
 from reports.charts import dress, picture
-from reports.style import CYCLE, FAINT
+from reports.style import CYCLE, FAINT, INK
 
 
 def drawn(it: Study) -> bytes:
@@ -25,6 +25,10 @@ def drawn(it: Study) -> bytes:
     ax.set(xscale="log", yscale="log", xlim=(low, high), ylim=(low, high))
     ax.set_xlabel("error between the fitted loads, sigma")
     ax.set_ylabel("error beyond the fitted loads, sigma")
+    count = len({p.number for p in it.points})
+    ax.set_title(
+        f"Errors of {count} benches between and beyond the fitted loads", loc="left", fontsize=12, color=INK
+    )
     dress(ax)
     ax.legend(loc="center left", bbox_to_anchor=(1.01, 0.5), frameon=False)
     return picture(figure)

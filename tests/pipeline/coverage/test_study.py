@@ -37,7 +37,7 @@ def test_shares_are_counted() -> None:
         one(0, 0.5, steps=24),
         one(1, -1.95),
         one(2, 2.5),
-        one(3, -3.5),
+        one(3, -3.5, heights={"modulus_error.scale": -2.0}),
         one(4, None, chi_square=1200.0),
     ]
     absent = [
@@ -49,7 +49,9 @@ def test_shares_are_counted() -> None:
     assert (row.noise.count, row.size.count, row.noise.of) == (4, 4, 5)
     assert (row.holdout.count, row.holdout.of) == (1, 2)
     assert (row.null_inside.count, row.null_inside.of) == (1, 2)
+    assert [(it.seed, it.deviation, it.height) for it in row.beyond] == [(3, -3.5, -2.0), (4, None, None)]
     text = page(study(trials))
+    assert "modulus_error.scale -3.5 (-2.0), modulus_error.scale without a standard error." in text
     assert "| modulus_error | 1.000 .. 1.155 | 80.0 % of 5 |" in text and text.startswith("# How often")
 
 
