@@ -9,7 +9,7 @@ the laws alone.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -17,11 +17,19 @@ from vjm import lagrangian
 from vjm.equilibrium import Equilibrium
 from vjm.frames import Array
 from vjm.laws import Law
-from vjm.sensitivity import AnyDirection, Target, by_forces, by_parameters, differences, read_change
+from vjm.sensitivity import (
+    AnyDirection,
+    Sensitivity,
+    Target,
+    by_forces,
+    by_parameters,
+    differences,
+    read_change,
+)
 
 
-def by_history(state: Equilibrium, directions: Sequence[AnyDirection], order: int = 4) -> Array:
-    """Derivatives (T, S, 12 + G, k) of the readings of T histories of S steps by k parameters, inputs or targets.
+def by_history(state: Equilibrium, directions: Sequence[AnyDirection], order: int = 4) -> Sensitivity:
+    """Derivatives of T histories of S steps, states (T, S), by k parameters, inputs or targets.
 
     A parameter or an input changes at all steps, a target at its own alone: what it leaves in the memory is not
     followed. order: see `by_parameters`.
@@ -32,7 +40,7 @@ def by_history(state: Equilibrium, directions: Sequence[AnyDirection], order: in
     marked = np.any(left != 0.0, axis=(-2, -1))
     tests = np.flatnonzero(marked[:, :-1].any(axis=1))
     if not tests.size:
-        return alone.readings
+        return alone
     first = int(np.argmax(marked[tests].any(axis=0))) + 1
     part = state.member((tests, slice(first, None)))
     laws = _Laws.of(state)
@@ -47,11 +55,13 @@ def by_history(state: Equilibrium, directions: Sequence[AnyDirection], order: in
         force[:, now] = laws.change(*here, np.zeros_like(force[:, now]), slope, steps)[0]
         moved = gain[:, now, laws.places] @ force[:, now]
         slope = left[tests, first + now] + laws.change(*here, moved, slope, steps)[1]
-    out = alone.readings.copy()
-    later = out[tests, first:]
-    later[..., handed] += read_change(part, gain @ force)
-    out[tests, first:] = later
-    return out
+    unknowns, readings = alone.unknowns.copy(), alone.readings.copy()
+    change = gain @ force
+    for whole, more in ((unknowns, change), (readings, read_change(part, change))):
+        later = whole[tests, first:]
+        later[..., handed] += more
+        whole[tests, first:] = later
+    return replace(alone, unknowns=unknowns, readings=readings)
 
 
 @dataclass(frozen=True, eq=False)

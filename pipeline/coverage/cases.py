@@ -23,6 +23,7 @@ PAIRS = (
     ("contact_stiffening", "self_weight"),
     ("base_compliance", "joint_torsional_stiffness"),
     ("joint_clearance", "modulus_error"),
+    ("joint_clearance", "joint_friction"),
 )
 """Two at once: what a bench has together, and what acts on the same readings."""
 BESIDE = 1.03

@@ -8,6 +8,9 @@ Rows that press other stops there are tried from there as well, those charged fo
 (`pipeline.inference.residual`) from the measured inputs, and keep what leaves the lesser chi-square. A row that fits
 badly with a slide inside its play may belong to one of its stops, where a displacement that was prescribed is read with
 a noise as large as the play: it is tried from the nearest inputs at which the slide touches.
+
+Where laws remember, each row chooses its side with the memory that the history has brought to it; the history is then
+solved once more, at the inputs that were chosen.
 """
 
 from __future__ import annotations
@@ -24,6 +27,7 @@ from pipeline.inference.parts import ARRAYS, states_at, states_with
 from pipeline.inference.prediction import Prediction, predict
 from pipeline.inference.program import Program
 from pipeline.inference.residual import Residual, residual
+from pipeline.inference.sides import sided
 
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
@@ -49,9 +53,12 @@ def linearised(
     if swapped is None:
         here = predict(model, cases, slopes, start=start, shift=shift)
         return here, residual(cases, here)
-    reached = predict(model, swapped, slopes=False, start=start, order=0)
+    held = remembering(model)
+    if held:
+        start = predict(model, cases, slopes=False, start=start, shift=shift, order=0)
+    reached = predict(model, swapped, slopes=False, start=start, order=0, held=held)
     # Which side is better the readings say: what the numbers change is asked where that is settled.
-    here = predict(model, cases, slopes=False, start=reached, shift=shift)
+    here = predict(model, cases, slopes=False, start=reached, shift=shift, held=held)
     for rows, other in (
         (_elsewhere(reached, here), _shift_to(reached, swapped, cases)),
         (residual(cases, here).charge > 0.0, np.zeros_like(cases.input_sigma)),
@@ -60,8 +67,8 @@ def linearised(
     for play, side in product(range(here.slides.shape[1]), (1.0, -1.0)):
         rows, other = _touching(cases, here, play, side)
         here = _better(model, cases, here, _whole(cases, rows), other, here)
-    if slopes:
-        here = predict(model, cases, start=here, shift=here.shift)
+    if slopes or held:
+        here = predict(model, cases, slopes, start=here, shift=here.shift)
     return here, residual(cases, here)
 
 
@@ -95,16 +102,21 @@ def _better(
         return here
     part = cases.only(rows)
     begin = replace(start, states=states_at(start, cases, part, rows))
-    other = predict(model, part, slopes=False, start=begin, shift=shift[rows])
+    other = predict(model, part, slopes=False, start=begin, shift=shift[rows], held=remembering(model))
     better = _squares(residual(part, other)) < _squares(residual(cases, here))[rows]
     states = states_with(here, cases, part, rows, other, better)
     return replace(_merged(here, other, rows, better), states=states)
 
 
 def kinked(model: Model) -> bool:
-    """Whether the response has kinks that depend on the present inputs alone; along a history none is jumped."""
-    effects = [term.effect for term in model.terms]
-    return any(not e.smooth for e in effects) and not any(e.history for e in effects)
+    """Whether the response has kinks of which each row chooses the side, as stops of plays; where friction or yielding
+    turn back is no choice of a row."""
+    return any(sided(term.effect) for term in model.terms)
+
+
+def remembering(model: Model) -> bool:
+    """Whether a step depends on those before it."""
+    return any(term.effect.history for term in model.terms)
 
 
 def _squares(left: Residual) -> Array:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import cache
 from typing import cast
@@ -23,7 +23,7 @@ from vjm.equilibrium import Equilibrium, drive_values, equilibrium
 from vjm.history import by_history
 from vjm.lagrangian import layout
 from vjm.mechanism import initial_memory
-from vjm.sensitivity import TARGETS, AnyDirection, Direction, DriveDirection, by_parameters
+from vjm.sensitivity import TARGETS, AnyDirection, Direction, DriveDirection, Sensitivity, by_parameters
 from vjm.slides import with_slides
 from vjm.stops import pressed, slid
 
@@ -82,11 +82,13 @@ def predict(
     start: Prediction | None = None,
     shift: Array | None = None,
     order: int = 2,
+    held: bool = False,
 ) -> Prediction:
     """Readings at all rows; start: a prediction of a like model, from whose states to begin.
 
     shift: (R, 7) added to the measured inputs and temperature. order: of the differences in derivatives by numbers,
-    see `vjm.sensitivity`; 0 where readings alone are wanted: a bench has zeros for all derivatives then.
+    see `vjm.sensitivity`; 0 where readings alone are wanted: a bench has zeros for all derivatives then. held: each
+    row by itself, with the memory that its state at the start had.
     ValueError for an effect that the rig cannot have.
     """
     count = len(model.free) if slopes else 0
@@ -106,7 +108,7 @@ def predict(
     for number, group in enumerate(program.groups):
         begin = None if start is None else start.states[number]
         place, real = program.rows_of(group), group.real
-        part = _group(model, program, _shifted(group, out.shift[place]), slopes, begin, order)
+        part = _group(model, program, _shifted(group, out.shift[place]), slopes, begin, order, held)
         out.values[place], out.by_inputs[place] = part.values, part.by_inputs
         out.by_free[place] = part.by_free
         count = part.stops.shape[-2]
@@ -134,7 +136,13 @@ def no_slides(rows: int, plays: int = PLAYS) -> Array:
 
 
 def _group(
-    model: Model, program: Program, group: Group, slopes: bool, start: Equilibrium | None, order: int
+    model: Model,
+    program: Program,
+    group: Group,
+    slopes: bool,
+    start: Equilibrium | None,
+    order: int,
+    held: bool,
 ) -> _Part:
     if group.rig.manipulator is not None:
         # Its states have what is asked of those of a bench: unknowns, whether they converged and are stable.
@@ -143,14 +151,14 @@ def _group(
         rows = whole.values[real], whole.by_inputs[real], whole.by_free[real]
         return _Part(*rows, state, whole.stops[real], whole.slides[real])
     mechanism = model.mechanism(group.rig, program.campaign.gauges)
-    if not initial_memory(mechanism).size:
+    if held or not initial_memory(mechanism).size:
         # Filling would be solved for nothing; it gets the state that it repeats.
         alone = group.by_steps
         begin = None if start is None else start.member(np.nonzero(group.real)).reshaped(len(alone.q), 1)
-        part = _of_bench(model, program, alone, mechanism, slopes, begin, order)
+        part = _of_bench(model, program, alone, mechanism, slopes, begin, order, held)
         state = part.state.member((group.places, np.zeros_like(group.places)))
         return replace(part, state=state)
-    return _of_bench(model, program, group, mechanism, slopes, start, order)
+    return _of_bench(model, program, group, mechanism, slopes, start, order, held)
 
 
 def _of_bench(
@@ -161,6 +169,7 @@ def _of_bench(
     slopes: bool,
     start: Equilibrium | None,
     order: int,
+    held: bool,
 ) -> _Part:
     drives = layout(mechanism).drives
     inputs = {"q": np.broadcast_to(group.q[:, None], group.rise.shape), DRIVE: group.rise}
@@ -171,15 +180,18 @@ def _of_bench(
         asked += [*TARGETS, *(_direction(model, k, group, program) for k in range(len(free)))]
         asked += [DriveDirection(DRIVE, _KELVIN)] if DRIVE in drives else []
     begin = _begin(mechanism, group, inputs, start)
-    if initial_memory(mechanism).size:
+    if held and begin is not None:
+        channels, memory = group.channels[:, None], begin.memory
+        state = equilibrium(mechanism, group.targets, channels, begin, drives=inputs, memory=memory)
+        by, change = _changes(by_parameters, state, asked, order)
+    elif initial_memory(mechanism).size:
         state = history(mechanism, group, inputs, begin)
-        by = by_history(state, asked, order) if asked else np.zeros((*state.readings.shape, 0))
-        stops, slides = (np.zeros((*group.rise.shape, 0, count + INPUTS)) for count in (1, 2))
+        by, change = _changes(by_history, state, asked, order)
     else:
         state = equilibrium(mechanism, group.targets, group.channels[:, None], begin, drives=inputs)
         state = _branched(mechanism, group, inputs, state)
-        by, change = _changes(state, asked, order)
-        stops, slides = _stops(state, change, DRIVE in drives)
+        by, change = _changes(by_parameters, state, asked, order)
+    stops, slides = _stops(state, change, DRIVE in drives)
     values = state.readings.copy()
     values[..., :6] -= group.nominal
     if not asked:
@@ -190,11 +202,16 @@ def _of_bench(
     return _Part(values[real], by_inputs[real], by_free[real], state, stops[real], slides[real])
 
 
-def _changes(state: Equilibrium, asked: Sequence[AnyDirection], order: int) -> tuple[Array, Array]:
+def _changes(
+    along: Callable[..., Sensitivity],
+    state: Equilibrium,
+    asked: Sequence[AnyDirection],
+    order: int,
+) -> tuple[Array, Array]:
     """Derivatives of readings and unknowns in the directions asked for; of the unknowns zeros where there are none."""
     if not asked:
         return np.zeros((*state.readings.shape, 0)), np.zeros((*state.unknowns.shape, INPUTS))
-    found = by_parameters(state, asked, order=order)
+    found = along(state, asked, order=order)
     return found.readings, found.unknowns
 
 

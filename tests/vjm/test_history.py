@@ -52,10 +52,12 @@ def test_all_steps_at_once_are_step_after_step(hidden: str) -> None:
     one_by_one = run(rig_with(names), asked)
     state = histories(one_by_one.states)
     expected = np.moveaxis(one_by_one.slopes, 0, 1)
-    found = by_history(state, [*TARGETS, *asked])
+    whole = by_history(state, [*TARGETS, *asked])
+    found = whole.readings
     scale = np.array([abs(d.value) for d in asked]) / NOISE[:, None]
     np.testing.assert_allclose(found[..., 6:] * scale, expected * scale, rtol=1e-6, atol=1e-5)
     np.testing.assert_allclose(found[..., :6], by_parameters(state, TARGETS).readings, rtol=1e-9, atol=1e-9)
+    np.testing.assert_allclose(whole.pose, found[..., :6, :], rtol=1e-6, atol=1e-5)
     # What earlier steps left counts: without it the last step's derivatives are others.
     alone = by_parameters(state, asked).readings
     assert np.max(np.abs((alone - found[..., 6:]) * scale)[:, -1]) > 0.1
@@ -65,5 +67,5 @@ def test_without_marks_no_step_counts_for_another() -> None:
     """A yield strain that no fibre reaches."""
     names = {"material_yield": {"strain": 0.0199}}
     state = histories(run(rig_with(names), directions(names)).states)
-    every: Array = by_history(state, [*TARGETS, *directions(names)])
+    every: Array = by_history(state, [*TARGETS, *directions(names)]).readings
     np.testing.assert_array_equal(every, by_parameters(state, [*TARGETS, *directions(names)]).readings)
