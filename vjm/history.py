@@ -32,7 +32,7 @@ def by_history(state: Equilibrium, directions: Sequence[AnyDirection], order: in
     """Derivatives of T histories of S steps, states (T, S), by k parameters, inputs or targets.
 
     A parameter or an input changes at all steps, a target at its own alone: what it leaves in the memory is not
-    followed. order: see `by_parameters`.
+    followed. order: see `by_parameters`. `memory` of the answer is what each step by itself changes in it.
     """
     alone = by_parameters(state, directions, order=order)
     handed = [k for k, d in enumerate(directions) if not isinstance(d, Target)]
