@@ -13,6 +13,7 @@ from pipeline.compare.error import Discrepancy
 from pipeline.compare.failure import findings, groups
 from pipeline.compare.record import Comparison, ModelError
 from pipeline.inference.frame_prediction import predict_frame
+from pipeline.inference.inputs import linearised
 from pipeline.inference.linear_prediction import predict_linear
 from pipeline.inference.model import Model
 from pipeline.inference.prediction import Prediction, predict
@@ -50,7 +51,7 @@ def compare_models(campaign: Campaign, saved: Model | None = None, say: Say = la
         "vjm": (Model(), lambda: predict(Model(), cases, slopes=False)),
     }
     if saved is not None:
-        plans["saved"] = (saved, lambda: predict(saved, cases, slopes=False))
+        plans["saved"] = (saved, lambda: linearised(saved, cases, slopes=False)[0])
     plans["fea"] = (Model(), lambda: predict_frame(cases, _tangent(cases)))
     found = []
     for key, (model, solve) in plans.items():

@@ -4,6 +4,7 @@ import shutil
 from io import StringIO
 from pathlib import Path
 
+import numpy as np
 import pytest
 from rich.console import Console
 from typer.testing import CliRunner
@@ -66,6 +67,15 @@ def test_a_saved_model_stands_beside_the_base_models() -> None:
     assert [m.model for m in result.models] == ["lin", "vjm", "saved", "fea"] and result.shown == "saved"
     assert result.model_of("saved").degrees == result.model_of("vjm").degrees - 1
     assert result.model_of("saved").effects == ("joint_torsional_stiffness",)
+
+
+def test_a_saved_play_is_compared_as_it_is_fitted() -> None:
+    """A force near zero, read with more noise than the play needs, puts each row on the side where it was."""
+    known = catalogue()
+    saved = Model().with_effects([known["bar_geometric_nonlinearity"], known["joint_clearance"]])
+    campaign = bench("joint_clearance.play_mm", 0.01)
+    found = compare_models(campaign, saved.at(np.array([0.01]))).model_of("saved")
+    assert found.within_noise and found.fit is not None and found.fit < 1.1
 
 
 def test_the_terminal_fits_and_shows_every_test(plain: Comparison) -> None:
