@@ -126,7 +126,7 @@ def test_a_play_that_is_not_there_takes_up_little(seed: int, beside: tuple[str, 
     kinds = catalogue()
     known = [kinds[name] for name in (BASE, *beside)]
     tight = fit(Model().with_effects(known), tests)
-    loose = fit(tight.model.with_effects([kinds["joint_clearance"]]), tests, tight.prediction)
+    loose = fit(tight.model.with_effects([kinds["joint_clearance"]]), tests)
     assert loose.evaluations <= 10, "steps that find nothing are given up at once"
     values = loose.model.values
     begun = [fit(loose.model.at(np.append(values[:-1], size)), tests) for size in (3e-4, 1e-3)]
