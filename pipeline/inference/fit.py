@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from scipy.optimize import lsq_linear
 
 from pipeline.inference.model import Model
-from pipeline.inference.objective import Objective
+from pipeline.inference.objective import Objective, Place
 from pipeline.inference.parts import at_rows, joined
 from pipeline.inference.prediction import Prediction
 from pipeline.inference.program import Program
@@ -173,7 +173,7 @@ def _descend(aim: Objective, watch: Callable[[str], None] | None, plausible: flo
     pulled = _Pulled.of(aim, plausible)
     scale, values = pulled.scale, np.clip(aim.model.values, *bounds)
     damping, least = 0.0, 0.0
-    settled, losses, past = 0, 0, list[float]()
+    settled, losses, past, stale = 0, 0, list[float](), True
     here = pulled.residuals(values)
     slopes, lost, place = pulled.jacobian(values), aim.lost, aim.place
     for _ in range(STEPS):
@@ -201,6 +201,11 @@ def _descend(aim: Objective, watch: Callable[[str], None] | None, plausible: flo
             values, here, slopes, lost, place = tried, there, pulled.jacobian(tried), aim.lost, aim.place
             damping = max(_less(damping), least)
             least /= 10.0
+            stale = stale or bool(gain > unit)
+        elif stale and promise > unit and _anew(aim, place, values):
+            # Far from the inputs that fit best a sum of squares is too small, which makes the step look worse.
+            stale = False
+            here, slopes, lost, place = pulled.residuals(values), pulled.jacobian(values), aim.lost, aim.place
         else:
             # Beyond what the linkage bears every row costs many tries: back at once, and no soon return.
             losing = aim.lost > lost
@@ -220,6 +225,15 @@ def _descend(aim: Objective, watch: Callable[[str], None] | None, plausible: flo
     if aim.unsettled(values) > NEAR:
         aim.again(values)
     return values
+
+
+def _anew(aim: Objective, place: Place, values: Array) -> bool:
+    """Whether back at a place it took to be linearised anew, as it was far from the inputs that fit best."""
+    aim.back(place)
+    if aim.unsettled(values) <= NEAR:
+        return False
+    aim.again(values)
+    return True
 
 
 def _reach(it: Parameter) -> tuple[float, float]:

@@ -4,10 +4,11 @@ With a kink, such as the stop of a play, the inputs that fit a row best may lie 
 measured ones does not point: within a play of ± 10 µm a force of half a newton decides the position, and it is read
 with a noise of one. What a row prescribed as force is then better looked for from the displacement that was measured
 with it: solved with displacements prescribed, the model says which forces it takes to be where the platform was.
-Rows that press other stops there are tried from there as well, those charged for the stop that they press
-(`pipeline.inference.residual`) from the measured inputs, and keep what leaves the lesser chi-square. A row that fits
-badly with a slide inside its play may belong to one of its stops, where a displacement that was prescribed is read with
-a noise as large as the play: it is tried from the nearest inputs at which the slide touches.
+Rows that press other stops there are tried from there as well, those that are not sure of their side or charged for the
+stop that they press (`pipeline.inference.residual`) from the measured inputs, and keep what leaves the lesser chi-
+square: with only what the last step of a fit left to them they would stay on the sides of other numbers. A row that
+fits badly with a slide inside its play may belong to one of its stops, where a displacement that was prescribed is read
+with a noise as large as the play: it is tried from the nearest inputs at which the slide touches.
 
 Where laws remember, each row chooses its side with the memory that the history has brought to it; the history is then
 solved once more, at the inputs that were chosen.
@@ -61,7 +62,7 @@ def linearised(
     here = predict(model, cases, slopes=False, start=reached, shift=shift, held=held)
     for rows, other in (
         (_elsewhere(reached, here), _shift_to(reached, swapped, cases)),
-        (residual(cases, here).charge > 0.0, np.zeros_like(cases.input_sigma)),
+        (_unsure(residual(cases, here)), np.zeros_like(cases.input_sigma)),
     ):
         here = _better(model, cases, here, _whole(cases, rows), other, reached)
     for play, side in product(range(here.slides.shape[1]), (1.0, -1.0)):
@@ -127,6 +128,11 @@ def _squares(left: Residual) -> Array:
 def _elsewhere(one: Prediction, other: Prediction) -> Mask:
     """(R,) rows that press other stops."""
     return np.asarray(np.any(np.sign(one.stops[..., 0]) != np.sign(other.stops[..., 0]), axis=1))
+
+
+def _unsure(left: Residual) -> Mask:
+    """(R,) rows that may belong to another side of a play than the one they are on."""
+    return np.asarray((left.charge > 0.0) | left.undecided)
 
 
 def _whole(cases: Program, chosen: Mask) -> NDArray[np.int64]:

@@ -138,6 +138,32 @@ def test_a_play_that_is_not_there_takes_up_little(seed: int, beside: tuple[str, 
     assert least.residual.charged > 1.0
 
 
+@pytest.mark.parametrize("begin", [3e-3, 1e-2])
+def test_from_too_large_a_play_a_fit_ends_as_from_below(begin: float) -> None:
+    """Rows do not stay on the sides that belong to the play that the fit began with."""
+    tests = program(campaign((("joint_clearance.play_mm", 3e-3),), 1, 8))
+    found = fit(model("joint_clearance").at(np.array([begin])), tests)
+    _, afresh = linearised(found.model, tests, slopes=False)
+    assert found.chi_square == pytest.approx(float(np.sum(afresh.aimed**2)), abs=1.0)
+    assert abs(found.model.values[0] - 3e-3) < 2.0 * found.std[0]
+
+
+def test_a_first_step_that_went_too_far_is_no_end() -> None:
+    """After it rows are linearised far from the inputs that fit best and look better than they are, and the next step,
+    which leads to the truth, worse than none."""
+    hidden = {
+        "joint_clearance.play_mm": 7e-3,
+        "joint_friction.torque_Nmm": 400.0,
+        "joint_friction.presliding_rad": 2e-3,
+    }
+    tests = program(campaign(tuple(hidden.items()), 1, 8))
+    it = Model().with_effects([catalogue()[name] for name in (BASE, "joint_clearance", "joint_friction")])
+    found = fit(it.at(np.array([3.2e-3, 300.0, 2e-3])), tests)
+    assert np.all(np.abs(found.model.values - [hidden[each.name] for each in it.free]) < 3.0 * found.std)
+    again = fit(found.model, tests, found.prediction)
+    assert found.chi_square < again.chi_square + 2.0
+
+
 def test_rows_alone_are_predicted_as_among_all() -> None:
     tests, it = cases("joint_clearance", 3), model("joint_clearance")
     rows = np.array([0, 3, 4, 40, 41, 77])
