@@ -172,10 +172,8 @@ def _descend(aim: Objective, watch: Callable[[str], None] | None, plausible: flo
     reach = np.array([_reach(each.parameter) for each in aim.model.free]).T
     pulled = _Pulled.of(aim, plausible)
     scale, values = pulled.scale, np.clip(aim.model.values, *bounds)
-    damping, least = 0.0, 0.0
-    settled, losses, past, stale = 0, 0, list[float](), True
-    here = pulled.residuals(values)
-    slopes, lost, place = pulled.jacobian(values), aim.lost, aim.place
+    damping, least, settled, losses, past, stale = 0.0, 0.0, 0, 0, list[float](), True
+    here, slopes, lost, place = pulled.residuals(values), pulled.jacobian(values), aim.lost, aim.place
     for _ in range(STEPS):
         room = (bounds - values) / scale * reach
         step = _step(slopes, here, room, damping)
@@ -214,12 +212,8 @@ def _descend(aim: Objective, watch: Callable[[str], None] | None, plausible: flo
             least, losses = (damping, losses + 1) if losing else (least, losses)
             aim.back(place)
         past.append(float(here @ here))
-        if (
-            damping > 1e6
-            or losses == LOSSES
-            or (gain <= 0.0 and promise < VAIN * unit)
-            or drags(past, here.size)
-        ):
+        vain = gain <= 0.0 and promise < VAIN * unit
+        if vain or damping > 1e6 or losses == LOSSES or drags(past, here.size):
             break
     # One that ends on a step not taken ends where it was linearised before that.
     if aim.unsettled(values) > NEAR:
