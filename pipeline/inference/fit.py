@@ -184,10 +184,9 @@ def _descend(aim: Objective, watch: Callable[[str], None] | None, plausible: flo
                 # It may be the damping that promises so little.
                 damping, least = _less(damping), least / 10.0
                 continue
-            if settled == SETTLE or aim.unsettled(values) <= NEAR:
+            if settled == SETTLE or not _anew(aim, place, values):
                 break
             settled += 1
-            aim.again(values)
             here, slopes, place = pulled.residuals(values), pulled.jacobian(values), aim.place
             continue
         tried = np.clip(values + scale * step, *bounds)
@@ -216,8 +215,7 @@ def _descend(aim: Objective, watch: Callable[[str], None] | None, plausible: flo
         if vain or damping > 1e6 or losses == LOSSES or drags(past, here.size):
             break
     # One that ends on a step not taken ends where it was linearised before that.
-    if aim.unsettled(values) > NEAR:
-        aim.again(values)
+    _anew(aim, place, values)
     return values
 
 

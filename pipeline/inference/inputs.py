@@ -5,8 +5,8 @@ measured ones does not point: within a play of ± 10 µm a force of half a newto
 with a noise of one. What a row prescribed as force is then better looked for from the displacement that was measured
 with it: solved with displacements prescribed, the model says which forces it takes to be where the platform was.
 Rows that press other stops there are tried from there as well, those that are not sure of their side or charged for the
-stop that they press (`pipeline.inference.residual`) from the measured inputs, and keep what leaves the lesser chi-
-square: with only what the last step of a fit left to them they would stay on the sides of other numbers. A row that
+stop that they press (`pipeline.inference.residual`) from the measured inputs, and keep what leaves the lesser
+chi-square: with only what the last step of a fit left to them they would stay on the sides of other numbers. A row that
 fits badly with a slide inside its play may belong to one of its stops, where a displacement that was prescribed is read
 with a noise as large as the play: it is tried from the nearest inputs at which the slide touches.
 
