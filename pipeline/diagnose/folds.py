@@ -46,7 +46,8 @@ def _left_out(slopes: Array, residual: Array, tests: NDArray[np.int_]) -> float:
 
 
 def agreement(shelf: Shelf, names: Names, name: str) -> float | None:
-    """Part of the folds in which this effect would be chosen again, to first order; None where nothing was screened.
+    """Part of the folds in which this effect would be chosen again, to first order; None where nothing was screened,
+    and where to first order all tests together would not choose it: a fold says nothing of a choice then.
 
     In each fold one test is left out of everything: of the fit, of the screen and of the choice.
     """
@@ -55,7 +56,7 @@ def agreement(shelf: Shelf, names: Names, name: str) -> float | None:
         return None
     about = shelf.pictures[start]
     tests = np.unique(about.tests)
-    if tests.size < 2 or name not in about.signatures:
+    if tests.size < 2 or name not in about.signatures or _chosen(shelf, about) != name:
         return None
     return float(np.mean([_chosen(shelf, about.without(int(test))) == name for test in tests]))
 

@@ -62,7 +62,7 @@ def linearised(
     here = predict(model, cases, slopes=False, start=reached, shift=shift, held=held)
     for rows, other in (
         (_elsewhere(reached, here), _shift_to(reached, swapped, cases)),
-        (_unsure(residual(cases, here)), np.zeros_like(cases.input_sigma)),
+        (_unsure(residual(cases, here)) & np.any(here.shift, axis=1), np.zeros_like(cases.input_sigma)),
     ):
         here = _better(model, cases, here, _whole(cases, rows), other, reached)
     for play, side in product(range(here.slides.shape[1]), (1.0, -1.0)):
