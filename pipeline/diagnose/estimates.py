@@ -6,7 +6,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from itertools import combinations
 
-from pipeline.diagnose.merit import price
+from pipeline.diagnose.merit import cost, price
 from pipeline.diagnose.shelf import Names, Shelf
 
 LEADERS = 7
@@ -28,8 +28,7 @@ def estimates(shelf: Shelf, start: Names, counts: Iterable[int]) -> list[Estimat
     """Sets with so many further effects, to first order, best first; always at least one."""
     found = shelf.picture(start)
     every = [name for name in found.signatures if start >= set(shelf.candidates[name].includes)]
-    left = found.fit.residual
-    base = found.fit.chi_square + left.doubt + left.spread + price(shelf, start)
+    base = cost(shelf, start)
     single = {name: found.gain([name]) for name in every}
     leaders = sorted(single, key=lambda name: -single[name].value)[:LEADERS]
     out = [Estimate(start, base, {})]

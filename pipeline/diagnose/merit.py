@@ -60,5 +60,10 @@ def root_of(shelf: Shelf, names: Names) -> Names:
 
 def is_noise(shelf: Shelf, names: Names) -> bool:
     """Whether chi-square is no larger than noise makes it, within three of its standard deviations."""
+    return excess(shelf, names) == 0.0
+
+
+def excess(shelf: Shelf, names: Names) -> float:
+    """Chi-square beyond that."""
     found = shelf.fit(names)
-    return bool(found.chi_square < found.degrees + 3.0 * np.sqrt(2.0 * max(found.degrees, 1)))
+    return max(found.chi_square - found.degrees - 3.0 * float(np.sqrt(2.0 * max(found.degrees, 1))), 0.0)

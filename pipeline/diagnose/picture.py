@@ -1,4 +1,8 @@
-"""Chi-square of every set of candidates about a fit, to first order: linear algebra on their signatures."""
+"""Chi-square of every set of candidates about a fit, to first order: linear algebra on their signatures.
+
+How plausible numbers are counts beside the readings, as it does when sets are compared: what takes implausible numbers
+off another effect is worth that, and what would need them itself promises less.
+"""
 
 from __future__ import annotations
 
@@ -11,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import lsq_linear
 
+from pipeline.diagnose.evidence import PLAUSIBLE
 from pipeline.diagnose.signatures import Look, Signature
 from pipeline.inference.fit import Fit
 from pipeline.inference.span import RANK, basis
@@ -20,7 +25,7 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class Gain:
-    """By how much chi-square falls; probes: of effects with kinks, those that did best."""
+    """By how much chi-square falls, with that of the numbers; probes: of effects with kinks, those that did best."""
 
     value: float
     probes: dict[str, float]
@@ -54,25 +59,45 @@ class Picture:
     @cached_property
     def _small(self) -> tuple[Array, dict[str, list[Array]]]:
         """Residual and columns, free of what the fit can move, in an orthonormal basis of all columns."""
-        free = basis(self.base)
+        return self._split(*_free_of(self.base, self.residual, self._flat))
+
+    @cached_property
+    def _weighed(self) -> tuple[Array, dict[str, list[Array]]]:
+        """The same, with how plausible the numbers are: of the fit and of what is added, each a reading more."""
+        free = self.fit.model.free
+        scale = PLAUSIBLE * np.array([f.parameter.typical for f in free])
+        away = (self.fit.model.values - np.array([f.parameter.null for f in free])) / scale
+        own = [size for s in self.signatures.values() for size in s.sizes]
+        zeros = self.base.shape[1] - len(free)
+        # What is looked at stands for more readings than it has; numbers do not.
+        fitted = np.sqrt(self.share) * np.hstack([np.diag(1.0 / scale), np.zeros((len(free), zeros))])
+        added = np.sqrt(self.share) * np.diag(np.array(own) / PLAUSIBLE)
+        base = np.vstack([self.base, fitted, np.zeros((len(own), self.base.shape[1]))])
+        residual = np.concatenate([self.residual, -np.sqrt(self.share) * away, np.zeros(len(own))])
+        return self._split(
+            *_free_of(base, residual, np.vstack([self._flat, np.zeros((len(free), len(own))), added]))
+        )
+
+    @property
+    def _flat(self) -> Array:
+        """(N, all) columns side by side."""
         every = [c for s in self.signatures.values() for c in s.columns]
-        flat = np.hstack([np.zeros((self.residual.size, 0)), *every])
-        flat = flat - free @ (free.T @ flat)
-        axes, _ = np.linalg.qr(flat)
-        small = axes.T @ flat
+        return np.hstack([np.zeros((self.residual.size, 0)), *every])
+
+    def _split(self, residual: Array, flat: Array) -> tuple[Array, dict[str, list[Array]]]:
         place = 0
         out: dict[str, list[Array]] = {}
         for name, signature in self.signatures.items():
             out[name] = []
             for columns in signature.columns:
-                out[name].append(small[:, place : place + columns.shape[1]])
+                out[name].append(flat[:, place : place + columns.shape[1]])
                 place += columns.shape[1]
-        rest = self.residual - free @ (free.T @ self.residual)
-        return axes.T @ rest, out
+        return residual, out
 
     def gain(self, names: Sequence[str]) -> Gain:
-        """By how much chi-square of the whole campaign falls when these effects are added together."""
-        residual, columns = self._small
+        """By how much chi-square of the whole campaign and of the numbers falls when these effects are added
+        together."""
+        residual, columns = self._weighed
         best = Gain(self._rescued(names), {})
         for choice in product(*(range(len(columns[name])) for name in names)):
             matrix = np.hstack([columns[name][k] for name, k in zip(names, choice, strict=True)])
@@ -108,6 +133,14 @@ def picture(found: Fit, every: Sequence[Signature], at: Look, rescues: Mapping[s
     return Picture(
         found, {s.effect.name: s for s in every}, it.values[rows][mask], base, tests, share, rescues
     )
+
+
+def _free_of(base: Array, residual: Array, columns: Array) -> tuple[Array, Array]:
+    """Residual (N,) and columns (N, K) without what the base can move, in an orthonormal basis of the columns left."""
+    free = basis(base)
+    columns = columns - free @ (free.T @ columns)
+    axes, _ = np.linalg.qr(columns)
+    return axes.T @ (residual - free @ (free.T @ residual)), axes.T @ columns
 
 
 def _fall(matrix: Array, residual: Array, low: Array) -> float:

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from pipeline.diagnose.estimates import DOUBT, estimates, raw
 from pipeline.diagnose.exclusion import possible
 from pipeline.diagnose.few_rows import few, fit_together
-from pipeline.diagnose.merit import badness, cost, taken
+from pipeline.diagnose.merit import badness, cost, excess, taken
 from pipeline.diagnose.shelf import Names, Shelf
 
 NEARLY = 0.9
@@ -28,11 +28,15 @@ class Found:
 
 
 def with_rivals(shelf: Shelf, best: Names) -> Found:
-    """Every effect of the set is exchanged for every other; those that do as well are rivals."""
+    """Every effect of the set is exchanged for every other; those that do as well are rivals.
+
+    A set that leaves more than noise explains nothing, and then others are of use that may: only those are fitted.
+    """
+    beyond = 0.0 if few(shelf) else excess(shelf, best)
     for name in [n for n in best if shelf.candidates[n].parameters]:
         start = best - {name}
         gap = cost(shelf, start) - cost(shelf, best)
-        limit = cost(shelf, best) + max(25.0, (NEARLY if few(shelf) else DOUBT) * gap)
+        limit = cost(shelf, best) - beyond + max(25.0, (NEARLY if few(shelf) else DOUBT) * gap)
         near = [
             e for e in estimates(shelf, start, (1,)) if e.names not in (start, best) and raw(shelf, e) < limit
         ]

@@ -39,6 +39,14 @@ class Signature:
     low: Array
     probes: tuple[float, ...] = ()
 
+    @property
+    def sizes(self) -> list[float]:
+        """Typical sizes from null that each of all columns stands for."""
+        if not self.probes:
+            return [1.0] * sum(each.shape[1] for each in self.columns)
+        first = self.effect.parameters[0]
+        return [(value - first.null) / first.typical for value in self.probes]
+
 
 @dataclass(frozen=True, eq=False)
 class Look:

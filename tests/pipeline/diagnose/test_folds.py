@@ -13,6 +13,7 @@ from pipeline.diagnose.picture import Picture
 from pipeline.diagnose.shelf import Names, Shelf
 from pipeline.diagnose.signatures import Signature
 from pipeline.inference.fit import Fit
+from pipeline.inference.model import Model
 from vjm.effects import catalogue
 
 NAMES = ("modulus_error", "mounting_tilt")
@@ -27,7 +28,7 @@ def shelf(misfit: np.ndarray) -> Shelf:
         name: Signature(effects[name], (shape[:, None],), np.array([-np.inf]))
         for name, shape in zip(NAMES, shapes, strict=True)
     }
-    fit = cast(Fit, SimpleNamespace(chi_square=float(misfit @ misfit)))
+    fit = cast(Fit, SimpleNamespace(chi_square=float(misfit @ misfit), model=Model()))
     about = Picture(fit, signatures, misfit, np.zeros((EVERY.size, 0)), EVERY, 1.0)
     pictures = {frozenset[str](): about}
     return cast(Shelf, SimpleNamespace(pictures=pictures, candidates={n: effects[n] for n in NAMES}))
