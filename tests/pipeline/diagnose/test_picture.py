@@ -3,13 +3,18 @@
 from __future__ import annotations
 
 from functools import cache
+from types import SimpleNamespace
+from typing import cast
 
 import numpy as np
 import pytest
 
 from pipeline.diagnose.apart import multiple_correlation
 from pipeline.diagnose.evidence import APART, FALSE_ALARM, entry
+from pipeline.diagnose.picture import Picture
 from pipeline.diagnose.shelf import Shelf
+from pipeline.diagnose.signatures import Signature
+from pipeline.inference.fit import Fit
 from pipeline.inference.model import Model
 from pipeline.inference.program import program
 from tests.pipeline.diagnose.bench import bench
@@ -50,6 +55,21 @@ def test_a_pair_gains_at_least_what_its_best_member_does() -> None:
     about = shelf("modulus_error.scale", 0.995).picture(frozenset([LARGE]))
     single = max(about.gain([name]).value for name in ("modulus_error", "axis_flexibility"))
     assert about.gain(["modulus_error", "axis_flexibility"]).value >= single - 1e-6
+
+
+@pytest.mark.parametrize("share", [1.0, 0.25])
+def test_what_takes_implausible_numbers_off_another_is_worth_that(share: float) -> None:
+    """Two effects that look the same, one of them at 40 typical sizes, 4 of chi-square: shared by both, 20 each, they
+    cost 2. The readings are explained either way, and however few of them are looked at."""
+    model = Model().with_effects([EFFECTS["modulus_error"]])
+    (free,) = model.free
+    size = free.parameter.typical
+    model = model.at(np.array([free.parameter.null + 40.0 * size]))
+    column = np.full((6, 1), 1e3)
+    other = Signature(EFFECTS["joint_torsional_stiffness"], (column,), np.array([-np.inf]))
+    fit = cast(Fit, SimpleNamespace(model=model, chi_square=0.0))
+    about = Picture(fit, {"other": other}, np.zeros(6), column / size, np.zeros(6, dtype=int), share)
+    assert about.gain(["other"]).value == pytest.approx(2.0, rel=1e-4)
 
 
 def test_thresholds() -> None:

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+from types import SimpleNamespace
 from typing import cast
 
 import numpy as np
 import pytest
 
-from pipeline.diagnose import exclusion, few_rows
+from pipeline.diagnose import exclusion, few_rows, rivals
 from pipeline.diagnose.estimates import Estimate
 from pipeline.diagnose.evidence import APART, apart
 from pipeline.diagnose.exclusion import possible
@@ -47,6 +48,34 @@ def test_a_set_counts_once_whatever_is_added_to_it(monkeypatch: pytest.MonkeyPat
     assert kept(monkeypatch, {"a": 5.1, "a+b": 5.2, "a+c": 5.3}) == set()
     # Far by itself and near only with another: the pair is what counts.
     assert kept(monkeypatch, {"a": 90.0, "a+b": 5.1, "c": 5.2, "modulus_error+b": 5.0}) == {"a+b"}
+
+
+@pytest.mark.parametrize(("beyond", "looked_at"), [(0.0, True), (4.0, True), (6.0, False)])
+def test_beside_a_set_that_explains_nothing_only_what_may_explain_is_looked_at(
+    monkeypatch: pytest.MonkeyPatch, beyond: float, looked_at: bool
+) -> None:
+    """A rival that promises 20 more than the best set costs, where 25 are allowed, is of no use if the best one leaves
+    more than 5 beyond noise: it would leave more than noise as well."""
+    best, rival = frozenset("ab"), frozenset("ac")
+    costs = {best: 100.0, frozenset("a"): 200.0, frozenset("b"): 200.0, rival: 120.0}
+    fitted: list[Names] = []
+    effect = SimpleNamespace(parameters=(None,))
+    shelf = SimpleNamespace(
+        candidates=dict.fromkeys("abc", effect), fits=[best], fit=lambda names, _: fitted.append(names)
+    )
+    monkeypatch.setattr(rivals, "few", lambda _: False)
+    monkeypatch.setattr(rivals, "excess", lambda _, names: beyond)
+    monkeypatch.setattr(rivals, "cost", lambda _, names: costs[names])
+    monkeypatch.setattr(rivals, "taken", lambda _, names: len(names))
+    monkeypatch.setattr(rivals, "possible", lambda *_: [])
+    monkeypatch.setattr(rivals, "raw", lambda _, e: e.cost)
+    monkeypatch.setattr(
+        rivals,
+        "estimates",
+        lambda _, start, __: [Estimate(start | {"c"}, costs[rival], {})] * (start < rival),
+    )
+    assert rivals.with_rivals(cast(Shelf, shelf), best).best == best
+    assert fitted == [rival] * looked_at
 
 
 def test_more_numbers_have_to_show_more() -> None:
