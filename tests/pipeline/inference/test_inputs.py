@@ -109,9 +109,9 @@ def test_a_row_costs_the_least_that_any_force_costs() -> None:
     sigma = part.input_sigma[:, 0]
     others = replace(part, input_sigma=np.where(axial, 0.0, part.input_sigma))
     costs = []
-    for steps in np.linspace(-4.0, 4.0, 241):
+    for steps in np.linspace(-4.0, 4.0, 121):
         shift = np.where(axial, steps * sigma[:, None], 0.0)
-        there = predict(play, part, shift=shift)
+        there = predict(play, part, slopes=False, shift=shift)
         fixed = residual(others, replace(there, shift=np.where(axial, 0.0, shift)))
         costs.append(np.sum(fixed.values**2, axis=1) + steps**2)
     least = np.min(costs, axis=0)
@@ -120,7 +120,10 @@ def test_a_row_costs_the_least_that_any_force_costs() -> None:
     assert np.mean(np.abs(off) < 0.1) > 0.75 and np.abs(off).max() < 3.0
 
 
-@pytest.mark.parametrize(("seed", "beside"), [(1, ()), (2, ()), (3, ()), (1, ("joint_friction",))])
+@pytest.mark.parametrize(
+    ("seed", "beside"),
+    [(1, ()), (2, ()), (3, ()), pytest.param(1, ("joint_friction",), marks=pytest.mark.long)],
+)
 def test_a_play_that_is_not_there_takes_up_little(seed: int, beside: tuple[str, ...]) -> None:
     tests = program(campaign(tuple(typical(beside).items()), seed, 8))
     kinds = catalogue()
