@@ -86,6 +86,7 @@ def test_one_effect_at_a_time_is_misled_and_both_together_explain_it() -> None:
     assert np.sqrt(np.mean(error**2)) < 2.5
 
 
+@pytest.mark.long
 def test_a_number_that_hardly_shows_holds_no_other_back() -> None:
     """Weight across the bending shows in second order alone: with it free the fit is no worse than without."""
     both = [EFFECTS[LARGE], EFFECTS[HEAVY]]

@@ -50,7 +50,10 @@ def test_play_under_forces_that_are_all_noise_is_no_misfit(seed: int) -> None:
     assert np.sum(naive.flat(naive.values) ** 2) > 1.5 * count
 
 
-@pytest.mark.parametrize(("beside", "steps"), [("joint_friction", 8), ("material_yield", 24)])
+@pytest.mark.parametrize(
+    ("beside", "steps"),
+    [("joint_friction", 8), pytest.param("material_yield", 24, marks=pytest.mark.long)],
+)
 def test_rows_choose_their_side_where_laws_remember(beside: str, steps: int) -> None:
     """Friction or yielding beside a play: each row's side of the play is no matter of the history.
 
@@ -122,7 +125,12 @@ def test_a_row_costs_the_least_that_any_force_costs() -> None:
 
 @pytest.mark.parametrize(
     ("seed", "beside"),
-    [(1, ()), (2, ()), (3, ()), pytest.param(1, ("joint_friction",), marks=pytest.mark.long)],
+    [
+        (1, ()),
+        pytest.param(2, (), marks=pytest.mark.long),
+        pytest.param(3, (), marks=pytest.mark.long),
+        pytest.param(1, ("joint_friction",), marks=pytest.mark.long),
+    ],
 )
 def test_a_play_that_is_not_there_takes_up_little(seed: int, beside: tuple[str, ...]) -> None:
     tests = program(campaign(tuple(typical(beside).items()), seed, 8))
@@ -151,6 +159,7 @@ def test_from_too_large_a_play_a_fit_ends_as_from_below(begin: float) -> None:
     assert abs(found.model.values[0] - 3e-3) < 2.0 * found.std[0]
 
 
+@pytest.mark.long
 def test_a_first_step_that_went_too_far_is_no_end() -> None:
     """After it rows are linearised far from the inputs that fit best and look better than they are, and the next step,
     which leads to the truth, worse than none."""

@@ -17,6 +17,7 @@ HIDDEN = {"material_yield.strain": 1e-3}
 PLAN = [test for test in bench_plan(9) if test.id == "lateral_q+0"]
 
 
+@pytest.mark.long
 def test_finer_bars_change_little_when_they_yield(monkeypatch: pytest.MonkeyPatch) -> None:
     """Elements half as long move no reading by more than a fiftieth of what yielding does."""
     (elastic,) = bench.true_readings(bench_rig(), PLAN, {})
