@@ -146,28 +146,29 @@ class Equilibrium:
             for chain, r, x, past in parts
         ]
 
+    @property
+    def arrays(self) -> list[np.ndarray]:
+        """All but the mechanism, in the order of the fields."""
+        return [getattr(self, field.name) for field in fields(self)[1:]]
+
     def member(self, index: int | tuple[int | slice | np.ndarray, ...] | slice | np.ndarray) -> Equilibrium:
         """One state of the batch, or several."""
-        return Equilibrium(self.mechanism, *(np.asarray(part[index]) for part in _arrays(self)))
+        return Equilibrium(self.mechanism, *(np.asarray(part[index]) for part in self.arrays))
 
     def with_members(
         self, index: np.ndarray | tuple[int | np.ndarray, ...], other: Equilibrium
     ) -> Equilibrium:
         """The same states with those of another one at these numbers, or this mask, of the batch."""
-        parts = [part.copy() for part in _arrays(self)]
-        for part, new in zip(parts, _arrays(other), strict=True):
+        parts = [part.copy() for part in self.arrays]
+        for part, new in zip(parts, other.arrays, strict=True):
             part[index] = new
         return Equilibrium(self.mechanism, *parts)
 
     def reshaped(self, *batch: int) -> Equilibrium:
         """The same states with other batch axes."""
         axes = self.converged.ndim
-        parts = (part.reshape((*batch, *part.shape[axes:])) for part in _arrays(self))
+        parts = (part.reshape((*batch, *part.shape[axes:])) for part in self.arrays)
         return Equilibrium(self.mechanism, *parts)
-
-
-def _arrays(state: Equilibrium) -> list[np.ndarray]:
-    return [getattr(state, field.name) for field in fields(state)[1:]]
 
 
 def unloaded(mechanism: Mechanism, drives: Drives | None = None) -> Equilibrium:
@@ -306,7 +307,7 @@ def load_path(
 def stack(states: Collection[Equilibrium]) -> Equilibrium:
     """States of one mechanism with equal batch shape, stacked along a new first axis."""
     first = next(iter(states))
-    parts = zip(*(_arrays(state) for state in states), strict=True)
+    parts = zip(*(state.arrays for state in states), strict=True)
     return Equilibrium(first.mechanism, *(np.stack(part) for part in parts))
 
 

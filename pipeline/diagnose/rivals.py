@@ -33,15 +33,17 @@ def with_rivals(shelf: Shelf, best: Names) -> Found:
     A set that leaves more than noise explains nothing, and then others are of use that may: only those are fitted.
     """
     beyond = 0.0 if few(shelf) else excess(shelf, best)
-    for name in [n for n in best if shelf.candidates[n].parameters]:
-        start = best - {name}
+    without = [best - {name} for name in best if shelf.candidates[name].parameters]
+    shelf.fit_all({names: {} for names in without})
+    wanted: dict[Names, dict[str, float]] = {}
+    for start in without:
         gap = cost(shelf, start) - cost(shelf, best)
         limit = cost(shelf, best) - beyond + max(25.0, (NEARLY if few(shelf) else DOUBT) * gap)
         near = [
             e for e in estimates(shelf, start, (1,)) if e.names not in (start, best) and raw(shelf, e) < limit
         ]
-        for e in near[: None if few(shelf) else WIDTH]:
-            shelf.fit(e.names, e.probes)
+        wanted |= {e.names: e.probes for e in near[: None if few(shelf) else WIDTH]}
+    shelf.fit_all(wanted)
     if few(shelf):
         fit_together(shelf, best)
     winner = min(shelf.fits, key=lambda names: cost(shelf, names))

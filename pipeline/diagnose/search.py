@@ -77,8 +77,7 @@ def _competing(shelf: Shelf, start: Names, count: int) -> list[Estimate]:
     hoped = {e.names: e.cost - doubt(shelf, e.names - start) * max(here - e.cost, 0.0) for e in every}
     within = [e for e in every if e.cost < here and hoped[e.names] < best + 2 * APART]
     within = sorted(within, key=lambda e: hoped[e.names])[:WIDTH]
-    for e in within:
-        shelf.fit(e.names, e.probes)
+    shelf.fit_all({e.names: e.probes for e in within})
     return within
 
 
@@ -99,6 +98,7 @@ def _pruned(shelf: Shelf, names: Names) -> Names:
     """The set without what is no longer needed."""
     while names:
         fewer = [names - {name} for name in names if _dispensable(shelf, names, name)]
+        shelf.fit_all({each: {} for each in fewer})
         best = min(fewer, key=lambda each: cost(shelf, each), default=names)
         if not fewer or cost(shelf, best) > cost(shelf, names):
             return names

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from functools import cached_property
+from functools import cached_property, partial
 
 import numpy as np
 
@@ -16,6 +16,7 @@ from pipeline.inference.model import Model, Term
 from pipeline.inference.prediction import Prediction, predict
 from pipeline.inference.program import Program
 from pipeline.inference.residual import residual
+from pipeline.inference.sent import fits_at_once
 from pipeline.inference.sides import sided
 from pipeline.inference.starts import best_fit
 from vjm.effects.base import Effect
@@ -58,6 +59,17 @@ class Shelf:
             self.say(" + ".join(self.order(names)) or "the model as it is")
             self.fits[names] = self._fitted(names, begin or {})
         return self.fits[names]
+
+    def fit_all(self, wanted: Mapping[Names, Mapping[str, float]]) -> None:
+        """Fit several sets of which none holds another, each as `fit` does it alone."""
+        new = {names: begin for names, begin in wanted.items() if names not in self.fits}
+        # What takes longest is begun first: rows that choose their side, then other kinks.
+        order = sorted(new, key=self._quickness)
+        if order:
+            self.say(", ".join(" + ".join(self.order(names)) for names in order))
+        calls = [(self._model(names), partial(self._fitted, names, new[names])) for names in order]
+        made = dict(zip(order, fits_at_once(calls, self.whole), strict=True))
+        self.fits |= {names: made[names] for names in new}
 
     def picture(self, names: Names) -> Picture:
         """What could be added to a fit."""
@@ -106,10 +118,17 @@ class Shelf:
         there = predict(found.model, self.whole, start=found.prediction, shift=found.residual.shift)
         return Fit(found.model, there, residual(self.whole, there), found.evaluations + 1)
 
+    def _quickness(self, names: Names) -> tuple[bool, bool]:
+        effects = [self.candidates[name] for name in names]
+        return not any(map(sided, effects)), all(effect.smooth for effect in effects)
+
+    def _model(self, names: Names) -> Model:
+        return self.base.with_effects([self.candidates[name] for name in self.order(names)])
+
     def _begin(self, names: Names) -> tuple[Model, Prediction | None, Names]:
         """The model with values of the best of the largest sets that were fitted already, where that one stood, and
         the set."""
-        model = self.base.with_effects([self.candidates[name] for name in self.order(names)])
+        model = self._model(names)
         inside = [each for each in self.fits if each < names]
         if not inside:
             return model, None, frozenset()

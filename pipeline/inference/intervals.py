@@ -10,6 +10,7 @@ Regression Analysis, Wiley 1988, ch. 6.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import partial
 from typing import Literal
 
 import numpy as np
@@ -25,6 +26,7 @@ from pipeline.inference.prediction import Prediction
 from pipeline.inference.program import Program
 from pipeline.inference.residual import Residual
 from pipeline.inference.sides import sided
+from pipeline.processors import at_once
 
 Array = NDArray[np.float64]
 Z = float(norm.ppf(0.975))
@@ -84,7 +86,16 @@ class _Near:
 
 def intervals(land: Landscape) -> tuple[Interval, ...]:
     """The interval of every number."""
-    return tuple(_interval(land, k) for k in range(land.values.size))
+    before = land.evaluations
+    found = at_once([partial(_counted, land, k) for k in range(land.values.size)])
+    land.evaluations = before + sum(count for _, count in found)
+    return tuple(each for each, _ in found)
+
+
+def _counted(land: Landscape, k: int) -> tuple[Interval, int]:
+    """The interval of a number and the evaluations that it took."""
+    before = land.evaluations
+    return _interval(land, k), land.evaluations - before
 
 
 def _interval(land: Landscape, k: int) -> Interval:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterator, Mapping
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,6 +16,7 @@ from pipeline.inference.model import Free, Model
 from pipeline.inference.parts import at_rows
 from pipeline.inference.prediction import Prediction
 from pipeline.inference.program import Program
+from pipeline.inference.sent import fits_at_once
 from pipeline.inference.thinning import thinned
 from vjm.effects.base import Effect
 
@@ -59,7 +61,9 @@ def best_fit(
         ladders = [_ladder(begin, effect, *look, watch) for begin in begins]
         begins = [each for found, _ in ladders for each in found][:MINIMA]
         spent += sum(count for _, count in ladders)
-    fits = [fit(begin, program, start, watch, plausible) for begin in begins]
+    # Another process has nobody to watch it.
+    calls = [partial(fit, it, program, start, None if k else watch, plausible) for k, it in enumerate(begins)]
+    fits = fits_at_once(list(zip(begins, calls, strict=True)), program)
     if not kinked and _doubtful(fits[0], program, new):
         there = _typical(fits[0].model, new)
         spent += 1

@@ -1,0 +1,54 @@
+"""Fits that are made at once: between processes go numbers alone, the rest is where it was."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+from functools import partial
+from typing import cast
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pipeline.inference.fit import Fit
+from pipeline.inference.manipulator_states import States
+from pipeline.inference.model import Model
+from pipeline.inference.prediction import Prediction
+from pipeline.inference.program import Group, Program
+from pipeline.inference.residual import residual
+from pipeline.processors import at_once
+from vjm.equilibrium import Equilibrium
+
+Bare = States | list[np.ndarray]
+"""A state without its mechanism: what laws of a user's own are made of may not be sent."""
+Numbers = tuple[NDArray[np.float64], Prediction, list[Bare], int]
+
+
+def fits_at_once(calls: Sequence[tuple[Model, Callable[[], Fit]]], program: Program) -> list[Fit]:
+    """Fits of models to the tests of a program, each with the call that makes it; same as one after the other."""
+    found = at_once([partial(_numbers, call) for _, call in calls])
+    return [_fit(model, each, program) for (model, _), each in zip(calls, found, strict=True)]
+
+
+def _numbers(call: Callable[[], Fit]) -> Numbers:
+    found = call()
+    # Of a manipulator they are `States`.
+    bare = [
+        s if isinstance(s, States) else s.arrays
+        for s in cast(list[Equilibrium | States], found.prediction.states)
+    ]
+    return found.model.values, replace(found.prediction, states=()), bare, found.evaluations
+
+
+def _fit(model: Model, numbers: Numbers, program: Program) -> Fit:
+    values, prediction, bare, evaluations = numbers
+    model = model.at(values)
+    states = tuple(_state(model, program, *each) for each in zip(program.groups, bare, strict=True))
+    prediction = replace(prediction, states=states)
+    return Fit(model, prediction, residual(program, prediction), evaluations)
+
+
+def _state(model: Model, program: Program, group: Group, bare: Bare) -> Equilibrium:
+    if isinstance(bare, States):
+        return cast(Equilibrium, bare)
+    return Equilibrium(model.mechanism(group.rig, program.campaign.gauges), *bare)
