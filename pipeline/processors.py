@@ -12,6 +12,7 @@ import os
 import signal
 import sys
 from collections.abc import Callable, Sequence
+from contextlib import suppress
 from multiprocessing import get_context
 from multiprocessing.connection import Connection
 from multiprocessing.context import ForkProcess
@@ -47,13 +48,20 @@ def at_once(calls: Sequence[Callable[[], Out]]) -> list[Out]:
     A call must leave nothing behind that another one needs: what it changes in a fork is gone. What cannot be sent,
     or is lost with a fork that was killed, is computed here. An exception of a call is raised here.
     """
-    count = min(_used, len(calls))
-    if count < 2:
+    others = min(_used, len(calls)) - 1
+    if others < 1:
         return [call() for call in calls]
-    taken = get_context("fork").Value("i", 1)
-    forks = [_fork(calls, taken) for _ in range(count - 1)]
+    forks: list[tuple[ForkProcess, Connection]] = []
+    found: Found = {}
     try:
-        found = {0: calls[0]()} | _work(calls, taken)
+        # A machine that has no room for a fork, or for fewer than wanted, computes with what it has.
+        with suppress(OSError):
+            taken = get_context("fork").Value("i", 1)
+            for _ in range(others):
+                forks.append(_fork(calls, taken))
+        found[0] = calls[0]()
+        if forks:
+            found |= _work(calls, taken)
         for _, answer in forks:
             found |= _received(answer)
         return [found[k] if k in found else call() for k, call in enumerate(calls)]
@@ -67,9 +75,9 @@ def at_once(calls: Sequence[Callable[[], Out]]) -> list[Out]:
 def _fork(calls: Sequence[Callable[[], Any]], taken: Synchronized[int]) -> tuple[ForkProcess, Connection]:
     context = get_context("fork")
     ours, theirs = context.Pipe(duplex=False)
-    process = context.Process(target=_serve, args=(calls, taken, ours, theirs, os.getpid()))
-    process.start()
-    theirs.close()
+    with theirs:
+        process = context.Process(target=_serve, args=(calls, taken, ours, theirs, os.getpid()))
+        process.start()
     return process, ours
 
 
