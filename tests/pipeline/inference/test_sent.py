@@ -1,0 +1,90 @@
+"""Fits, intervals and a whole diagnosis are the same on one processor and on two."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Iterator
+from functools import partial
+
+import numpy as np
+import pytest
+
+from pipeline.answer import Answer
+from pipeline.coverage.cases import BASE, typical
+from pipeline.coverage.trial import campaign
+from pipeline.diagnose.diagnosis import answer_of, diagnose
+from pipeline.inference import sent
+from pipeline.inference.fit import Fit, fit
+from pipeline.inference.inputs import linearised
+from pipeline.inference.intervals import intervals, landscape
+from pipeline.inference.model import Model
+from pipeline.inference.program import program
+from pipeline.inference.sent import fits_at_once
+from pipeline.processors import may_use
+from vjm.effects import catalogue
+
+pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="forks are made on Linux alone")
+HIDDEN = typical(["joint_friction"])
+CASES = program(campaign(tuple(HIDDEN.items()), 2, 8))
+ROUGH = Model().with_effects([catalogue()[name] for name in (BASE, "joint_friction")])
+
+
+@pytest.fixture
+def two() -> Iterator[None]:
+    may_use(2)
+    yield
+    may_use(1)
+
+
+def begun() -> list[Model]:
+    return [ROUGH.at(np.array([torque, 2e-3])) for torque in (200.0, 600.0, 1200.0)]
+
+
+def fits() -> list[Fit]:
+    return fits_at_once([(it, partial(fit, it, CASES)) for it in begun()], CASES)
+
+
+def test_a_fit_comes_back_as_it_was_made(two: None) -> None:
+    for here, other in zip([fit(it, CASES) for it in begun()], fits(), strict=True):
+        assert other.chi_square == here.chi_square and other.evaluations == here.evaluations
+        assert other.model.names == here.model.names and not other.prediction.lost.any()
+        np.testing.assert_array_equal(other.model.values, here.model.values)
+        np.testing.assert_array_equal(other.jacobian, here.jacobian)
+        # Fits that follow go on from its states, with what its laws remember.
+        again, left = linearised(other.model, CASES, start=other.prediction, shift=other.residual.shift)
+        same, kept = linearised(here.model, CASES, start=here.prediction, shift=here.residual.shift)
+        np.testing.assert_array_equal(again.values, same.values)
+        np.testing.assert_array_equal(left.values, kept.values)
+
+
+def test_laws_are_not_sent(two: None, monkeypatch: pytest.MonkeyPatch) -> None:
+    """One of a user's own may be made of what no other process knows; then all would be fitted here again."""
+    made = []
+    numbers = sent._numbers
+
+    def counted(call: partial[Fit]) -> object:
+        made.append(call)
+        return numbers(call)
+
+    monkeypatch.setattr(sent, "_numbers", counted)
+    assert len(fits()) == 3 > len(made)
+
+
+def test_intervals_are_those_of_one_processor(two: None) -> None:
+    best = fits()[0]
+    both = landscape(best, CASES)
+    found = intervals(both)
+    may_use(1)
+    alone = landscape(best, CASES)
+    assert intervals(alone) == found and alone.evaluations == both.evaluations > 0
+
+
+def test_a_diagnosis_is_that_of_one_processor(two: None) -> None:
+    tests = campaign((("modulus_error.scale", 0.95),), 3, 8)
+
+    def answer() -> Answer:
+        return answer_of(diagnose(tests, Model(), catalogue())).model_copy(update={"seconds": 0.0})
+
+    both = answer()
+    may_use(1)
+    assert answer() == both and both.verdict == "identified"
