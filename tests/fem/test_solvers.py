@@ -140,7 +140,7 @@ def test_direct_takes_the_fastest_that_is_there(monkeypatch: pytest.MonkeyPatch)
     assert direct(k).name == "SuperLU"
 
 
-@pytest.mark.parametrize("kind", ["bar", "linkage"])
+@pytest.mark.parametrize("kind", ["bar", pytest.param("linkage", marks=pytest.mark.long)])
 def test_multigrid_solves_like_the_direct_solver(kind: str) -> None:
     """To its tolerance of 1e-11 on the residual times a condition of 1e8 of which the smoother takes most."""
     model = bar_p.model(1) if kind == "bar" else bar_p.linkage_model(1, 30.0)
