@@ -66,7 +66,8 @@ class Shelf:
         # What takes longest is begun first: rows that choose their side, then other kinks.
         order = sorted(new, key=self._quickness)
         if order:
-            self.say(", ".join(" + ".join(self.order(names)) for names in order))
+            more = f" and {len(order) - 1} more" if len(order) > 1 else ""
+            self.say(" + ".join(self.order(order[0])) + more)
         calls = [(self._model(names), partial(self._fitted, names, new[names])) for names in order]
         made = dict(zip(order, fits_at_once(calls, self.whole), strict=True))
         self.fits |= {names: made[names] for names in new}
