@@ -56,7 +56,7 @@ class Shelf:
     def fit(self, names: Names, begin: Mapping[str, float] | None = None) -> Fit:
         """The base model with these effects at its best fit. begin: where those with kinks begin."""
         if names not in self.fits:
-            self.say(" + ".join(self.order(names)) or "the model as it is")
+            self.say(self._title(names))
             self.fits[names] = self._fitted(names, begin or {})
         return self.fits[names]
 
@@ -67,7 +67,7 @@ class Shelf:
         order = sorted(new, key=self._quickness)
         if order:
             more = f" and {len(order) - 1} more" if len(order) > 1 else ""
-            self.say(" + ".join(self.order(order[0])) + more)
+            self.say(self._title(order[0]) + more)
         calls = [(self._model(names), partial(self._fitted, names, new[names])) for names in order]
         made = dict(zip(order, fits_at_once(calls, self.whole), strict=True))
         self.fits |= {names: made[names] for names in new}
@@ -118,6 +118,9 @@ class Shelf:
             return found
         there = predict(found.model, self.whole, start=found.prediction, shift=found.residual.shift)
         return Fit(found.model, there, residual(self.whole, there), found.evaluations + 1)
+
+    def _title(self, names: Names) -> str:
+        return " + ".join(self.order(names)) or "the model as it is"
 
     def _quickness(self, names: Names) -> tuple[bool, bool]:
         effects = [self.candidates[name] for name in names]
