@@ -12,7 +12,7 @@ from pipeline.answer import Answer, Correlation
 from pipeline.campaign import Campaign
 from pipeline.errors import InputError
 from pipeline.inference.fit import Fit, fit
-from pipeline.inference.intervals import correlations, landscape, only_together
+from pipeline.inference.intervals import correlations, intervals, landscape, only_together
 from pipeline.inference.model import Model
 from pipeline.inference.model_file import Uncertainty
 from pipeline.inference.program import Program, program
@@ -96,7 +96,7 @@ def _compared(
     before, after = fits
     say("intervals")
     land = landscape(after, cases)
-    values = values_of(after.model, land)
+    values = values_of(after.model, intervals(land))
     pairs = correlations(land)
     names = [each.name for each in after.model.free]
     errors = (error_of(before, cases, numbers), error_of(after, cases, len(after.model.free)))

@@ -2,21 +2,22 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 
 from pipeline.answer import LEVEL, ModelError, TestChange, TestNoise, Value
 from pipeline.compare.error import Discrepancy
 from pipeline.inference.fit import Fit
-from pipeline.inference.intervals import intervals
-from pipeline.inference.landscape import Landscape
+from pipeline.inference.intervals import Interval
 from pipeline.inference.model import Model
 from pipeline.inference.program import Program
 from pipeline.noise import chi_square, lag_one
 
 
-def values_of(model: Model, land: Landscape) -> dict[str, Value]:
-    """Every number of the model, in order."""
-    found = {each.name: it for each, it in zip(model.free, intervals(land), strict=True)}
+def values_of(model: Model, intervals: Sequence[Interval]) -> dict[str, Value]:
+    """Every number of the model, in order; intervals: of those that were free."""
+    found = {each.name: it for each, it in zip(model.free, intervals, strict=True)}
     out = {}
     for term in model.terms:
         for p in term.effect.parameters:

@@ -26,7 +26,7 @@ from pipeline.diagnose.shelf import Names, Shelf
 from pipeline.diagnose.signatures import Say
 from pipeline.errors import InputError
 from pipeline.inference.fit import Fit
-from pipeline.inference.intervals import correlations, landscape, only_together
+from pipeline.inference.intervals import correlations, intervals, landscape, only_together, straight
 from pipeline.inference.model import Model
 from pipeline.inference.program import program
 from pipeline.inference.sigmas import completed
@@ -150,14 +150,14 @@ def _simplicity(shelf: Shelf, names: Names) -> tuple[int, int, float]:
     return len(names), taken(shelf, names), shelf.fit(names).chi_square
 
 
-def answer_of(it: Diagnosis, sentences: tuple[str, ...] = ()) -> Answer:
-    """The diagnosis as a record."""
-    shelf, whole = it.shelf, it.shelf.whole
+def answer_of(it: Diagnosis, sentences: tuple[str, ...] = (), found: Fit | None = None) -> Answer:
+    """The diagnosis as a record. found: whose numbers it has, default those of the first set."""
+    shelf, whole, found = it.shelf, it.shelf.whole, found or it.fit
     before = shelf.fit(frozenset())
-    land = landscape(it.fit, whole)
-    values = values_of(it.model, land)
+    land = landscape(found, whole)
+    values = values_of(found.model, intervals(land) if it.judgement.noise else straight(land))
     pairs = correlations(land)
-    names = [each.name for each in it.model.free]
+    names = [each.name for each in found.model.free]
     steps = [before, *_steps(it)]
     return Answer(
         campaign=it.campaign.name,

@@ -9,7 +9,6 @@ from rich.console import Console
 from rich.live import Live
 
 from pipeline.add.command import starting_model
-from pipeline.add.summary import values_of
 from pipeline.answer import Answer
 from pipeline.campaign import Campaign, read
 from pipeline.command import usable
@@ -17,7 +16,6 @@ from pipeline.diagnose.diagnosis import Diagnosis, answer_of, diagnose
 from pipeline.diagnose.words import sentences
 from pipeline.improve.steps import Step, steps
 from pipeline.improve.table import closing, following, waterfall
-from pipeline.inference.intervals import landscape
 from pipeline.inference.model import Model
 from pipeline.inference.model_file import NAME, ModelFile, Uncertainty, write_model
 from pipeline.inference.suitable import Known, known_effects
@@ -54,21 +52,20 @@ def improve_campaign(
         stage.note = f"{len(found.shelf.fits)} models fitted"
     done = _watched(found, quiet)
     last = done[-1].fit
-    land = landscape(last, found.shelf.whole)
-    values = values_of(last.model, land)
-    answer = answer_of(found, sentences(found))
+    answer = answer_of(found, sentences(found), last)
     answer = answer.model_copy(
         update={
             "verdict": "within_noise" if answer.verdict == "identified" else answer.verdict,
             "effects": last.model.names,
             "added": tuple(name for name in last.model.names if name not in began.names),
-            "parameters": values,
             "error": tuple(step.error for step in done),
             "seed": seed,
         }
     )
     uncertainty = {
-        name: Uncertainty(v.std, v.low95, v.high95) for name, v in values.items() if v.interval != "fixed"
+        name: Uncertainty(v.std, v.low95, v.high95)
+        for name, v in answer.parameters.items()
+        if v.interval != "fixed"
     }
     if answer.added:
         _write(folder / NAME, last.model, uncertainty, campaign, known)

@@ -92,6 +92,22 @@ def intervals(land: Landscape) -> tuple[Interval, ...]:
     return tuple(each for each, _ in found)
 
 
+def straight(land: Landscape) -> tuple[Interval, ...]:
+    """As if the sum of squares were a parabola: for a model that leaves more than noise, of which a rise by 3.841 says
+    nothing that many solutions would be worth."""
+    return tuple(_straight(land, k) for k in range(land.values.size))
+
+
+def _straight(land: Landscape, k: int) -> Interval:
+    value, span = float(land.values[k]), land.ranges[k]
+    std = float(np.sqrt(land.ridge(k)[1]))
+    low, high = (value + side * Z * std for side in (-1, 1))
+    ends = (low if low > span.low else span.end(-1), high if high < span.high else span.end(1))
+    if not std < span.high - span.low:
+        return Interval(value, np.inf, span.end(-1), span.end(1), "undetermined")
+    return Interval(value, std, *ends, "wald")
+
+
 def _counted(land: Landscape, k: int) -> tuple[Interval, int]:
     """The interval of a number and the evaluations that it took."""
     before = land.evaluations

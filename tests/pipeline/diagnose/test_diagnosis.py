@@ -55,6 +55,17 @@ def test_held_out_tests_tell_of_physics_that_the_fitted_ones_do_not_show() -> No
     assert softer.verdict == "unknown"
 
 
+def test_numbers_of_what_explains_little_are_worth_no_solutions() -> None:
+    """An offset of the load, of which only a misalignment is known: it helps, and noise is far."""
+    tests = bench("load_offset.y_mm", 9.0, ids=("swing_q+0", "lateral_q+0", "axial_guided_q+0"))
+    it = diagnose(tests, Model(), {name: EFFECTS[name] for name in (LARGE, "load_misalignment")})
+    assert it.verdict == "unknown" and it.sets == ((LARGE, "load_misalignment"),)
+    answer = answer_of(it)
+    assert answer.evaluations == it.shelf.evaluations
+    assert [value.interval for value in answer.parameters.values()] == ["wald"] * 3
+    assert answer_of(axial()).evaluations > axial().shelf.evaluations, "what explains it is"
+
+
 def test_what_is_not_measured_yet_is_refused() -> None:
     with pytest.raises(InputError, match="ahead: no fitted test has a reading that a model predicts"):
         diagnose(unmeasured(), Model(), catalogue())

@@ -10,7 +10,14 @@ import pytest
 from numpy.typing import NDArray
 from scipy.optimize import least_squares
 
-from pipeline.inference.intervals import Interval, correlations, holds_null, intervals, only_together
+from pipeline.inference.intervals import (
+    Interval,
+    correlations,
+    holds_null,
+    intervals,
+    only_together,
+    straight,
+)
 from pipeline.inference.landscape import CLOSE, RISE, Landscape, Range
 
 Array = NDArray[np.float64]
@@ -66,6 +73,20 @@ def test_linear_gaussian_intervals_are_exact_and_cover_the_truth_as_often_as_the
         np.testing.assert_allclose([it.high for it in found], best + Z * std, rtol=1e-9)
         held.append([low <= t <= high for (low, high), t in zip(map(ends, found), truth, strict=True)])
     assert abs(np.mean(held) - 0.95) < 3.0 * np.sqrt(0.95 * 0.05 / 1200)
+
+
+def test_straight_intervals_are_those_of_a_parabola_and_solve_nothing() -> None:
+    """Within the range of a number; where the data say nothing, none."""
+    matrix = np.array([[1.0, 0.0, 0.0], [0.0, 2.0, 0.0], [0.0, 0.0, 0.0]])
+    toy = linear(matrix, np.array([0.5, 20.0, 0.0]))
+    it = land(toy, np.array([1.0, 1.0, 1.0]), [POSITIVE, WIDE, WIDE])
+    solved = toy.solved
+    near, far, hidden = straight(it)
+    assert toy.solved == solved and it.evaluations == 0
+    assert (near.low, near.high) == (0.0, pytest.approx(0.5 + Z)) and near.std == pytest.approx(1.0)
+    assert ends(far) == pytest.approx((10.0 - 0.5 * Z, 10.0 + 0.5 * Z))
+    assert near.kind == far.kind == "wald" and intervals(it)[1] == far
+    assert hidden.kind == "undetermined" and hidden.low is hidden.high is None
 
 
 def ends(it: Interval) -> tuple[float, float]:
