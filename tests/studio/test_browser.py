@@ -65,6 +65,25 @@ def opened(found: Any, url: str, requests: list[str] | None = None) -> Any:
     return page
 
 
+def asked(page: Any, folder: str) -> None:
+    page.locator("#folder").fill(folder)
+    page.locator("#folder").press("Tab")
+    page.locator("#open").press("Enter")
+
+
+def refused(page: Any, folder: str, complaint: str) -> None:
+    """Asked again where what was typed went nowhere: the page was still being drawn."""
+    found = page.locator("#complaint", has_text=complaint)
+    for _ in range(TRIES):
+        asked(page, folder)
+        try:
+            found.wait_for(timeout=PATIENCE / TRIES)
+            return
+        except PlaywrightTimeout:
+            continue
+    found.wait_for()
+
+
 def added(page: Any, effect: str) -> None:
     """Without a mouse."""
     item = page.locator(".v-list-item", has_text=effect).first
@@ -118,13 +137,8 @@ def test_open_add_and_save_with_a_browser_that_is_killed_on_the_way(tmp_path: Pa
     requests: list[str] = []
     with studio(tmp_path) as url, browser() as first:
         page = opened(first, url, requests)
-        page.locator("#folder").fill("nowhere")
-        page.locator("#folder").press("Tab")
-        page.locator("#open").press("Enter")
-        page.locator("#complaint", has_text="nowhere: does not exist, allowed is a folder with").wait_for()
-        page.locator("#folder").fill("rig")
-        page.locator("#folder").press("Tab")
-        page.locator("#open").press("Enter")
+        refused(page, "nowhere", "nowhere: does not exist, allowed is a folder with")
+        asked(page, "rig")
         page.locator("#headline", has_text="plain virtual springs leave").wait_for()
         assert page.locator("#complaint").count() == 0 and sigma(page) > 10.0
         added(page, "bar_geometric_nonlinearity")
