@@ -103,9 +103,8 @@ def _straight(land: Landscape, k: int) -> Interval:
     std = float(np.sqrt(land.ridge(k)[1]))
     low, high = (value + side * Z * std for side in (-1, 1))
     ends = (low if low > span.low else span.end(-1), high if high < span.high else span.end(1))
-    if not std < span.high - span.low:
-        return Interval(value, np.inf, span.end(-1), span.end(1), "undetermined")
-    return Interval(value, std, *ends, "wald")
+    seen = std < span.high - span.low
+    return Interval(value, std if seen else np.inf, *ends, "wald" if seen else "undetermined")
 
 
 def _counted(land: Landscape, k: int) -> tuple[Interval, int]:
