@@ -21,6 +21,7 @@ from pipeline.inference.model import Model
 from pipeline.inference.program import program
 from pipeline.inference.sent import fits_at_once
 from pipeline.processors import may_use
+from tests.pipeline.inference import manipulators
 from vjm.effects import catalogue
 
 pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="forks are made on Linux alone")
@@ -55,6 +56,19 @@ def test_a_fit_comes_back_as_it_was_made(two: None) -> None:
         same, kept = linearised(here.model, CASES, start=here.prediction, shift=here.residual.shift)
         np.testing.assert_array_equal(again.values, same.values)
         np.testing.assert_array_equal(left.values, kept.values)
+
+
+def test_a_fit_of_a_whole_manipulator_comes_back_as_well(two: None) -> None:
+    whole = program(manipulators.campaign())
+    soft = Model().with_effects([catalogue()["modulus_error"]])
+    begun = [soft.at(np.array([scale])) for scale in (1.0, 0.9)]
+    found = fits_at_once([(it, partial(fit, it, whole)) for it in begun], whole)
+    for it, other in zip(begun, found, strict=True):
+        here = fit(it, whole)
+        assert other.chi_square == here.chi_square
+        np.testing.assert_array_equal(other.model.values, here.model.values)
+        for mine, its in zip(here.prediction.states, other.prediction.states, strict=True):
+            np.testing.assert_array_equal(its.unknowns, mine.unknowns)
 
 
 def test_laws_are_not_sent(two: None, monkeypatch: pytest.MonkeyPatch) -> None:
