@@ -8,6 +8,7 @@ from pipeline.diagnose.estimates import DOUBT, estimates, raw
 from pipeline.diagnose.exclusion import possible
 from pipeline.diagnose.few_rows import few, fit_together
 from pipeline.diagnose.merit import badness, cost, excess, taken
+from pipeline.diagnose.pruning import fit_from
 from pipeline.diagnose.shelf import Names, Shelf
 
 NEARLY = 0.9
@@ -35,6 +36,7 @@ def with_rivals(shelf: Shelf, best: Names) -> Found:
     beyond = 0.0 if few(shelf) else excess(shelf, best)
     without = [best - {name} for name in best if shelf.candidates[name].parameters]
     shelf.fit_all({names: {} for names in without})
+    fit_from(shelf, best)
     wanted: dict[Names, dict[str, float]] = {}
     for start in without:
         gap = cost(shelf, start) - cost(shelf, best)

@@ -8,12 +8,11 @@ from __future__ import annotations
 
 from itertools import combinations
 
-import numpy as np
-
 from pipeline.diagnose.estimates import Estimate, doubt, estimates
 from pipeline.diagnose.evidence import APART
 from pipeline.diagnose.few_rows import few, grown_by_everything
-from pipeline.diagnose.merit import cost, is_noise, price, root_of
+from pipeline.diagnose.merit import cost, is_noise
+from pipeline.diagnose.pruning import HOPELESS, pruned
 from pipeline.diagnose.rivals import Found, with_rivals
 from pipeline.diagnose.shelf import Names, Shelf
 
@@ -26,8 +25,6 @@ ENOUGH = 24
 FAR, SLOW = 2.0, 0.7
 """Sigmas from which an explanation is far from one; growth that leaves more than this part of chi-square is slow. What
 is far from explained and falls slowly is not explained by more effects: so it ends as unknown."""
-HOPELESS = 300.0
-"""Times the least chi-square of the roots, beyond which a root is left out unseen."""
 
 
 def search(shelf: Shelf) -> Found:
@@ -44,7 +41,7 @@ def search(shelf: Shelf) -> Found:
         starts += grown_by_everything(shelf, starts, roots)
     best = min(starts, key=lambda names: cost(shelf, names))
     while True:
-        better = _pruned(shelf, _grown(shelf, best))
+        better = pruned(shelf, _grown(shelf, best))
         if cost(shelf, better) >= cost(shelf, best):
             break
         slow = shelf.fit(better).chi_square > SLOW * shelf.fit(best).chi_square
@@ -92,37 +89,3 @@ def _grown(shelf: Shelf, start: Names) -> Names:
     counts = (1,) if is_noise(shelf, start) else (1, 2)
     more = [start, *(e.names for k in counts for e in _competing(shelf, start, k)[:2])]
     return min(more, key=lambda names: cost(shelf, names))
-
-
-def _pruned(shelf: Shelf, names: Names) -> Names:
-    """The set without what is no longer needed."""
-    while names:
-        fewer = [names - {name} for name in names if _dispensable(shelf, names, name)]
-        shelf.fit_all({each: {} for each in fewer})
-        best = min(fewer, key=lambda each: cost(shelf, each), default=names)
-        if not fewer or cost(shelf, best) > cost(shelf, names):
-            return names
-        names = best
-    return names
-
-
-def _dispensable(shelf: Shelf, names: Names, name: str) -> bool:
-    """Whether an effect, by its own numbers and their covariance, explains no more than a few times its price.
-
-    One that is there or not is, unless what is there would be a hopeless root without it.
-    """
-    if not shelf.candidates[name].parameters:
-        root = root_of(shelf, names)
-        return shelf.fit(root - {name}).chi_square < HOPELESS * shelf.fit(root).chi_square
-    found = shelf.fit(names)
-    mine = np.array([each.effect == name for each in found.model.free], dtype=bool)
-    if not shelf.candidates[name].smooth:
-        return True
-    null = np.array([each.parameter.null for each in found.model.free])
-    away = (found.model.values - null)[mine]
-    covariance = found.covariance[np.ix_(mine, mine)]
-    known = np.isfinite(np.diag(covariance))
-    if not known.any():
-        return True
-    inner = covariance[np.ix_(known, known)]
-    return float(away[known] @ np.linalg.solve(inner, away[known])) < 4.0 * price(shelf, [name])

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass, field
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from functools import cached_property, partial
 
 import numpy as np
@@ -30,7 +30,7 @@ SETTLED = 3.0
 class Shelf:
     """Fits of the base model with sets of added effects, and the pictures about them.
 
-    candidates: by name, in the order in which they enter a model.
+    candidates: by name, in the order in which they enter a model. tried: sets that were fitted again, and from where.
     """
 
     whole: Program
@@ -39,6 +39,7 @@ class Shelf:
     say: Say
     fits: dict[Names, Fit] = field(default_factory=dict)
     pictures: dict[Names, Picture] = field(default_factory=dict)
+    tried: set[tuple[Names, Names]] = field(default_factory=set)
     at: Look = field(init=False)
 
     def __post_init__(self) -> None:
@@ -71,6 +72,23 @@ class Shelf:
         calls = [(self._model(names), partial(self._fitted, names, new[names])) for names in order]
         made = dict(zip(order, fits_at_once(calls, self.whole), strict=True))
         self.fits |= {names: made[names] for names in new}
+
+    def fit_again(self, wanted: Sequence[Names], larger: Names) -> None:
+        """Fit sets once more, from where a set that holds them stands, and keep the better fit of each."""
+        there = self.fits[larger]
+        new = {n: self._model(n) for n in wanted if (n, larger) not in self.tried}
+        models = {names: _valued(model, there.model) for names, model in new.items() if model.free}
+        if not models:
+            return
+        self.say(f"{self._title(larger)} with one less")
+        self.tried |= {(names, larger) for names in models}
+        calls = [(m, partial(fit, m, self.whole, there.prediction, None, PLAUSIBLE)) for m in models.values()]
+        for names, found in zip(models, fits_at_once(calls, self.whole), strict=True):
+            old = self.fits[names]
+            best = min(old, found, key=lambda each: each.chi_square)
+            self.fits[names] = replace(best, evaluations=old.evaluations + found.evaluations)
+            if best is found:
+                self.pictures.pop(names, None)
 
     def picture(self, names: Names) -> Picture:
         """What could be added to a fit."""
@@ -138,6 +156,11 @@ class Shelf:
             return model, None, frozenset()
         largest = max(inside, key=lambda each: (len(each), -self.fits[each].chi_square))
         known = self.fits[largest]
-        old = {f.name: v for f, v in zip(known.model.free, known.model.values, strict=True)}
-        values = [old.get(f.name, v) for f, v in zip(model.free, model.values, strict=True)]
-        return model.at(np.array(values)), known.prediction, largest
+        return _valued(model, known.model), known.prediction, largest
+
+
+def _valued(model: Model, other: Model) -> Model:
+    """A model with the values that another one has of the numbers of both."""
+    old = {f.name: v for f, v in zip(other.free, other.values, strict=True)}
+    values = [old.get(f.name, v) for f, v in zip(model.free, model.values, strict=True)]
+    return model.at(np.array(values))

@@ -20,10 +20,11 @@ Place = tuple[Prediction | None, tuple[bytes, Prediction, Residual] | None]
 
 @dataclass(eq=False)
 class Objective:
-    """Whitened residuals and derivatives at values (P,); goes on from where it was last.
+    """Whitened residuals and derivatives at values (P,); goes on from where it was last, at first from the start.
 
-    The inputs that fit best follow from one evaluation to the next. At them the derivatives that the weights have
-    by the values cancel (envelope theorem), so the gradient of chi² is that of the residual alone.
+    The inputs that fit best follow from one evaluation to the next, the first ones from the start. At them the
+    derivatives that the weights have by the values cancel (envelope theorem), so the gradient of chi² is that of the
+    residual alone.
     """
 
     model: Model
@@ -36,7 +37,8 @@ class Objective:
         """Prediction and residual at values, solved once for residuals and derivatives."""
         key = np.asarray(values).tobytes()
         if self._known is None or self._known[0] != key:
-            shift = None if self._known is None else self._known[2].shift
+            begun = None if self.last is None else self.last.shift
+            shift = begun if self._known is None else self._known[2].shift
             found = linearised(self.model.at(values), self.program, start=self.last, shift=shift)
             self.last = found[0]
             self.count += 1

@@ -148,7 +148,8 @@ def _height(model: Model, program: Program, start: Prediction | None) -> float:
     """Chi-square after one linear step of what is smooth in the model: a rung is judged with the rest fitted."""
     kinked = {t.effect.name for t in model.terms if not t.effect.smooth}
     model = replace(model, fixed=model.fixed | {f.name for f in model.free if f.effect in kinked})
-    here = Fit(model, *linearised(model, program, slopes=bool(model.free), start=start), 1)
+    shift = None if start is None else start.shift
+    here = Fit(model, *linearised(model, program, bool(model.free), start, shift), 1)
     if not model.free:
         return here.chi_square
     scale = np.array([abs(each.parameter.typical) for each in model.free])
