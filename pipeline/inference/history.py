@@ -39,15 +39,42 @@ def history(
         if not going.size:
             continue
         before = state.member((going, step - 1)) if step else None
-        part = _next(mechanism, group, inputs, going, step, before)
-        state = state.with_members((going, step), part)
-        lost = going[~part.converged]
+        if before is not None:
+            state = _kept(mechanism, group, inputs, state, (going, step), before.next_memory)
+        left = ~state.converged[going, step] if step else np.ones(going.size, dtype=bool)
+        if left.any():
+            begin = None if before is None else before.member(left)
+            part = _next(mechanism, group, inputs, going[left], step, begin)
+            state = state.with_members((going[left], step), part)
+        lost = going[~state.converged[going, step]]
         if lost.size:
             rest = (lost[:, None], np.arange(step + 1, steps))
             there = state.member((lost, step)).reshaped(lost.size, 1)
             state = state.with_members(rest, _ended(there))
             alive[lost] = False
     return state
+
+
+def _kept(
+    mechanism: Rig,
+    group: Group,
+    inputs: Mapping[str, Array],
+    state: Equilibrium,
+    some: tuple[NDArray[np.int64], int],
+    memory: Array,
+) -> Equilibrium:
+    """The states with those of one step (N,) as they were, where they had this memory (N, M) already, or solved anew
+    from there with it; what needs more has not converged."""
+    here = state.member(some)
+    size = np.maximum(np.max(np.abs(state.memory), axis=(0, 1)), np.max(np.abs(memory), axis=0))
+    new = np.any(np.abs(here.memory - memory) > SAME * size, axis=-1) | ~here.converged | (here.unstable > 0)
+    if not new.any():
+        return state
+    tests, step = some[0][new], some[1]
+    again = _solved(
+        mechanism, group, inputs, here.member(new), memory[new], (tests, np.full(tests.size, step))
+    )
+    return state.with_members((tests, step), again)
 
 
 def _all_at_once(
@@ -71,7 +98,8 @@ def _all_at_once(
         if not new.any():
             break
         some = np.nonzero(new)
-        state = state.with_members(some, _solved(mechanism, group, inputs, state, memory, some))
+        part = _solved(mechanism, group, inputs, state.member(some), memory[some], some)
+        state = state.with_members(some, part)
     good = state.converged & (state.unstable <= 0) & ~new
     return state, np.sum(np.logical_and.accumulate(good, axis=1), axis=1)
 
@@ -101,12 +129,12 @@ def _solved(
     memory: Array,
     some: tuple[NDArray[np.int64], ...] | slice = slice(None),
 ) -> Equilibrium:
-    """Some of the steps by themselves."""
+    """Some of the steps by themselves, from the start of each and with its memory."""
     targets, channels = group.targets, np.broadcast_to(group.channels[:, None], group.targets.shape)
     drives = {name: value[some] for name, value in inputs.items()}
     if start is None:
         return equilibrium(mechanism, targets[some], channels[some], limit=PATIENCE, drives=drives)
-    return nearby(mechanism, targets[some], channels[some], start.member(some), drives, memory[some])
+    return nearby(mechanism, targets[some], channels[some], start, drives, memory)
 
 
 def _next(

@@ -29,6 +29,7 @@ from pipeline.inference.prediction import Prediction, predict
 from pipeline.inference.program import Program
 from pipeline.inference.residual import Residual, residual
 from pipeline.inference.sides import sided
+from vjm.mechanism import initial_memory
 
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
@@ -113,6 +114,21 @@ def kinked(model: Model) -> bool:
     """Whether the response has kinks of which each row chooses the side, as stops of plays; where friction or yielding
     turn back is no choice of a row."""
     return any(sided(term.effect) for term in model.terms)
+
+
+def begun(model: Model, cases: Program, start: Prediction | None) -> Array | None:
+    """Shift (R, 7) at which a fit from a start is first linearised: that of the start, none where laws begin to
+    remember. There the inputs of the start have taken up what the laws will explain, such as a loop, each a little, and
+    what is remembered follows them: the fit would end near them.
+    """
+    if start is None:
+        return None
+    if remembering(model):
+        own = [model.mechanism(group.rig, cases.campaign.gauges) for group in cases.groups]
+        pairs = zip(own, start.states, strict=True)
+        if any(initial_memory(rig).size != state.memory.shape[-1] for rig, state in pairs):
+            return None
+    return start.shift
 
 
 def remembering(model: Model) -> bool:

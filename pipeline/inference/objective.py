@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
-from pipeline.inference.inputs import linearised
+from pipeline.inference.inputs import begun, linearised
 from pipeline.inference.model import Model
 from pipeline.inference.prediction import Prediction
 from pipeline.inference.program import Program
@@ -37,8 +37,8 @@ class Objective:
         """Prediction and residual at values, solved once for residuals and derivatives."""
         key = np.asarray(values).tobytes()
         if self._known is None or self._known[0] != key:
-            begun = None if self.last is None else self.last.shift
-            shift = begun if self._known is None else self._known[2].shift
+            known = self._known
+            shift = known[2].shift if known else begun(self.model, self.program, self.last)
             found = linearised(self.model.at(values), self.program, start=self.last, shift=shift)
             self.last = found[0]
             self.count += 1

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from scipy.optimize import lsq_linear
 
 from pipeline.inference.fit import Fit, fit
-from pipeline.inference.inputs import linearised
+from pipeline.inference.inputs import begun, linearised
 from pipeline.inference.model import Free, Model
 from pipeline.inference.parts import at_rows
 from pipeline.inference.prediction import Prediction
@@ -148,7 +148,7 @@ def _height(model: Model, program: Program, start: Prediction | None) -> float:
     """Chi-square after one linear step of what is smooth in the model: a rung is judged with the rest fitted."""
     kinked = {t.effect.name for t in model.terms if not t.effect.smooth}
     model = replace(model, fixed=model.fixed | {f.name for f in model.free if f.effect in kinked})
-    shift = None if start is None else start.shift
+    shift = begun(model, program, start)
     here = Fit(model, *linearised(model, program, bool(model.free), start, shift), 1)
     if not model.free:
         return here.chi_square

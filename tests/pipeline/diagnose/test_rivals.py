@@ -66,6 +66,7 @@ def test_beside_a_set_that_explains_nothing_only_what_may_explain_is_looked_at(
     monkeypatch.setattr(rivals, "cost", lambda _, names: costs[names])
     monkeypatch.setattr(rivals, "taken", lambda _, names: len(names))
     monkeypatch.setattr(rivals, "possible", lambda *_: [])
+    monkeypatch.setattr(rivals, "fit_from", lambda *_: None)
     monkeypatch.setattr(rivals, "raw", lambda _, e: e.cost)
     monkeypatch.setattr(
         rivals,

@@ -197,9 +197,10 @@ def test_a_fit_ends_linearised_near_the_inputs_that_fit_best() -> None:
     found = fit(began, tests)
     sigma = np.where(tests.input_sigma > 0.0, tests.input_sigma, np.inf)
     assert np.max(np.abs(found.residual.shift - found.prediction.shift) / sigma) <= NEAR
-    aim = Objective(found.model, tests, found.prediction)
+    assert Objective(found.model, tests, found.prediction).unsettled(found.model.values) <= NEAR
+    aim = Objective(found.model, tests)
     far = aim.unsettled(found.model.values)
-    # At the measured inputs themselves, where a new objective begins, noise alone is several sigmas off.
+    # At the measured inputs themselves, where an objective without a start begins, noise alone is several sigmas off.
     assert far > 1.0
     aim.again(found.model.values)
     assert aim.unsettled(found.model.values) < 0.5 * far
