@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 import pytest
 
 from pipeline.diagnose.signatures import probed
+from pipeline.inference import history
 from pipeline.inference.history import ENDED
 from pipeline.inference.model import Model
 from pipeline.inference.prediction import predict
@@ -88,6 +90,30 @@ def _step_by_step(mechanism: Rig, group: Group) -> Equilibrium:
     drives = {"q": group.q} if "q" in layout(mechanism).drives else {}
     steps = np.moveaxis(group.targets, 1, 0)
     return load_path(mechanism, steps, np.broadcast_to(group.channels, steps.shape), drives=drives)
+
+
+def test_after_a_step_that_is_not_reached_the_others_stay_as_they_were(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """One state led nowhere: that step is solved from the one before it, and none after it."""
+    cases = CASES.only(np.flatnonzero(CASES.test == 0))
+    fresh = predict(MODEL, cases, slopes=False)
+    (state,) = fresh.states
+    moved = state.unknowns.copy()
+    moved[0, 3] *= 1e3
+    asked: list[int] = []
+    step_by_step = history._next
+
+    def counted(*given: Any) -> Equilibrium:
+        asked.append(given[4])
+        return step_by_step(*given)
+
+    monkeypatch.setattr(history, "_next", counted)
+    begin = replace(fresh, states=(replace(state, unknowns=moved),))
+    again = predict(MODEL, cases, slopes=False, start=begin)
+    assert asked == [3]
+    assert not again.lost.any()
+    np.testing.assert_allclose(again.values, fresh.values, rtol=1e-6, atol=1e-6)
 
 
 def test_a_start_that_leads_nowhere_is_left() -> None:

@@ -13,7 +13,7 @@ from pipeline.compare.error import Discrepancy
 from pipeline.coverage.cases import BASE, typical
 from pipeline.coverage.trial import campaign
 from pipeline.inference.fit import NEAR, fit
-from pipeline.inference.inputs import kinked, linearised
+from pipeline.inference.inputs import begun, kinked, linearised
 from pipeline.inference.model import Model
 from pipeline.inference.objective import Objective
 from pipeline.inference.prediction import predict
@@ -204,6 +204,17 @@ def test_a_fit_ends_linearised_near_the_inputs_that_fit_best() -> None:
     assert far > 1.0
     aim.again(found.model.values)
     assert aim.unsettled(found.model.values) < 0.5 * far
+
+
+def test_where_fits_begin() -> None:
+    """At the inputs of their start, but at the measured ones where laws begin to remember."""
+    tests = cases("thermal_expansion", 1)
+    plain, friction = (fit(Model().with_effects([catalogue()[n]]), tests) for n in (BASE, "joint_friction"))
+    assert begun(plain.model, tests, None) is None
+    assert begun(model("modulus_error"), tests, plain.prediction) is plain.prediction.shift
+    assert begun(model("joint_friction"), tests, plain.prediction) is None
+    both = Model().with_effects([catalogue()[n] for n in (BASE, "joint_friction", "joint_clearance")])
+    assert begun(both, tests, friction.prediction) is friction.prediction.shift
 
 
 def test_a_model_far_from_the_data_moves_no_input_farther_than_noise_may() -> None:

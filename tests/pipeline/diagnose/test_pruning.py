@@ -1,0 +1,80 @@
+"""Sets without one of their effects: what ended higher than the larger set's own numbers say is fitted again."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import pytest
+
+from pipeline.challenge.benches import scaled
+from pipeline.diagnose.diagnosis import diagnose
+from pipeline.diagnose.pruning import fit_from
+from pipeline.diagnose.shelf import Names, Shelf
+from pipeline.inference.fit import Fit, fit
+from pipeline.inference.model import Model
+from pipeline.inference.program import program
+from pipeline.simulate import bench_rig
+from pipeline.virtual.bench import measure
+from pipeline.virtual.plan import GAUGES, SENSORS, bench_plan
+from tests.pipeline.diagnose.bench import AXIAL, bench
+from vjm.effects import catalogue
+
+SMALL, LARGE = frozenset({"modulus_error"}), frozenset({"modulus_error", "load_offset"})
+AWAY = 6.0
+"""Standard errors."""
+
+
+def shelf_of(effect: str, value: float) -> Shelf:
+    cases = program(bench(effect, value, AXIAL))
+    shelf = Shelf(cases, Model(), {name: catalogue()[name] for name in sorted(LARGE)}, lambda _: None)
+    shelf.fit(SMALL)
+    shelf.fit(LARGE)
+    return shelf
+
+
+def stuck(shelf: Shelf, names: Names) -> Fit:
+    """A fit that ended some standard errors away."""
+    found = shelf.fit(names)
+    model = found.model.at(found.model.values + AWAY * found.std)
+    held = replace(model, fixed=model.fixed | {each.name for each in model.free})
+    there = fit(held, shelf.whole, found.prediction)
+    return replace(found, model=model, prediction=there.prediction, residual=there.residual)
+
+
+def test_what_ended_too_high_is_fitted_again_from_the_set_that_holds_it() -> None:
+    shelf = shelf_of("modulus_error.scale", 0.97)
+    best = shelf.fit(SMALL).chi_square
+    shelf.fits[SMALL] = stuck(shelf, SMALL)
+    assert shelf.fit(SMALL).chi_square > best + 0.5 * AWAY**2
+    fit_from(shelf, LARGE)
+    assert shelf.fit(SMALL).chi_square == pytest.approx(best, abs=0.01)
+    # Once from each set.
+    again = shelf.fits[SMALL] = stuck(shelf, SMALL)
+    fit_from(shelf, LARGE)
+    assert shelf.fit(SMALL) is again
+
+
+def test_what_needs_the_effect_is_not_fitted_again() -> None:
+    shelf = shelf_of("load_offset.y_mm", 5.0)
+    before = dict(shelf.fits)
+    assert before[SMALL].chi_square > before[LARGE].chi_square + 100.0
+    fit_from(shelf, LARGE)
+    assert shelf.fits == before
+
+
+@pytest.mark.long
+def test_friction_and_play_under_coarse_sensors_name_nothing_else() -> None:
+    """Loads of a tenth, sensors ten times coarser: fits of friction and play end up to 60 of chi-square apart, by the
+    sides that rows chose, and one with a stiffening contact of no size ended below those without it."""
+    rig = bench_rig()
+    coarse = {name: 10.0 * getattr(SENSORS, name) for name in ("displacement", "wrench", "gauges")}
+    hidden = {
+        "joint_friction.torque_Nmm": 2000.0,
+        "joint_friction.presliding_rad": 2e-3,
+        "joint_clearance.play_mm": 0.05,
+    }
+    plan = scaled(bench_plan(), rig, 0.1)
+    campaign = measure("coarse", rig, plan, replace(SENSORS, **coarse), hidden, 5, GAUGES)
+    found = diagnose(campaign, Model(), catalogue())
+    assert found.verdict == "identified"
+    assert set(found.sets[0]) == {"bar_geometric_nonlinearity", "joint_clearance", "joint_friction"}
