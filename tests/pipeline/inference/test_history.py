@@ -116,6 +116,22 @@ def test_after_a_step_that_is_not_reached_the_others_stay_as_they_were(
     np.testing.assert_allclose(again.values, fresh.values, rtol=1e-6, atol=1e-6)
 
 
+def test_after_a_step_that_is_not_reached_the_others_remember_what_it_left() -> None:
+    """One state of another friction led nowhere: those after it had that friction's memory."""
+    cases = CASES.only(np.flatnonzero(CASES.test == 0))
+    fresh = predict(MODEL, cases, slopes=False)
+    other = MODEL.at(0.5 * MODEL.values)
+    (state,) = predict(other, cases, slopes=False).states
+    moved = state.unknowns.copy()
+    moved[0, 3] *= 1e3
+    begin = replace(fresh, states=(replace(state, unknowns=moved),))
+    again = predict(MODEL, cases, slopes=False, start=begin)
+    np.testing.assert_allclose(again.values, fresh.values, rtol=1e-6, atol=1e-6)
+    memory = fresh.states[0].next_memory
+    size = np.max(np.abs(memory), axis=(0, 1)) + 1e-9
+    np.testing.assert_allclose(again.states[0].next_memory / size, memory / size, atol=1e-6)
+
+
 def test_a_start_that_leads_nowhere_is_left() -> None:
     """States a thousand times as far away: from there no step is reached, from the step before every one."""
     cases = CASES.only(np.flatnonzero(CASES.test == 0)[:4])
