@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from functools import cache
 from time import process_time
 from typing import Literal
@@ -73,7 +74,8 @@ def trial(kind: Kind, effects: Sequence[str], seed: int, steps: int, commit: str
     named = [catalogue()[name] for name in dict.fromkeys([BASE, *effects])]
     case = (kind, str(steps), *effects)
     best = best_fit(Model().with_effects(named), cases, effects, _near.get(case))
-    _near.setdefault(case, best.prediction)
+    # The inputs that fit best are those of this noise alone.
+    _near.setdefault(case, replace(best.prediction, shift=np.zeros_like(best.prediction.shift)))
     deviations = _deviations(best, hidden) if hidden else {}
     return Trial(
         kind=kind,
