@@ -22,6 +22,7 @@ from pipeline.inference.residual import FARTHEST, residual
 from pipeline.simulate import bench_rig
 from pipeline.virtual.bench import measure
 from pipeline.virtual.plan import GAUGES, SENSORS, bench_plan
+from tests.pipeline.inference import manipulators
 from vjm.effects import catalogue
 
 
@@ -215,6 +216,14 @@ def test_where_fits_begin() -> None:
     assert begun(model("joint_friction"), tests, plain.prediction) is None
     both = Model().with_effects([catalogue()[n] for n in (BASE, "joint_friction", "joint_clearance")])
     assert begun(both, tests, friction.prediction) is friction.prediction.shift
+
+
+def test_with_friction_a_manipulator_begins_at_the_measured_inputs() -> None:
+    tests = program(manipulators.campaign())
+    plain = fit(Model(), tests)
+    friction = Model().with_effects([catalogue()["joint_friction"]])
+    assert begun(Model(), tests, plain.prediction) is plain.prediction.shift
+    assert begun(friction, tests, plain.prediction) is None
 
 
 def test_a_model_far_from_the_data_moves_no_input_farther_than_noise_may() -> None:
