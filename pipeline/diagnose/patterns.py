@@ -22,6 +22,8 @@ from pipeline.inference.span import basis
 Array = NDArray[np.float64]
 LAG = 0.7
 """Of a reading that is still there a step later, in a sensor that follows slowly."""
+CHOSEN = 5.0
+"""Sigmas up to which a reading may be what a row chose its side of a play by."""
 FLAT = 1e-3
 """Part of a column that must be left when what the fit can move is taken out of it."""
 
@@ -89,13 +91,15 @@ def _acting(found: Fit, channel: int, errors: Array) -> Array:
 
 
 def _expected(found: Fit) -> Array:
-    """(R, C) readings as they would be without noise: with it, a pattern would follow the noise of its own sensor."""
+    """(R, C) readings as they would be without noise: with it, a pattern would follow the noise of its own sensor. So
+    would small ones of a row that chose its side of a play by that noise: they are zero."""
     whole = found.residual.program
     readings = found.prediction.values.copy()
     given = np.take_along_axis(np.nan_to_num(whole.measured), whole.channels, axis=1)
     np.put_along_axis(readings, whole.channels, given + found.residual.shift[:, :6], axis=1)
     readings[found.prediction.lost] = 0.0
-    return readings
+    chosen = found.residual.undecided[:, None] & (np.abs(readings) < CHOSEN * whole.sigma)
+    return np.where(chosen, 0.0, readings)
 
 
 def _errors(whole: Program, readings: Array, channel: int) -> Iterator[tuple[str, Array]]:

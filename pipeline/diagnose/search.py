@@ -51,9 +51,25 @@ def search(shelf: Shelf) -> Found:
     return Found(shelf, best, ()) if shelf.fit(best).rms > FAR else with_rivals(shelf, best)
 
 
+def _switched(shelf: Shelf, start: Names) -> Names:
+    """The best set with one more of those effects that are there or not; the same where noise is all that is left.
+
+    To first order they have nothing to show, and beside what was not yet found they may have made things no better.
+    """
+    if is_noise(shelf, start):
+        return start
+    more = [start | {name} for name in _switches(shelf) if name not in start]
+    shelf.fit_all({names: {} for names in more})
+    return min([start, *more], key=lambda names: cost(shelf, names))
+
+
+def _switches(shelf: Shelf) -> list[str]:
+    return [name for name, effect in shelf.candidates.items() if not effect.parameters]
+
+
 def _roots(shelf: Shelf) -> list[Names]:
     """Sets of effects that are there or not, from which to look on; one that promises far less is left out."""
-    switches = [name for name, effect in shelf.candidates.items() if not effect.parameters]
+    switches = _switches(shelf)
     roots = [frozenset(some) for k in range(len(switches) + 1) for some in combinations(switches, k)]
     least = min(shelf.fit(root).chi_square for root in roots)
     roots = [root for root in roots if shelf.fit(root).chi_square < HOPELESS * least]
@@ -82,6 +98,9 @@ def _grown(shelf: Shelf, start: Names) -> Names:
     """The best set with one effect more, or two; the same if none is better."""
     if len(start) >= MOST or len(shelf.fits) >= ENOUGH:
         return start
+    switched = _switched(shelf, start)
+    if cost(shelf, switched) < cost(shelf, start):
+        return switched
     here = shelf.fit(start)
     if here.rms > FAR and estimates(shelf, start, (1, 2))[0].cost > SLOW * here.chi_square:
         return start

@@ -10,8 +10,9 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import lsq_linear
 
+from pipeline.inference.ground import Ground
 from pipeline.inference.model import Model
-from pipeline.inference.objective import Objective, Place
+from pipeline.inference.objective import Objective
 from pipeline.inference.parts import at_rows, joined
 from pipeline.inference.prediction import Prediction
 from pipeline.inference.program import Program
@@ -25,8 +26,6 @@ PROMISE = 1e-3
 more than noise, in its mean square."""
 VAIN = 0.05
 """Of chi-square, a fifth of a standard error: a smaller promise that is not kept is left, as happens at kinks."""
-NEAR = 0.1
-"""Of their sigmas: so near to the inputs that fit best a fit must have been linearised to end there."""
 HALFWAY = 0.5
 """Of what is left to a bound: a step from where an effect hardly shows may lead to what no linkage bears."""
 SETTLE = 3
@@ -155,6 +154,10 @@ class _Pulled:
         """(N + 1 + P,)"""
         return np.concatenate([self.aim.residuals(values), self.pull @ ((values - self.null) / self.scale)])
 
+    def total(self, values: Array) -> float:
+        """The sum of their squares."""
+        return float(np.sum(self.residuals(values) ** 2))
+
     def jacobian(self, values: Array) -> Array:
         """(N + 1 + P, P)"""
         return np.vstack([self.aim.jacobian(values) * self.scale, self.pull])
@@ -174,6 +177,9 @@ def _descend(aim: Objective, watch: Callable[[str], None] | None, plausible: flo
     scale, values = pulled.scale, np.clip(aim.model.values, *bounds)
     damping, least, settled, losses, past, stale = 0.0, 0.0, 0, 0, list[float](), True
     here, slopes, lost, place = pulled.residuals(values), pulled.jacobian(values), aim.lost, aim.place
+    ground = Ground(aim, pulled.total)
+    if not aim.fresh:
+        ground.note(values)
     for _ in range(STEPS):
         room = (bounds - values) / scale * reach
         step = _step(slopes, here, room, damping)
@@ -184,7 +190,7 @@ def _descend(aim: Objective, watch: Callable[[str], None] | None, plausible: flo
                 # It may be the damping that promises so little.
                 damping, least = _less(damping), least / 10.0
                 continue
-            if settled == SETTLE or not _anew(aim, place, values):
+            if settled == SETTLE or ground.circling or not ground.anew(place, values):
                 break
             settled += 1
             here, slopes, place = pulled.residuals(values), pulled.jacobian(values), aim.place
@@ -199,7 +205,7 @@ def _descend(aim: Objective, watch: Callable[[str], None] | None, plausible: flo
             damping = max(_less(damping), least)
             least /= 10.0
             stale = stale or bool(gain > unit)
-        elif stale and promise > unit and _anew(aim, place, values):
+        elif stale and promise > unit and ground.anew(place, values):
             # Far from the inputs that fit best a sum of squares is too small, which makes the step look worse.
             stale = False
             here, slopes, lost, place = pulled.residuals(values), pulled.jacobian(values), aim.lost, aim.place
@@ -212,20 +218,9 @@ def _descend(aim: Objective, watch: Callable[[str], None] | None, plausible: flo
             aim.back(place)
         past.append(float(here @ here))
         vain = gain <= 0.0 and promise < VAIN * unit
-        if vain or damping > 1e6 or losses == LOSSES or drags(past, here.size):
+        if vain or damping > 1e6 or losses == LOSSES or ground.circling or drags(past, here.size):
             break
-    # One that ends on a step not taken ends where it was linearised before that.
-    _anew(aim, place, values)
-    return values
-
-
-def _anew(aim: Objective, place: Place, values: Array) -> bool:
-    """Whether back at a place it took to be linearised anew, as it was far from the inputs that fit best."""
-    aim.back(place)
-    if aim.unsettled(values) <= NEAR:
-        return False
-    aim.again(values)
-    return True
+    return ground.end(place, values)
 
 
 def _reach(it: Parameter) -> tuple[float, float]:

@@ -17,7 +17,6 @@ solved once more, at the inputs that were chosen.
 from __future__ import annotations
 
 from dataclasses import replace
-from itertools import product
 
 import numpy as np
 from numpy.typing import NDArray
@@ -34,7 +33,7 @@ from vjm.mechanism import initial_memory
 
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
-BADLY = 1e-3
+BADLY = 0.05
 """Chance that noise makes a row so bad that other sides are tried: sides tried for all rows would take up noise."""
 MOST = 0.5
 """Part of the rows: a model that fits fewer has other faults than their sides."""
@@ -67,9 +66,10 @@ def linearised(
         (_unsure(residual(cases, here)) & np.any(here.shift, axis=1), np.zeros_like(cases.input_sigma)),
     ):
         here = _better(model, cases, here, _whole(cases, rows), other, reached)
-    for play, side in product(range(here.slides.shape[1]), (1.0, -1.0)):
-        rows, other = _touching(cases, here, play, side)
-        here = _better(model, cases, here, _whole(cases, rows), other, here)
+    for play in range(here.slides.shape[1]):
+        # Both stops are tried from inside: once taken to the wrong one, a row has no way to the other.
+        for rows, other in [_touching(cases, here, play, side) for side in (1.0, -1.0)]:
+            here = _better(model, cases, here, _whole(cases, rows), other, here)
     if slopes or held:
         here = predict(model, cases, slopes, start=here, shift=here.shift)
     return here, residual(cases, here)

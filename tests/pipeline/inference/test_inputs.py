@@ -9,10 +9,12 @@ import numpy as np
 import pytest
 from scipy.stats import chi2
 
+from pipeline.challenge.benches import scaled
 from pipeline.compare.error import Discrepancy
 from pipeline.coverage.cases import BASE, typical
 from pipeline.coverage.trial import campaign
-from pipeline.inference.fit import NEAR, fit
+from pipeline.inference.fit import fit
+from pipeline.inference.ground import NEAR
 from pipeline.inference.inputs import begun, kinked, linearised
 from pipeline.inference.model import Model
 from pipeline.inference.objective import Objective
@@ -95,6 +97,21 @@ def test_a_turn_read_with_a_noise_as_large_as_the_play_is_no_misfit() -> None:
     assert chi2.sf(np.sum(left.flat(left.values) ** 2), count) > 1e-3
     # Beyond their stop rows stand as the prediction says, and are linearised where they do.
     assert np.all(np.isfinite(found.slides)) and np.any(np.abs(found.shift) > 0.0)
+
+
+@pytest.mark.parametrize(("share", "play", "steps"), [(0.02, 0.1, 10), (0.3, 0.02, 12)])
+def test_sensors_as_coarse_as_the_play_leave_no_misfit(share: float, play: float, steps: int) -> None:
+    """At the truth, with noises ten times coarser. Under small loads many rows are a little better with a second bar at
+    its stop; under larger ones a row may belong to the far one of two stops, where both look better than neither."""
+    rig, hidden = bench_rig(), {"joint_clearance.play_mm": play}
+    coarse = {name: 10.0 * getattr(SENSORS, name) for name in ("displacement", "wrench", "gauges")}
+    plan = scaled(bench_plan(steps), rig, share)
+    tests = program(measure("coarse", rig, plan, replace(SENSORS, **coarse), hidden, 1, GAUGES))
+    it = model("joint_clearance").at(np.array([play]))
+    found, left = linearised(it, tests, slopes=False)
+    _, left = linearised(it, tests, slopes=False, start=found, shift=left.shift)
+    count = int(tests.predicted[tests.fitted].sum())
+    assert chi2.sf(float(np.sum(left.aimed**2)), count) > 1e-3
 
 
 def test_a_row_costs_the_least_that_any_force_costs() -> None:
