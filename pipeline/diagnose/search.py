@@ -6,12 +6,14 @@ set that competes is fitted with the full model.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from dataclasses import replace
 from itertools import combinations
 
 from pipeline.diagnose.estimates import Estimate, doubt, estimates
 from pipeline.diagnose.evidence import APART
 from pipeline.diagnose.few_rows import few, grown_by_everything
-from pipeline.diagnose.merit import cost, is_noise
+from pipeline.diagnose.merit import cost, is_noise, root_of
 from pipeline.diagnose.pruning import HOPELESS, pruned
 from pipeline.diagnose.rivals import Found, with_rivals
 from pipeline.diagnose.shelf import Names, Shelf
@@ -39,16 +41,30 @@ def search(shelf: Shelf) -> Found:
             starts += [e.names for e in _competing(shelf, root, 2)]
     if few(shelf):
         starts += grown_by_everything(shelf, starts, roots)
-    best = min(starts, key=lambda names: cost(shelf, names))
+    best = _built(shelf, min(starts, key=lambda names: cost(shelf, names)))
+    if not is_noise(shelf, best):
+        # What pairs about the root led to explains too little: the best effect alone may lead to more.
+        alone = [names for names in starts if len(names - root_of(shelf, names)) == 1]
+        pairs = [e.names for names in _best(shelf, alone) for e in _competing(shelf, names, 1)]
+        best = _built(shelf, *_best(shelf, [best, *pairs]))
+    return Found(shelf, best, ()) if shelf.fit(best).rms > FAR else with_rivals(shelf, best)
+
+
+def _best(shelf: Shelf, sets: Sequence[Names]) -> list[Names]:
+    """The best of these sets, alone; none if there are none."""
+    return sorted(sets, key=lambda names: cost(shelf, names))[:1]
+
+
+def _built(shelf: Shelf, best: Names) -> Names:
+    """The best set that growth and pruning lead to from a set."""
     while True:
         better = pruned(shelf, _grown(shelf, best))
         if cost(shelf, better) >= cost(shelf, best):
-            break
+            return best
         slow = shelf.fit(better).chi_square > SLOW * shelf.fit(best).chi_square
         best = better
         if slow and shelf.fit(best).rms > FAR:
-            break
-    return Found(shelf, best, ()) if shelf.fit(best).rms > FAR else with_rivals(shelf, best)
+            return best
 
 
 def _switched(shelf: Shelf, start: Names) -> Names:
@@ -85,13 +101,30 @@ def _roots(shelf: Shelf) -> list[Names]:
 def _competing(shelf: Shelf, start: Names, count: int) -> list[Estimate]:
     """Those sets that may turn out best: fitted."""
     here = cost(shelf, start)
-    every = [e for e in estimates(shelf, start, (count,)) if e.names != start]
+    every = _looked_up(shelf, start, count)
     best = min([here, *(cost(shelf, n) for n in shelf.fits), *(e.cost for e in every)])
     hoped = {e.names: e.cost - doubt(shelf, e.names - start) * max(here - e.cost, 0.0) for e in every}
     within = [e for e in every if e.cost < here and hoped[e.names] < best + 2 * APART]
     within = sorted(within, key=lambda e: hoped[e.names])[:WIDTH]
     shelf.fit_all({e.names: e.probes for e in within})
     return within
+
+
+def _looked_up(shelf: Shelf, start: Names, count: int) -> list[Estimate]:
+    """Sets with so many further effects, to first order. Near an explanation without what probes promised of effects
+    with kinks of which fits found nothing; far from one, an effect alone may be misled."""
+    every = [e for e in estimates(shelf, start, {1, count}) if e.names != start]
+    wanted = [e for e in every if len(e.names - start) == count]
+    if count == 1 or shelf.fit(start).rms > FAR:
+        return wanted
+    vain = [e for e in every if e not in wanted and e.names in shelf.fits and not _smooth(shelf, e, start)]
+    missed = {e.names: cost(shelf, e.names) - e.cost for e in vain}
+    missed = {one: value for one, value in missed.items() if cost(shelf, one) >= cost(shelf, start)}
+    return [replace(e, cost=e.cost + sum(v for one, v in missed.items() if one < e.names)) for e in wanted]
+
+
+def _smooth(shelf: Shelf, e: Estimate, start: Names) -> bool:
+    return all(shelf.candidates[name].smooth for name in e.names - start)
 
 
 def _grown(shelf: Shelf, start: Names) -> Names:
