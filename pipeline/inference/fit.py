@@ -176,10 +176,9 @@ def _descend(aim: Objective, watch: Callable[[str], None] | None, plausible: flo
     pulled = _Pulled.of(aim, plausible)
     scale, values = pulled.scale, np.clip(aim.model.values, *bounds)
     damping, least, settled, losses, past, stale = 0.0, 0.0, 0, 0, list[float](), True
-    here, slopes, lost, place = pulled.residuals(values), pulled.jacobian(values), aim.lost, aim.place
     ground = Ground(aim, pulled.total)
-    if not aim.fresh:
-        ground.note(values)
+    ground.begin(values)
+    here, slopes, lost, place = pulled.residuals(values), pulled.jacobian(values), aim.lost, aim.place
     for _ in range(STEPS):
         room = (bounds - values) / scale * reach
         step = _step(slopes, here, room, damping)

@@ -1,8 +1,9 @@
-"""The least sum of squares on firm ground: linearised near the inputs that fit best, and not where a step came from.
+"""Sums of squares on firm ground: linearised near the inputs that fit best, and not where a step came from.
 
 Where rows choose their sides of a kink, the sum of squares at the same numbers depends on where a fit came from, some
 units of it: a step may look good against where it began, and be worse once linearised anew. A fit that follows
-such steps climbs, a little with each, and needs an end and a way back.
+such steps climbs, a little with each, and needs an end and a way back. The way back is to where it began, if that is
+the end of a fit with less in it: the least that is met on the way has only taken up more noise than the others.
 """
 
 from __future__ import annotations
@@ -14,23 +15,34 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pipeline.inference.objective import Objective, Place
+from pipeline.inference.residual import residual
 
 Array = NDArray[np.float64]
 NEAR = 0.1
 """Of their sigmas: so near to the inputs that fit best a fit must have been linearised to end there."""
+SAME = 1e-6
+"""Of chi-square: what the same numbers leave twice."""
 CIRCLES = 3
 """Times in a row that a fit is linearised anew and finds no less than before."""
 
 
 @dataclass(eq=False)
 class Ground:
-    """The best of the places at which an objective was linearised anew. total: what is made least, of values (P,)."""
+    """Where an objective was linearised anew. total: what is made least, of values (P,) where the objective stands."""
 
     aim: Objective
     total: Callable[[Array], float]
     least: float = np.inf
-    best: tuple[Array, Place] | None = field(default=None, repr=False)
     vain: int = 0
+    _refuge: tuple[float, Array, Place] | None = field(default=None, repr=False)
+
+    def begin(self, values: Array) -> None:
+        """Solve at the first values. Where that leaves no less than the start did, it is as good a place; less is left
+        by rows that chose sides of a play from inputs that belong to none."""
+        start = self.aim.last
+        left = self.aim.residuals(values)
+        if start is not None and left @ left >= np.sum(residual(self.aim.program, start).aimed ** 2) - SAME:
+            self._refuge = (self._noted(values), values, self.aim.place)
 
     def anew(self, place: Place, values: Array) -> bool:
         """Whether back at a place it took to be linearised anew, as it was far from the inputs that fit best."""
@@ -38,16 +50,8 @@ class Ground:
         if self.aim.unsettled(values) <= NEAR:
             return False
         self.aim.again(values)
-        self.note(values)
+        self._noted(values)
         return True
-
-    def note(self, values: Array) -> None:
-        """Compare where it stands with the best place, and keep the better."""
-        total = self.total(values)
-        if total < self.least:
-            self.least, self.best, self.vain = total, (values, self.aim.place), 0
-        else:
-            self.vain += 1
 
     @property
     def circling(self) -> bool:
@@ -55,11 +59,16 @@ class Ground:
         return self.vain >= CIRCLES
 
     def end(self, place: Place, values: Array) -> Array:
-        """The values to end with; the objective stands there."""
+        """The values to end with, those of the beginning where these are worse; the objective stands there."""
         # One that ends on a step not taken ends where it was linearised before that.
-        if not self.circling and not self.anew(place, values):
-            self.note(values)
-        if self.best is not None:
-            values, place = self.best
+        self.anew(place, values)
+        if self._refuge is not None and self._refuge[0] < self.total(values):
+            _, values, place = self._refuge
             self.aim.back(place)
         return values
+
+    def _noted(self, values: Array) -> float:
+        total = self.total(values)
+        self.vain = 0 if total < self.least else self.vain + 1
+        self.least = min(self.least, total)
+        return total

@@ -31,8 +31,6 @@ class Objective:
     program: Program
     last: Prediction | None = None
     count: int = 0
-    fresh: bool = True
-    """Whether it was last linearised at the measured inputs."""
     _known: tuple[bytes, Prediction, Residual] | None = field(default=None, repr=False)
 
     def at(self, values: Array) -> tuple[Prediction, Residual]:
@@ -41,7 +39,6 @@ class Objective:
         if self._known is None or self._known[0] != key:
             known = self._known
             shift = known[2].shift if known else begun(self.model, self.program, self.last)
-            self.fresh = shift is None
             found = linearised(self.model.at(values), self.program, start=self.last, shift=shift)
             self.last = found[0]
             self.count += 1

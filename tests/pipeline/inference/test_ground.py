@@ -3,40 +3,46 @@
 from __future__ import annotations
 
 import numpy as np
+import pytest
 
+from pipeline.coverage.cases import BASE
 from pipeline.coverage.trial import campaign
+from pipeline.inference.fit import fit
 from pipeline.inference.ground import CIRCLES, Ground
 from pipeline.inference.model import Model
 from pipeline.inference.objective import Objective
 from pipeline.inference.program import program
 from vjm.effects import catalogue
 
+EFFECTS = catalogue()
 
-def test_a_fit_that_finds_nothing_less_ends_where_it_found_the_least() -> None:
+
+def test_a_fit_that_climbs_ends_where_it_began() -> None:
     """The sums of squares that are met are read from a list, as a climb has them."""
     tests = program(campaign((), 1, 8))
-    aim = Objective(Model().with_effects([catalogue()["modulus_error"]]), tests)
-    values = [np.array([1.0 + 0.01 * k]) for k in range(CIRCLES + 2)]
-    heights = iter([5.0, 4.0, *(6.0 + k for k in range(CIRCLES))])
+    less = fit(Model().with_effects([EFFECTS[BASE]]), tests)
+    aim = Objective(less.model.with_effects([EFFECTS["modulus_error"]]), tests, less.prediction)
+    values = [np.array([1.0 + 0.05 * k]) for k in range(CIRCLES + 1)]
+    heights = iter([5.0, *(6.0 + k for k in range(CIRCLES)), 9.0])
     ground = Ground(aim, lambda _: next(heights))
-    for each in values:
+    ground.begin(values[0])
+    for each in values[1:]:
         assert not ground.circling
         aim.at(each)
-        ground.note(each)
-    assert ground.circling and ground.least == 4.0
-    count, end = aim.count, ground.end(aim.place, values[-1])
-    assert end is values[1]
-    aim.at(end)
+        assert ground.anew(aim.place, each)
+    assert ground.circling
+    assert ground.end(aim.place, values[-1]) is values[0]
+    count = aim.count
+    aim.at(values[0])
     assert aim.count == count, "it stands there"
 
 
-def test_at_the_measured_inputs_a_sum_of_squares_is_no_ground() -> None:
+@pytest.mark.parametrize(("size", "ground"), [(1e-9, True), (4e-4, False)])
+def test_no_way_back_to_what_looks_better_than_the_start_at_once(size: float, ground: bool) -> None:
+    """A play comes in at a rung of its ladder: rows choose their sides from inputs that fit best without one."""
     tests = program(campaign((), 1, 8))
-    aim = Objective(Model().with_effects([catalogue()["modulus_error"]]), tests)
-    prediction, _ = aim.at(np.array([1.0]))
-    assert aim.fresh
-    aim.again(np.array([1.0]))
-    assert not aim.fresh
-    begun = Objective(aim.model, tests, prediction)
-    begun.at(np.array([1.0]))
-    assert not begun.fresh
+    plain = fit(Model().with_effects([EFFECTS[BASE]]), tests)
+    aim = Objective(plain.model.with_effects([EFFECTS["joint_clearance"]]), tests, plain.prediction)
+    it = Ground(aim, lambda _: 1.0)
+    it.begin(np.array([size]))
+    assert (it.least == 1.0) == ground
