@@ -20,8 +20,8 @@ from pipeline.inference.residual import residual
 Array = NDArray[np.float64]
 NEAR = 0.1
 """Of their sigmas: so near to the inputs that fit best a fit must have been linearised to end there."""
-SAME = 1e-6
-"""Of chi-square: what the same numbers leave twice."""
+SAME = 0.1
+"""Of chi-square, by which numbers that begin beside their null may leave less than the start."""
 CIRCLES = 3
 """Times in a row that a fit is linearised anew and finds no less than before."""
 
