@@ -48,9 +48,8 @@ def test_readings_by_which_rows_chose_their_sides_are_no_pattern(seed: int) -> N
     assert abs(scores(fitted(10, seed))[0].score) < 4.0
 
 
-@pytest.mark.parametrize(
-    "effect", ["bar_stiffness_asymmetry", pytest.param("modulus_error", marks=pytest.mark.long)]
-)
+@pytest.mark.long
+@pytest.mark.parametrize("effect", ["bar_stiffness_asymmetry", "modulus_error"])
 def test_one_effect_more_never_ends_worse(effect: str) -> None:
     """At the same numbers rows on other sides leave a few units more or less: a fit could climb by them."""
     tests, less = cases(10, 1), fitted(10, 1)
