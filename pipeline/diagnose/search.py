@@ -41,18 +41,17 @@ def search(shelf: Shelf) -> Found:
             starts += [e.names for e in _competing(shelf, root, 2)]
     if few(shelf):
         starts += grown_by_everything(shelf, starts, roots)
-    best = _built(shelf, min(starts, key=lambda names: cost(shelf, names)))
+    best = _built(shelf, _best(shelf, starts))
     if not is_noise(shelf, best):
         # What pairs about the root led to explains too little: the best effect alone may lead to more.
         alone = [names for names in starts if len(names - root_of(shelf, names)) == 1]
-        pairs = [e.names for names in _best(shelf, alone) for e in _competing(shelf, names, 1)]
-        best = _built(shelf, *_best(shelf, [best, *pairs]))
+        one = _best(shelf, alone or [best])
+        best = _built(shelf, _best(shelf, [best, *(e.names for e in _competing(shelf, one, 1))]))
     return Found(shelf, best, ()) if shelf.fit(best).rms > FAR else with_rivals(shelf, best)
 
 
-def _best(shelf: Shelf, sets: Sequence[Names]) -> list[Names]:
-    """The best of these sets, alone; none if there are none."""
-    return sorted(sets, key=lambda names: cost(shelf, names))[:1]
+def _best(shelf: Shelf, sets: Sequence[Names]) -> Names:
+    return min(sets, key=lambda names: cost(shelf, names))
 
 
 def _built(shelf: Shelf, best: Names) -> Names:
@@ -76,7 +75,7 @@ def _switched(shelf: Shelf, start: Names) -> Names:
         return start
     more = [start | {name} for name in _switches(shelf) if name not in start]
     shelf.fit_all({names: {} for names in more})
-    return min([start, *more], key=lambda names: cost(shelf, names))
+    return _best(shelf, [start, *more])
 
 
 def _switches(shelf: Shelf) -> list[str]:
@@ -139,5 +138,4 @@ def _grown(shelf: Shelf, start: Names) -> Names:
         return start
     # Where noise is all that is left, two that show only together have nothing to show.
     counts = (1,) if is_noise(shelf, start) else (1, 2)
-    more = [start, *(e.names for k in counts for e in _competing(shelf, start, k)[:2])]
-    return min(more, key=lambda names: cost(shelf, names))
+    return _best(shelf, [start, *(e.names for k in counts for e in _competing(shelf, start, k)[:2])])

@@ -16,6 +16,13 @@ from pipeline.virtual.plan import GAUGES, SENSORS, bench_plan
 AXIAL = ("axial_held_q+0", "axial_held_q+30", "axial_held_q-30")
 MIXED = ("axial_held_q+0", "lateral_q+0", "swing_q+0", "axial_held_q+30", "axial_held_q+15")
 Fault = Callable[[Data], Data]
+COARSE = replace(
+    SENSORS,
+    displacement=10.0 * SENSORS.displacement,
+    wrench=10.0 * SENSORS.wrench,
+    gauges=10.0 * SENSORS.gauges,
+)
+"""Sensors ten times coarser than those of a good bench."""
 
 
 @cache

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from functools import cache
 
 import numpy as np
@@ -18,23 +17,18 @@ from pipeline.inference.program import Program, program
 from pipeline.inference.starts import best_fit
 from pipeline.simulate import bench_rig
 from pipeline.virtual.bench import measure
-from pipeline.virtual.plan import GAUGES, SENSORS, bench_plan
+from pipeline.virtual.plan import GAUGES, bench_plan
+from tests.pipeline.diagnose.bench import COARSE
 from vjm.effects import catalogue
 
 PLAY = 0.1
-NOISE = replace(
-    SENSORS,
-    displacement=10.0 * SENSORS.displacement,
-    wrench=10.0 * SENSORS.wrench,
-    gauges=10.0 * SENSORS.gauges,
-)
 
 
 @cache
 def cases(steps: int, seed: int) -> Program:
     plan = scaled(bench_plan(steps), bench_rig(), 0.02)
     hidden = {"joint_clearance.play_mm": PLAY}
-    return program(measure("coarse", bench_rig(), plan, NOISE, hidden, seed, GAUGES))
+    return program(measure("coarse", bench_rig(), plan, COARSE, hidden, seed, GAUGES))
 
 
 @cache

@@ -12,7 +12,7 @@ from pipeline.inference.model import Model
 from pipeline.simulate import bench_rig
 from pipeline.virtual.bench import measure
 from pipeline.virtual.plan import GAUGES, SENSORS, PlannedTest, bench_plan
-from tests.pipeline.diagnose.test_coarse_play import NOISE
+from tests.pipeline.diagnose.bench import COARSE
 from vjm.effects import catalogue
 
 PLAY = "joint_clearance"
@@ -43,7 +43,7 @@ def test_beside_a_play_friction_is_seen_about_the_fit_of_the_play_alone() -> Non
 def test_near_an_explanation_a_play_that_alone_finds_nothing_is_in_no_pair() -> None:
     """Unknown, for bars that bend under the load are left out of the candidates; fits with a play take longest."""
     plan: tuple[PlannedTest, ...] = scaled(bench_plan(), bench_rig(), 0.1)
-    campaign = measure("plain", bench_rig(), plan, NOISE, {"load_offset.y_mm": 9.0}, 5, GAUGES)
+    campaign = measure("plain", bench_rig(), plan, COARSE, {"load_offset.y_mm": 9.0}, 5, GAUGES)
     it = found(campaign, (BASE, "material_yield"))
     assert it.verdict == "unknown" and it.fit.rms < 1.3
     assert PLAY not in it.sets[0]

@@ -24,6 +24,7 @@ from pipeline.inference.residual import FARTHEST, residual
 from pipeline.simulate import bench_rig
 from pipeline.virtual.bench import measure
 from pipeline.virtual.plan import GAUGES, SENSORS, bench_plan
+from tests.pipeline.diagnose.bench import COARSE
 from tests.pipeline.inference import manipulators
 from vjm.effects import catalogue
 
@@ -104,9 +105,8 @@ def test_sensors_as_coarse_as_the_play_leave_no_misfit(share: float, play: float
     """At the truth, with noises ten times coarser. Under small loads many rows are a little better with a second bar at
     its stop; under larger ones a row may belong to the far one of two stops, where both look better than neither."""
     rig, hidden = bench_rig(), {"joint_clearance.play_mm": play}
-    coarse = {name: 10.0 * getattr(SENSORS, name) for name in ("displacement", "wrench", "gauges")}
     plan = scaled(bench_plan(steps), rig, share)
-    tests = program(measure("coarse", rig, plan, replace(SENSORS, **coarse), hidden, 1, GAUGES))
+    tests = program(measure("coarse", rig, plan, COARSE, hidden, 1, GAUGES))
     it = model("joint_clearance").at(np.array([play]))
     found, left = linearised(it, tests, slopes=False)
     _, left = linearised(it, tests, slopes=False, start=found, shift=left.shift)
