@@ -9,10 +9,10 @@ from numpy.typing import NDArray
 from scipy.stats import chi2
 
 from pipeline.coverage.cases import BESIDE
-from pipeline.coverage.trial import FAR, Trial
+from pipeline.coverage.trial import Trial
 from pipeline.record import Record
 
-Z = 1.96
+Z, FAR = 1.96, 3.0
 FULL_STEPS = 24
 NOISE_P = 1e-3
 SIZE = 0.04 * np.sqrt(2700.0)
@@ -31,25 +31,24 @@ class Share(Record):
 
 
 class Beyond(Record):
-    """A parameter that was found beyond three of its standard errors from the truth: by how many (None without one),
-    and the root of what chi-square rises by there, where it was computed."""
+    """A parameter that was found beyond three of its standard errors from the truth: by how many (None without one)."""
 
     name: str
     seed: int
     deviation: float | None
-    height: float | None
 
     def __str__(self) -> str:
         by = "without a standard error" if self.deviation is None else f"{self.deviation:+.1f}"
-        return f"{self.name} {by}" + ("" if self.height is None else f" ({self.height:+.1f})")
+        return f"{self.name} {by}"
 
 
 class Row(Record):
     """One set of effects: benches that hid it, and benches without it to which it was added.
 
     noise: chi-square with p > 0.001. size: whitened RMS within the bounds of noise. within_1_96, within_3: of all
-    parameters, so many of their standard errors from the truth. beyond: those that are not within three. mean,
-    spread: of these deviations, by parameter.
+    parameters, so many of their standard errors from the truth, of the side on which it is. symmetric: within three of
+    the standard errors of a parabola. beyond: those that are not within three. mean, spread: of the deviations, by
+    parameter.
     holdout: held-out tests of 24 rows with a whitened RMS of at most 1.15. null_inside: 95 % intervals of an absent
     effect's sizes that hold null. lost: rows without a prediction. commits: of the code.
     """
@@ -61,6 +60,7 @@ class Row(Record):
     size: Share
     within_1_96: Share
     within_3: Share
+    symmetric: Share
     beyond: tuple[Beyond, ...] = ()
     mean: dict[str, float | None]
     spread: dict[str, float | None]
@@ -106,6 +106,7 @@ def _row(effects: tuple[str, ...], trials: Sequence[Trial]) -> Row:
     values = {name: [t.deviations[name] for t in there] for name in (there[0].deviations if there else ())}
     known = {name: np.array([np.inf if v is None else v for v in own]) for name, own in values.items()}
     off = np.abs(np.concatenate([*known.values(), np.zeros(0)]))
+    straight = [v for t in there for v in t.symmetric.values()]
     inside = [holds for t in trials if t.kind == "absent" for holds in t.inside.values()]
     held_out = [rms for t in whole for rms in t.holdout]
     return Row(
@@ -116,6 +117,7 @@ def _row(effects: tuple[str, ...], trials: Sequence[Trial]) -> Row:
         size=_share(abs(t.rms - 1.0) <= SIZE / np.sqrt(t.degrees) for t in there),
         within_1_96=_share(off < Z),
         within_3=_share(off < FAR),
+        symmetric=_share(v is not None and abs(v) < FAR for v in straight),
         beyond=tuple(each for t in there for each in _beyond(t)),
         mean={name: _rounded(np.mean, own) for name, own in known.items()},
         spread={name: _rounded(np.std, own) for name, own in known.items()},
@@ -129,7 +131,7 @@ def _row(effects: tuple[str, ...], trials: Sequence[Trial]) -> Row:
 
 def _beyond(it: Trial) -> list[Beyond]:
     return [
-        Beyond(name=name, seed=it.seed, deviation=off, height=it.heights.get(name))
+        Beyond(name=name, seed=it.seed, deviation=off)
         for name, off in it.deviations.items()
         if off is None or abs(off) >= FAR
     ]
@@ -163,8 +165,11 @@ def page(found: Study) -> str:
         "A number that cannot be below null has its estimate at null on half of all benches without the effect, and",
         "a perfect interval of 95 % then holds null on 97.5 % of them; of several such numbers that share their tests",
         "on more, 99.3 % for the six of base_compliance; a play, with which rows choose their side, takes up noise and",
-        "is charged for it. The presliding of friction shows by its inverse, so",
-        "a small estimate has too small a standard error: intervals go by the rise of chi-square instead.",
+        "is charged for it.",
+        "",
+        "A standard error is that of the side on which the truth is: the way to that end of the 95 % interval, over",
+        "1.96; where chi-square is a parabola it is the same on both. The presliding of friction shows by its inverse:",
+        "by the errors of a parabola a small estimate seems too sure.",
         "",
         "| hidden | whitened RMS | noise | RMS as of noise | within 1.96 | within 3 | held out | null inside |",
         "|---|---|---|---|---|---|---|---|",
@@ -174,13 +179,12 @@ def page(found: Study) -> str:
         shares = (row.noise, row.size, row.within_1_96, row.within_3, row.holdout, row.null_inside)
         cells = [" + ".join(row.effects), span, *map(str, shares)]
         lines.append(f"| {' | '.join(cells)} |")
+    curved = [row for row in found.rows if row.symmetric != row.within_3]
+    if curved:
+        said = ", ".join(f"{' + '.join(row.effects)} {row.symmetric}" for row in curved)
+        lines += ["", f"Within three standard errors of a parabola instead: {said}."]
     beyond = [each for row in found.rows for each in row.beyond]
     if beyond:
-        lines += [
-            "",
-            "Beyond three standard errors, of the benches in `trials.jsonl`, in brackets the root of the rise of",
-            "chi-square at the truth, by which the program's intervals go (the same where chi-square is a parabola):",
-            f"{', '.join(map(str, beyond))}.",
-        ]
+        lines += ["", f"Beyond three standard errors: {', '.join(map(str, beyond))}."]
     lines += ["", "`coverage.json` has the mean and the spread of every parameter's deviation.", ""]
     return "\n".join(lines)

@@ -16,7 +16,7 @@ from pipeline.campaign import Campaign
 from pipeline.compare.error import Discrepancy
 from pipeline.coverage.cases import BASE, is_size, typical
 from pipeline.inference.fit import Fit
-from pipeline.inference.intervals import holds_null, landscape
+from pipeline.inference.intervals import holds_null, intervals, landscape
 from pipeline.inference.model import Model
 from pipeline.inference.prediction import Prediction
 from pipeline.inference.program import Program, program
@@ -28,8 +28,6 @@ from pipeline.virtual.plan import GAUGES, SENSORS, bench_plan
 from vjm.effects import catalogue
 
 Kind = Literal["there", "absent"]
-FAR = 3.0
-"""Standard errors; of a number in which chi-square is curved they say little at that distance."""
 _near: dict[tuple[str, ...], Prediction] = {}
 """Of each fit the first prediction in this process: its equilibria are where those of other noise begin."""
 
@@ -54,7 +52,7 @@ class Trial(Record):
     chi_square: float
     holdout: tuple[float, ...]
     deviations: dict[str, float | None] = {}  # noqa: RUF012 (pydantic copies it)
-    heights: dict[str, float] = {}  # noqa: RUF012
+    symmetric: dict[str, float | None] = {}  # noqa: RUF012
     inside: dict[str, bool] = {}  # noqa: RUF012
     lost: int
     seconds: float
@@ -76,7 +74,9 @@ def trial(kind: Kind, effects: Sequence[str], seed: int, steps: int, commit: str
     best = best_fit(Model().with_effects(named), cases, effects, _near.get(case))
     # The inputs that fit best are those of this noise alone.
     _near.setdefault(case, replace(best.prediction, shift=np.zeros_like(best.prediction.shift)))
-    deviations = _deviations(best, hidden) if hidden else {}
+    names = [each.name for each in best.model.free]
+    known = dict(zip(names, intervals(landscape(best, cases)), strict=True)) if hidden else {}
+    off = {name: (it.value - hidden[name], it) for name, it in known.items()}
     return Trial(
         kind=kind,
         effects=tuple(effects),
@@ -86,8 +86,8 @@ def trial(kind: Kind, effects: Sequence[str], seed: int, steps: int, commit: str
         degrees=best.degrees,
         chi_square=best.chi_square,
         holdout=_held_out(best, cases),
-        deviations=deviations,
-        heights=_heights(best, cases, hidden, deviations),
+        deviations={name: _in_errors(by, it.error(-1 if by > 0.0 else 1)) for name, (by, it) in off.items()},
+        symmetric={name: _in_errors(by, it.std) for name, (by, it) in off.items()},
         inside={} if hidden else _inside(best, cases),
         lost=int(best.prediction.lost.sum()),
         seconds=round(process_time() - began, 2),
@@ -124,27 +124,8 @@ def _held_out(best: Fit, cases: Program) -> tuple[float, ...]:
     return tuple(found)
 
 
-def _deviations(best: Fit, truth: dict[str, float]) -> dict[str, float | None]:
-    out: dict[str, float | None] = {}
-    for each, value, std in zip(best.model.free, best.model.values, best.std, strict=True):
-        out[each.name] = float((value - truth[each.name]) / std) if np.isfinite(std) and std > 0.0 else None
-    return out
-
-
-def _heights(
-    best: Fit, cases: Program, truth: dict[str, float], deviations: dict[str, float | None]
-) -> dict[str, float]:
-    far = {name for name, off in deviations.items() if off is not None and abs(off) >= FAR}
-    if not far:
-        return {}
-    land = landscape(best, cases)
-    out = {}
-    for k, each in enumerate(best.model.free):
-        if each.name in far:
-            shift = truth[each.name] - float(land.values[k])
-            rise = land.rise(k, shift, land.ridge(k)[0])[0]
-            out[each.name] = float(-np.sign(shift) * np.sqrt(max(rise, 0.0)))
-    return out
+def _in_errors(off: float, error: float) -> float | None:
+    return float(off / error) if np.isfinite(error) and error > 0.0 else None
 
 
 def _inside(best: Fit, cases: Program) -> dict[str, bool]:

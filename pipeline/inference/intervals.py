@@ -46,6 +46,15 @@ class Interval:
     high: float | None
     kind: Literal["wald", "profile", "undetermined"]
 
+    def error(self, side: int) -> float:
+        """Standard error towards what is below (-1) or above (1): the way to that end of the interval over 1.96.
+
+        One that differs by side is what a sum of squares that is no parabola gives (F. James, M. Roos, Computer Physics
+        Communications 10, 1975, 343-367, MINOS). Where no end was found, that of a parabola.
+        """
+        end = self.low if side < 0 else self.high
+        return self.std if end is None or end == self.value else abs(end - self.value) / Z
+
 
 def landscape(best: Fit, program: Program) -> Landscape:
     """The sum of squares about a best fit."""

@@ -24,6 +24,7 @@ def one(seed: int, deviation: float | None, steps: int = 8, **more: object) -> T
         "chi_square": 900.0,
         "holdout": (1.0, 1.2),
         "deviations": {"modulus_error.scale": deviation},
+        "symmetric": {"modulus_error.scale": deviation},
         "lost": 0,
         "seconds": 1.0,
         "commit": "x",
@@ -37,21 +38,22 @@ def test_shares_are_counted() -> None:
         one(0, 0.5, steps=24),
         one(1, -1.95),
         one(2, 2.5),
-        one(3, -3.5, heights={"modulus_error.scale": -2.0}),
+        one(3, -3.5, symmetric={"modulus_error.scale": -2.0}),
         one(4, None, chi_square=1200.0),
     ]
-    absent = [
-        one(k, None, kind="absent", deviations={}, inside={"modulus_error.scale": k == 0}) for k in (0, 1)
-    ]
+    without = {"kind": "absent", "deviations": {}, "symmetric": {}}
+    absent = [one(k, None, **without, inside={"modulus_error.scale": k == 0}) for k in (0, 1)]
     (row,) = study([*trials, *absent]).rows
     assert (row.within_1_96.count, row.within_1_96.of) == (2, 5)
     assert (row.within_3.count, row.within_3.of) == (3, 5)
     assert (row.noise.count, row.size.count, row.noise.of) == (4, 4, 5)
     assert (row.holdout.count, row.holdout.of) == (1, 2)
     assert (row.null_inside.count, row.null_inside.of) == (1, 2)
-    assert [(it.seed, it.deviation, it.height) for it in row.beyond] == [(3, -3.5, -2.0), (4, None, None)]
+    assert (row.symmetric.count, row.symmetric.of) == (4, 5)
+    assert [(it.seed, it.deviation) for it in row.beyond] == [(3, -3.5), (4, None)]
     text = page(study(trials))
-    assert "modulus_error.scale -3.5 (-2.0), modulus_error.scale without a standard error." in text
+    assert "errors: modulus_error.scale -3.5, modulus_error.scale without a standard error." in text
+    assert "of a parabola instead: modulus_error 80.0 % of 5." in text
     assert "| modulus_error | 1.000 .. 1.155 | 80.0 % of 5 |" in text and text.startswith("# How often")
 
 

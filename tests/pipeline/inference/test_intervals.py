@@ -149,7 +149,9 @@ def test_an_asymmetric_interval_is_the_profiles() -> None:
     assert a.low == pytest.approx(low, abs=1.5 * CLOSE * (np.log(2.0) - low))
     assert a.high == pytest.approx(high, abs=1.5 * CLOSE * (high - np.log(2.0)))
     assert a.std == pytest.approx(0.25)
+    assert a.error(-1) * Z == pytest.approx(np.log(2.0) - ends(a)[0]) and a.error(1) < 0.8 * a.error(-1)
     assert b.kind == "wald" and b.high == pytest.approx(0.3 * Z)
+    assert b.error(-1) == b.error(1) == pytest.approx(b.std)
 
 
 def test_an_end_that_the_data_do_not_set_is_none() -> None:
@@ -157,6 +159,7 @@ def test_an_end_that_the_data_do_not_set_is_none() -> None:
     a = intervals(land(curved(0.1, 0.4, 0.3), np.array([-2.0, 0.0]), [Range(-50.0, 50.0, 0.0), WIDE]))[0]
     assert a.kind == "profile" and a.low is None
     assert a.high == pytest.approx(np.log(0.1 + Z * 0.5), abs=0.1)
+    assert a.high is not None and a.error(1) == pytest.approx((a.high - a.value) / Z) and a.error(-1) == a.std
 
 
 def test_what_the_data_do_not_see_is_undetermined() -> None:
