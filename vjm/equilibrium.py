@@ -20,7 +20,7 @@ from vjm.laws import Response
 from vjm.mechanism import ElasticChain, Mechanism, initial_memory
 from vjm.newton import CONVERGED, Iterate, Step, dense, newton
 from vjm.problem import Held, Problem, channel_numbers
-from vjm.readings import read
+from vjm.readings import Readings
 
 Drives = Mapping[str, ArrayLike]
 """Inputs of a mechanism by name, each broadcast over the batch; see `vjm.mechanism.Drive`."""
@@ -59,10 +59,15 @@ class Equilibrium:
         """(..., 6) mask of the platform coordinates that were held, by their own reading or by a gauge."""
         return (self.channels < 6) | (self.channels >= 12)
 
+    @property
+    def seen(self) -> Readings:
+        """What the mechanism's sensors and gauges read there; not kept, as its derivatives are large."""
+        return Readings(self.mechanism, self.unknowns, self.drives)
+
     @cached_property
     def readings(self) -> Array:
         """(..., 12 + G) pose, load and gauges as the mechanism's sensors read them; not to be written to."""
-        values = read(self.mechanism, self.unknowns, self.drives)
+        values = self.seen.values
         values.flags.writeable = False
         return values
 

@@ -179,7 +179,12 @@ def _cubic(square: Array) -> Array:
 def _series(square: Array, coefficients: Array) -> Array:
     """The power series in t², with its argument kept within its range."""
     small = np.minimum(square, _SERIES_LIMIT)
-    return np.asarray(np.polynomial.polynomial.polyval(small, coefficients), dtype=np.float64)
+    # In place: of numpy's polyval most is bookkeeping at the size of these arrays.
+    total: Array = np.full_like(small, coefficients[-1])
+    for coefficient in coefficients[-2::-1]:
+        total *= small
+        total += coefficient
+    return total
 
 
 def _inverse_coefficient(square: Array) -> Array:

@@ -123,15 +123,15 @@ def _in_increments(
 def _wandered(problem: Problem, start: Array, end: Iterate) -> np.ndarray:
     """Members that took many iterations or went far from their first step, begun at `start` (B, N).
 
-    Where there is play the first step goes as far as its soft spring lets it, and comes back from the stop: a member
-    that ends near its start has not wandered then.
+    Where there is play the first step goes as far as its soft spring lets it, and comes back from the stop, to and fro
+    where there are several: a member that ends near its start has not wandered then.
     """
-    far = end.strayed > _FAR
+    wandered = (end.iterations > _MANY) | (end.strayed > _FAR)
     if problem.plays:
         motion = slice(problem.place.platform.stop)
         way = np.abs((end.unknowns - start)[:, motion] / problem.place.scale[motion])
-        far &= np.max(way, axis=-1, initial=0.0) > SMALL_STEP
-    return (end.iterations > _MANY) | far
+        wandered &= np.max(way, axis=-1, initial=0.0) > SMALL_STEP
+    return np.asarray(wandered)
 
 
 def _members(end: Iterate, mask: np.ndarray) -> Iterate:

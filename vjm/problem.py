@@ -14,7 +14,7 @@ from vjm.frames import POSE_NAMES, Array
 from vjm.lagrangian import ChainRows
 from vjm.mechanism import Mechanism
 from vjm.newton import Step
-from vjm.readings import channels, control_of, read
+from vjm.readings import Readings
 
 Held = Collection[str] | np.ndarray
 """The control of the platform coordinates: names of the held ones among x y z rx ry rz, a mask (..., 6) of
@@ -86,20 +86,19 @@ class Problem:
 
     def readings(self, unknowns: Array) -> Array:
         """(B, 6) of the controlled channels at unknowns (B, N)."""
-        gauged = np.any(self.channels >= 12)
-        values = (
-            read(self.mechanism, unknowns, self.drives)
-            if gauged
-            else channels(self.mechanism, unknowns).values
-        )
+        return self._controlled(Readings(self.mechanism, unknowns, self.drives))
+
+    def _controlled(self, seen: Readings) -> Array:
+        values = seen.values if np.any(self.channels >= 12) else seen.channels.values
         return np.asarray(np.take_along_axis(values, self.channels, axis=-1))
 
     def blockwise(self, unknowns: Array, members: np.ndarray) -> tuple[Array, Step]:
         """`System` that solves chain by chain."""
         part = self.take(members)
         chains = lagrangian.all_rows(self.mechanism, unknowns, part.memory, part.drives)
-        control = control_of(self.mechanism, unknowns, part.drives, part.channels)
-        rows = part.residual(chains, unknowns)
+        seen = Readings(self.mechanism, unknowns, part.drives)
+        control = seen.control(part.channels)
+        rows = part.residual(chains, seen)
 
         def step(done: np.ndarray) -> tuple[Array, np.ndarray, np.ndarray]:
             found = lagrangian.newton_step(self.place, chains, -rows[..., None], control)
@@ -112,7 +111,8 @@ class Problem:
         """Residual (B, N) and its whole matrix (B, N, N), columns by unknowns in their units."""
         part, place = self.take(members), self.place
         chains = lagrangian.all_rows(self.mechanism, unknowns, part.memory, part.drives)
-        control = control_of(self.mechanism, unknowns, part.drives, part.channels)
+        seen = Readings(self.mechanism, unknowns, part.drives)
+        control = seen.control(part.channels)
         matrix = lagrangian.hessian(place, chains) * (place.scale / place.energy)[:, None]
         matrix[:, place.platform] = 0.0
         matrix[:, place.platform, place.platform] = control.by_pose / place.pose_scale
@@ -120,14 +120,14 @@ class Problem:
             matrix[:, place.platform, dual] = control.by_load / place.load_scale
             if by is not None:
                 matrix[:, place.platform, x] = by / place.scale[x]
-        return part.residual(chains, unknowns), matrix
+        return part.residual(chains, seen), matrix
 
-    def residual(self, chains: tuple[ChainRows, ...], unknowns: Array) -> Array:
-        """Dimensionless residual (B, N) from the chains' rows at unknowns (B, N)."""
+    def residual(self, chains: tuple[ChainRows, ...], seen: Readings) -> Array:
+        """Dimensionless residual (B, N) from the chains' rows and what is read there."""
         place = self.place
-        rows = lagrangian.gradient(place, chains, unknowns)
+        rows = lagrangian.gradient(place, chains, seen.unknowns)
         rows *= place.scale / place.energy
-        rows[:, place.platform] = (self.readings(unknowns) - self.targets) / channel_scale(
+        rows[:, place.platform] = (self._controlled(seen) - self.targets) / channel_scale(
             place, self.channels
         )
         return rows

@@ -20,7 +20,6 @@ from vjm.equilibrium import Equilibrium
 from vjm.frames import Array
 from vjm.mechanism import Mechanism
 from vjm.problem import channel_scale
-from vjm.readings import control_of, read_slope
 
 _SCHEMES = {
     1: ((0.0, -1.0), (1.0, 1.0)),
@@ -177,7 +176,7 @@ def by_forces(state: Equilibrium, places: np.ndarray) -> Array:
 
 def read_change(state: Equilibrium, unknowns: Array) -> Array:
     """Change (..., 12 + G, k) of the readings along k changes (..., N, k) of the unknowns."""
-    return read_slope(state.mechanism, state.unknowns, state.drives, unknowns)
+    return state.seen.change(unknowns)
 
 
 def _solve(state: Equilibrium, right: Array) -> tuple[Array, np.ndarray]:
@@ -185,7 +184,7 @@ def _solve(state: Equilibrium, right: Array) -> tuple[Array, np.ndarray]:
     place = lagrangian.layout(state.mechanism)
     flat = state.reshaped(state.converged.size)
     chains = lagrangian.all_rows(state.mechanism, flat.unknowns, flat.memory, flat.drives)
-    control = control_of(state.mechanism, flat.unknowns, flat.drives, flat.channels)
+    control = flat.seen.control(flat.channels)
     sides = right.reshape(len(flat.unknowns), place.size, right.shape[-1])
     found = lagrangian.newton_step(place, chains, sides, control)
     unknowns = (found.step * place.scale[:, None]).reshape(right.shape)

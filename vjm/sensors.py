@@ -8,7 +8,7 @@ what carries the linkage, what hangs on the platform, where the cell's point is,
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import ClassVar, Protocol
 
 import numpy as np
@@ -18,7 +18,6 @@ from vjm.frames import (
     exp,
     inverse_rotation_jacobian,
     log,
-    moment,
     moment_gradient,
     rotation_jacobian,
     skew,
@@ -26,11 +25,27 @@ from vjm.frames import (
 
 
 @dataclass(frozen=True, eq=False)
+class BaseMotion:
+    """Where the base body stands: turn (..., 3, 3), shift (..., 3) of its origin, mm.
+
+    slope: (..., 6, 12) of shift and spin by pose and load.
+    """
+
+    turn: Array
+    shift: Array
+    slope: Array
+
+
+@dataclass(frozen=True, eq=False)
 class Channels:
-    """Twelve channels (..., 12) with their derivative (..., 12, 12) by true pose and load."""
+    """Twelve channels (..., 12) with their derivative (..., 12, 12) by those that a sensor, or the first one, sees.
+
+    base: how the base body moves on its springs; None where it stands still.
+    """
 
     values: Array
     slope: Array
+    base: BaseMotion | None = None
 
 
 class Sensor(Protocol):
@@ -51,9 +66,10 @@ class TrueMoment:
     def read(self, channels: Array) -> Channels:
         phi, mu = channels[..., 3:6], channels[..., 9:]
         values, slope = channels.copy(), _unit(channels)
-        values[..., 9:] = moment(phi, mu)
+        turned = np.swapaxes(inverse_rotation_jacobian(phi), -1, -2)
+        values[..., 9:] = np.einsum("...ij,...j->...i", turned, mu)
         slope[..., 9:, 3:6] = moment_gradient(phi, mu)
-        slope[..., 9:, 9:] = np.swapaxes(inverse_rotation_jacobian(phi), -1, -2)
+        slope[..., 9:, 9:] = turned
         return Channels(values, slope)
 
 
@@ -68,18 +84,20 @@ class BaseSpring:
     compliance: Array
     stage: ClassVar[int] = 1
 
-    def motion(self, channels: Array) -> tuple[Array, Array]:
-        """(p_d, phi_d) (..., 6) of the base and its derivative (..., 6, 12) by the channels seen from it."""
+    def motion(self, channels: Array) -> BaseMotion:
+        """Of the base on its springs; its slope is by the channels (..., 12) seen from the base body."""
         p, f, m = (channels[..., i : i + 3] for i in (0, 6, 9))
         to_origin = np.zeros((*channels.shape[:-1], 6, 12))
         to_origin[..., :3, 6:9] = to_origin[..., 3:, 9:] = np.eye(3)
         to_origin[..., 3:, 6:9] = skew(p)
         to_origin[..., 3:, :3] = -skew(f)
-        wrench = np.concatenate([f, m + np.cross(p, f)], axis=-1)
-        return wrench @ self.compliance.T, self.compliance @ to_origin
+        moved = np.concatenate([f, m + np.cross(p, f)], axis=-1) @ self.compliance.T
+        slope = self.compliance @ to_origin
+        slope[..., 3:, :] = rotation_jacobian(moved[..., 3:]) @ slope[..., 3:, :]
+        return BaseMotion(exp(moved[..., 3:]), moved[..., :3], slope)
 
     def read(self, channels: Array) -> Channels:
-        return _carried(channels, *self.motion(channels))
+        return _carried(channels, self.motion(channels))
 
 
 @dataclass(frozen=True, eq=False)
@@ -122,39 +140,18 @@ class CellTurn:
 
 
 def through(sensors: tuple[Sensor, ...], channels: Array) -> Channels:
-    """All sensors in the order of their stage."""
-    values, slope = channels, _unit(channels)
-    for sensor in sorted(sensors, key=lambda each: each.stage):
-        after = sensor.read(values)
-        values, slope = after.values, after.slope @ slope
-    return Channels(values, slope)
-
-
-@dataclass(frozen=True, eq=False)
-class BaseMotion:
-    """Where the base body stands: turn (..., 3, 3), shift (..., 3) of its origin, mm.
-
-    slope: (..., 6, 12) of shift and spin by true pose and load.
-    """
-
-    turn: Array
-    shift: Array
-    slope: Array
-
-
-def base_motion(sensors: tuple[Sensor, ...], channels: Array) -> BaseMotion | None:
-    """Motion of the base body on its springs at true pose and load (..., 12); None where it stands still."""
-    values, slope, found = channels, _unit(channels), None
+    """All sensors in the order of their stage, from true pose and load (..., 12)."""
+    values, slope, base = channels, None, None
     for sensor in sorted(sensors, key=lambda each: each.stage):
         if isinstance(sensor, BaseSpring):
-            moved, rate = sensor.motion(values)
-            rate = rate @ slope
-            rate[..., 3:, :] = rotation_jacobian(moved[..., 3:]) @ rate[..., 3:, :]
-            step = BaseMotion(exp(moved[..., 3:]), moved[..., :3], rate)
-            found = step if found is None else _after(step, found)
-        after = sensor.read(values)
-        values, slope = after.values, after.slope @ slope
-    return found
+            own = sensor.motion(values)
+            moved = own if slope is None else replace(own, slope=own.slope @ slope)
+            base = moved if base is None else _after(moved, base)
+            after = _carried(values, own)
+        else:
+            after = sensor.read(values)
+        values, slope = after.values, after.slope if slope is None else after.slope @ slope
+    return Channels(values, _unit(channels) if slope is None else slope, base)
 
 
 def _after(outer: BaseMotion, inner: BaseMotion) -> BaseMotion:
@@ -166,19 +163,18 @@ def _after(outer: BaseMotion, inner: BaseMotion) -> BaseMotion:
     return BaseMotion(outer.turn @ inner.turn, arm + outer.shift, slope)
 
 
-def _carried(channels: Array, moved: Array, moved_slope: Array) -> Channels:
-    """Channels seen from the ground, the base being displaced by `moved` (..., 6) with that slope (..., 6, 12)."""
-    turn = exp(moved[..., 3:])
+def _carried(channels: Array, base: BaseMotion) -> Channels:
+    """Channels seen from the ground, with their slope by those (..., 12) seen from the base body."""
+    turn, rate = base.turn, base.slope[..., 3:, :]
     whole = turn @ exp(channels[..., 3:6])
-    rate = rotation_jacobian(moved[..., 3:]) @ moved_slope[..., 3:, :]
     values, slope = np.empty_like(channels), _unit(channels)
     for i in (0, 6, 9):
         carried = np.einsum("...ij,...j->...i", turn, channels[..., i : i + 3])
         values[..., i : i + 3] = carried
         slope[..., i : i + 3, :] = -skew(carried) @ rate
         slope[..., i : i + 3, i : i + 3] += turn
-    values[..., :3] += moved[..., :3]
-    slope[..., :3, :] += moved_slope[..., :3, :]
+    values[..., :3] += base.shift
+    slope[..., :3, :] += base.slope[..., :3, :]
     values[..., 3:6] = log(whole)
     own = np.zeros_like(rate)
     own[..., 3:6] = turn @ rotation_jacobian(channels[..., 3:6])
