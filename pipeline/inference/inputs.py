@@ -70,9 +70,17 @@ def linearised(
         # Both stops are tried from inside: once taken to the wrong one, a row has no way to the other.
         for rows, other in [_touching(cases, here, play, side) for side in (1.0, -1.0)]:
             here = _better(model, cases, here, _whole(cases, rows), other, here)
-    if slopes or held:
-        here = predict(model, cases, slopes, start=here, shift=here.shift)
+    if slopes:
+        return sloped(model, cases, here)
+    if held:
+        here = predict(model, cases, slopes=False, start=here, shift=here.shift)
     return here, residual(cases, here)
+
+
+def sloped(model: Model, cases: Program, here: Prediction) -> tuple[Prediction, Residual]:
+    """A prediction and its residual again, on the sides that its rows have chosen, with derivatives."""
+    there = predict(model, cases, start=here, shift=here.shift)
+    return there, residual(cases, there)
 
 
 def _touching(cases: Program, here: Prediction, play: int, side: float) -> tuple[Mask, Array]:

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
-from pipeline.inference.inputs import begun, linearised
+from pipeline.inference.inputs import begun, kinked, linearised, sloped
 from pipeline.inference.model import Model
 from pipeline.inference.prediction import Prediction
 from pipeline.inference.program import Program
@@ -34,12 +34,22 @@ class Objective:
     _known: tuple[bytes, Prediction, Residual] | None = field(default=None, repr=False)
 
     def at(self, values: Array) -> tuple[Prediction, Residual]:
-        """Prediction and residual at values, solved once for residuals and derivatives."""
+        """Prediction and residual at values with derivatives by the free numbers."""
+        here, found = self._solved(values)
+        if here.by_free.shape[-1] < len(self.model.free):
+            here, found = sloped(self.model.at(values), self.program, here)
+            self.last, self._known = here, (np.asarray(values).tobytes(), here, found)
+        return here, found
+
+    def _solved(self, values: Array) -> tuple[Prediction, Residual]:
+        """Prediction and residual at values; where rows choose their sides, at no small cost, derivatives wait until
+        they are asked for, which after a step that is not taken they are not."""
         key = np.asarray(values).tobytes()
         if self._known is None or self._known[0] != key:
             known = self._known
             shift = known[2].shift if known else begun(self.model, self.program, self.last)
-            found = linearised(self.model.at(values), self.program, start=self.last, shift=shift)
+            slopes = not kinked(self.model)
+            found = linearised(self.model.at(values), self.program, slopes, self.last, shift)
             self.last = found[0]
             self.count += 1
             self._known = (key, *found)
@@ -52,11 +62,11 @@ class Objective:
 
     def residuals(self, values: Array) -> Array:
         """(N + 1,) as `Residual.aimed`."""
-        return self.at(values)[1].aimed
+        return self._solved(values)[1].aimed
 
     def again(self, values: Array) -> Array:
         """(N + 1,) linearised anew, at the inputs that fit best by what is known."""
-        it = self.at(values)[1]
+        it = self._solved(values)[1]
         self._known = (b"", self._known[1], it) if self._known is not None else None
         return self.residuals(values)
 
@@ -71,7 +81,7 @@ class Objective:
 
     def unsettled(self, values: Array) -> float:
         """By how many of its sigmas an input that fits best is off the one near which the model was linearised."""
-        prediction, it = self.at(values)
+        prediction, it = self._solved(values)
         sigma = self.program.input_sigma
         off = np.abs(it.shift - prediction.shift)[sigma > 0.0] / sigma[sigma > 0.0]
         return float(off.max(initial=0.0))
