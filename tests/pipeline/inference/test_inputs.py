@@ -130,7 +130,7 @@ def test_a_row_costs_the_least_that_any_force_costs() -> None:
     sigma = part.input_sigma[:, 0]
     others = replace(part, input_sigma=np.where(axial, 0.0, part.input_sigma))
     costs = []
-    for steps in np.linspace(-4.0, 4.0, 121):
+    for steps in np.linspace(-4.0, 4.0, 61):
         shift = np.where(axial, steps * sigma[:, None], 0.0)
         there = predict(play, part, slopes=False, shift=shift)
         fixed = residual(others, replace(there, shift=np.where(axial, 0.0, shift)))
