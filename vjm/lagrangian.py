@@ -65,22 +65,21 @@ class Layout:
 
 def layout(mechanism: Mechanism) -> Layout:
     """Layout of u for a mechanism; its largest translational spring gives the unit of force."""
-    return _layout(mechanism)
+    return _layout(mechanism.chains, mechanism.length)
 
 
 @lru_cache(maxsize=256)
-def _layout(mechanism: Mechanism) -> Layout:
-    sizes = [chain.moving.size for chain in mechanism.chains]
+def _layout(chains: tuple[ElasticChain, ...], length: float) -> Layout:
+    sizes = [chain.moving.size for chain in chains]
     pieces = _slices([*sizes, 6, *[6] * len(sizes)])
-    memories = _slices([chain.initial_memory.size for chain in mechanism.chains])
-    length = mechanism.length
-    force = length * max(_translational_stiffness(chain) for chain in mechanism.chains)
+    memories = _slices([chain.initial_memory.size for chain in chains])
+    force = length * max(_translational_stiffness(chain) for chain in chains)
     pose_scale = np.repeat([length, 1.0], 3)
-    scales = [_coordinate_scale(chain, length) for chain in mechanism.chains]
+    scales = [_coordinate_scale(chain, length) for chain in chains]
     wrench_scale = force * np.repeat([1.0, length], 3)
     scale = np.concatenate([*scales, pose_scale, *[wrench_scale] * len(sizes)])
     n = len(sizes)
-    drives = _drives(mechanism)
+    drives = _drives(chains)
     return Layout(pieces[:n], pieces[n], pieces[n + 1 :], memories, scale, force * length, *drives)
 
 
@@ -318,12 +317,12 @@ def _dimensionless(place: Layout, row: ChainRows, x: slice, dual: slice) -> Arra
     return row.matrix * np.outer(scale, scale / place.energy)
 
 
-def _drives(mechanism: Mechanism) -> tuple[tuple[str, ...], Array, tuple[Array, ...], np.ndarray]:
+def _drives(chains: tuple[ElasticChain, ...]) -> tuple[tuple[str, ...], Array, tuple[Array, ...], np.ndarray]:
     """Names, defaults (D,), rest values (D, n) that they move in each chain and posture (D,) of all inputs."""
-    every = {drive.name: drive for chain in mechanism.chains for drive in chain.drives}
+    every = {drive.name: drive for chain in chains for drive in chain.drives}
     names = tuple(every)
     slopes = []
-    for chain in mechanism.chains:
+    for chain in chains:
         slope = np.zeros((len(names), chain.chain.size))
         for drive in chain.drives:
             slope[names.index(drive.name)] += drive.slope

@@ -20,6 +20,8 @@ from vjm.equilibrium import Equilibrium
 from vjm.frames import Array
 from vjm.mechanism import Mechanism
 from vjm.problem import channel_scale
+from vjm.reread import Reread
+from vjm.sensors import Sensor
 
 _SCHEMES = {
     1: ((0.0, -1.0), (1.0, 1.0)),
@@ -75,6 +77,19 @@ class Direction:
 
 
 @dataclass(frozen=True, eq=False)
+class SensorDirection:
+    """One parameter p of the sensors alone: `sensors(value)` are those of the state. size: as of a `Direction`."""
+
+    sensors: Callable[[float], tuple[Sensor, ...]]
+    value: float
+    size: float
+
+    def moved(self, state: Equilibrium, change: float) -> Equilibrium:
+        """The unknowns of the state, read as a change of p has it."""
+        return replace(state, mechanism=Reread(state.mechanism, self.sensors(self.value + change)))
+
+
+@dataclass(frozen=True, eq=False)
 class DriveDirection:
     """One input of the mechanism by name."""
 
@@ -95,7 +110,7 @@ class Target:
     coordinate: int
 
 
-AnyDirection = Direction | DriveDirection | Target
+AnyDirection = Direction | SensorDirection | DriveDirection | Target
 TARGETS = tuple(Target(k) for k in range(6))
 
 
@@ -124,18 +139,20 @@ def by_parameters(
     slope = np.zeros((*state.unknowns.shape, count))
     own = np.zeros((*state.readings.shape, count))
     here = (_residual(state, state.memory, place), state.readings) if order == 1 else (0.0, 0.0)
+    platform = np.isin(np.arange(place.size), np.arange(place.size)[place.platform])
     for k, direction in enumerate(directions):
         if isinstance(direction, Target):
             sides = channel_scale(place, state.channels)[..., direction.coordinate]
             slope[..., place.platform.start + direction.coordinate, k] -= 1.0 / sides
             continue
+        still = isinstance(direction, SensorDirection) and not state.memory.shape[-1]
         for step, weight in differences(order, direction.size):
             if not step:
-                slope[..., k] += weight * here[0]
+                slope[..., k] += weight * np.where(still & ~platform, 0.0, here[0])
                 own[..., k] += weight * here[1]
                 continue
             moved = direction.moved(state, step)
-            slope[..., k] += weight * _residual(moved, state.memory + step * memory[..., k], place)
+            slope[..., k] += weight * _residual(moved, state.memory + step * memory[..., k], place, still)
             own[..., k] += weight * moved.readings
     slope[..., place.platform, :] -= target / channel_scale(place, state.channels)[..., None]
     unknowns, regular = _solve(state, -slope)
@@ -156,10 +173,13 @@ def by_parameter(
     return by_parameters(state, [Direction(build, value, size)], target, memory)
 
 
-def _residual(state: Equilibrium, memory: Array, place: lagrangian.Layout) -> Array:
-    """Dimensionless residual (..., N) with zero targets, in the scales of `place`."""
-    chains = lagrangian.all_rows(state.mechanism, state.unknowns, memory, state.drives, second=False)
-    rows = lagrangian.gradient(place, chains, state.unknowns) * place.scale / place.energy
+def _residual(state: Equilibrium, memory: Array, place: lagrangian.Layout, still: bool = False) -> Array:
+    """Dimensionless residual (..., N) with zero targets, in the scales of `place`; still: of the chains, which do not
+    change, zeros."""
+    rows = np.zeros(state.unknowns.shape)
+    if not still:
+        chains = lagrangian.all_rows(state.mechanism, state.unknowns, memory, state.drives, second=False)
+        rows = lagrangian.gradient(place, chains, state.unknowns) * place.scale / place.energy
     values = np.take_along_axis(state.readings, state.channels, axis=-1)
     rows[..., place.platform] = values / channel_scale(place, state.channels)
     return np.asarray(rows)

@@ -261,11 +261,13 @@ def _held(size: Array) -> Array:
 
 def _step(slopes: Array, residuals: Array, box: Array, damping: float) -> Array:
     """(P,) step of least sum of squares within the box (2, P), each column damped by its own size."""
-    orthogonal, triangle = np.linalg.qr(slopes)
+    triangle = np.linalg.qr(np.column_stack([slopes, residuals]), mode="r")
+    count = slopes.shape[1]
+    triangle, aimed = triangle[:count, :count], triangle[:count, count]
     size = np.linalg.norm(triangle, axis=0)
     size = np.where(size > 0, size, 1.0)
     matrix = np.vstack([triangle, np.sqrt(damping) * np.diag(_held(size))]) / size
-    right = np.concatenate([-(orthogonal.T @ residuals), np.zeros(size.size)])
+    right = np.concatenate([-aimed, np.zeros(size.size)])
     low, high = np.minimum(box[0], 0.0) * size, np.maximum(box[1], 0.0) * size
     found = lsq_linear(matrix, right, bounds=(low - TINY, high + TINY), method="bvls", tol=1e-14)
     return np.asarray(np.clip(found.x, low, high) / size)

@@ -13,6 +13,7 @@ from pipeline.campaign import Gauge
 from pipeline.campaign import Rig as Described
 from pipeline.inference.rigs import mechanism_of
 from vjm.effects.base import Effect, Parameter, Rig
+from vjm.reread import in_sensors_alone
 
 Array = NDArray[np.float64]
 START = 3e-3
@@ -113,9 +114,22 @@ class Model:
 
     def mechanism(self, rig: Described, gauges: tuple[Gauge, ...]) -> Rig:
         """The mechanism of a rig. ValueError for an effect that this rig cannot have."""
-        return reduce(
-            lambda it, term: term.effect.apply(it, term.values), self.terms, mechanism_of(rig, gauges)
-        )
+        return self._built(self.terms, mechanism_of(rig, gauges))
+
+    def reads_alone(self, free: Free, value: float, rig: Described, gauges: tuple[Gauge, ...]) -> bool:
+        """Whether another value of this number changes what sensors read, and nothing else.
+
+        The effects before its own are asked, those after it build on what it leaves.
+        """
+        number = self.names.index(free.effect)
+        before = self._built(self.terms[:number], mechanism_of(rig, gauges))
+        own = self.terms[number]
+        other = replace(own, values={**own.values, free.parameter.name: value})
+        return in_sensors_alone(*(self._built((term,), before) for term in (own, other)))
+
+    @staticmethod
+    def _built(terms: tuple[Term, ...], rig: Rig) -> Rig:
+        return reduce(lambda it, term: term.effect.apply(it, term.values), terms, rig)
 
 
 def _beside_null(each: Free) -> float:

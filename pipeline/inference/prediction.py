@@ -23,7 +23,16 @@ from vjm.equilibrium import Equilibrium, drive_values, equilibrium
 from vjm.history import by_history
 from vjm.lagrangian import layout
 from vjm.mechanism import initial_memory
-from vjm.sensitivity import TARGETS, AnyDirection, Direction, DriveDirection, Sensitivity, by_parameters
+from vjm.sensitivity import (
+    TARGETS,
+    AnyDirection,
+    Direction,
+    DriveDirection,
+    SensorDirection,
+    Sensitivity,
+    by_parameters,
+    differences,
+)
 from vjm.slides import with_slides
 from vjm.stops import pressed, slid
 
@@ -278,21 +287,27 @@ def _shifted(group: Group, shift: Array) -> Group:
     return replace(group, targets=group.targets + whole[..., :6], rise=group.rise + whole[..., 6])
 
 
-def _direction(model: Model, number: int, group: Group, program: Program) -> Direction:
-    value, parameter = float(model.values[number]), model.free[number].parameter
+def _direction(model: Model, number: int, group: Group, program: Program) -> Direction | SensorDirection:
+    value, each = float(model.values[number]), model.free[number]
+    parameter = each.parameter
     # Differences stay on the same side of a bound as the value.
     room = min(value - parameter.low, parameter.high - value)
     size = min(abs(parameter.typical), room / 3e-3)
     # Differences that reach across a kink are no derivative of either side: few states are so near to one.
-    smooth = next(t.effect.smooth for t in model.terms if t.effect.name == model.free[number].effect)
+    smooth = next(t.effect.smooth for t in model.terms if t.effect.name == each.effect)
     size *= 1.0 if smooth else NEAR_KINKS
+    gauges = program.campaign.gauges
 
     @cache
     def moved(other: float) -> Rig:
         values = model.values
         values[number] = other
-        return model.at(values).mechanism(group.rig, program.campaign.gauges)
+        return model.at(values).mechanism(group.rig, gauges)
 
+    # As far as differences go, and no further: bounds are near.
+    *_, (change, _) = differences(1, size)
+    if model.reads_alone(each, value + change, group.rig, gauges):
+        return SensorDirection(lambda other: moved(other).sensors, value, size)
     return Direction(moved, value, size)
 
 
