@@ -8,7 +8,9 @@ what carries the linkage, what hangs on the platform, where the cell's point is,
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import ClassVar, Protocol
 
 import numpy as np
@@ -28,24 +30,35 @@ from vjm.frames import (
 class BaseMotion:
     """Where the base body stands: turn (..., 3, 3), shift (..., 3) of its origin, mm.
 
-    slope: (..., 6, 12) of shift and spin by pose and load.
+    slopes: makes `slope`, which most readings are not asked for.
     """
 
     turn: Array
     shift: Array
-    slope: Array
+    slopes: Callable[[], Array]
+
+    @cached_property
+    def slope(self) -> Array:
+        """(..., 6, 12) of shift and spin by pose and load."""
+        return self.slopes()
 
 
 @dataclass(frozen=True, eq=False)
 class Channels:
-    """Twelve channels (..., 12) with their derivative (..., 12, 12) by those that a sensor, or the first one, sees.
+    """Twelve channels (..., 12).
 
-    base: how the base body moves on its springs; None where it stands still.
+    slopes: makes `slope`; None where nothing was changed. base: how the base body moves on its springs; None where it
+    stands still.
     """
 
     values: Array
-    slope: Array
+    slopes: Callable[[], Array] | None = None
     base: BaseMotion | None = None
+
+    @cached_property
+    def slope(self) -> Array:
+        """(..., 12, 12) by the channels that a sensor, or the first one, sees."""
+        return _unit(self.values) if self.slopes is None else self.slopes()
 
 
 class Sensor(Protocol):
@@ -65,12 +78,17 @@ class TrueMoment:
 
     def read(self, channels: Array) -> Channels:
         phi, mu = channels[..., 3:6], channels[..., 9:]
-        values, slope = channels.copy(), _unit(channels)
+        values = channels.copy()
         turned = np.swapaxes(inverse_rotation_jacobian(phi), -1, -2)
         values[..., 9:] = np.einsum("...ij,...j->...i", turned, mu)
-        slope[..., 9:, 3:6] = moment_gradient(phi, mu)
-        slope[..., 9:, 9:] = turned
-        return Channels(values, slope)
+
+        def slopes() -> Array:
+            slope = _unit(channels)
+            slope[..., 9:, 3:6] = moment_gradient(phi, mu)
+            slope[..., 9:, 9:] = turned
+            return slope
+
+        return Channels(values, slopes)
 
 
 @dataclass(frozen=True, eq=False)
@@ -87,14 +105,18 @@ class BaseSpring:
     def motion(self, channels: Array) -> BaseMotion:
         """Of the base on its springs; its slope is by the channels (..., 12) seen from the base body."""
         p, f, m = (channels[..., i : i + 3] for i in (0, 6, 9))
-        to_origin = np.zeros((*channels.shape[:-1], 6, 12))
-        to_origin[..., :3, 6:9] = to_origin[..., 3:, 9:] = np.eye(3)
-        to_origin[..., 3:, 6:9] = skew(p)
-        to_origin[..., 3:, :3] = -skew(f)
         moved = np.concatenate([f, m + np.cross(p, f)], axis=-1) @ self.compliance.T
-        slope = self.compliance @ to_origin
-        slope[..., 3:, :] = rotation_jacobian(moved[..., 3:]) @ slope[..., 3:, :]
-        return BaseMotion(exp(moved[..., 3:]), moved[..., :3], slope)
+
+        def slopes() -> Array:
+            to_origin = np.zeros((*channels.shape[:-1], 6, 12))
+            to_origin[..., :3, 6:9] = to_origin[..., 3:, 9:] = np.eye(3)
+            to_origin[..., 3:, 6:9] = skew(p)
+            to_origin[..., 3:, :3] = -skew(f)
+            slope = self.compliance @ to_origin
+            slope[..., 3:, :] = rotation_jacobian(moved[..., 3:]) @ slope[..., 3:, :]
+            return slope
+
+        return BaseMotion(exp(moved[..., 3:]), moved[..., :3], slopes)
 
     def read(self, channels: Array) -> Channels:
         return _carried(channels, self.motion(channels))
@@ -110,7 +132,7 @@ class DeadWeight:
     def read(self, channels: Array) -> Channels:
         values = channels.copy()
         values[..., 6:9] -= self.force
-        return Channels(values, _unit(channels))
+        return Channels(values)
 
 
 @dataclass(frozen=True, eq=False)
@@ -121,9 +143,9 @@ class CellOffset:
     stage: ClassVar[int] = 3
 
     def read(self, channels: Array) -> Channels:
-        slope = _unit(channels)
-        slope[..., 9:, 6:9] = -skew(self.r)
-        return Channels(np.einsum("...ij,...j->...i", slope, channels), slope)
+        slope = np.eye(12)
+        slope[9:, 6:9] = -skew(self.r)
+        return Channels(channels @ slope.T, lambda: np.broadcast_to(slope, (*channels.shape, 12)))
 
 
 @dataclass(frozen=True, eq=False)
@@ -134,52 +156,72 @@ class CellTurn:
     stage: ClassVar[int] = 4
 
     def read(self, channels: Array) -> Channels:
-        slope = _unit(channels)
-        slope[..., 6:9, 6:9] = slope[..., 9:, 9:] = exp(self.turn).T
-        return Channels(np.einsum("...ij,...j->...i", slope, channels), slope)
+        slope = np.eye(12)
+        slope[6:9, 6:9] = slope[9:, 9:] = exp(self.turn).T
+        return Channels(channels @ slope.T, lambda: np.broadcast_to(slope, (*channels.shape, 12)))
 
 
 def through(sensors: tuple[Sensor, ...], channels: Array) -> Channels:
     """All sensors in the order of their stage, from true pose and load (..., 12)."""
-    values, slope, base = channels, None, None
+    here = Channels(channels)
     for sensor in sorted(sensors, key=lambda each: each.stage):
-        if isinstance(sensor, BaseSpring):
-            own = sensor.motion(values)
-            moved = own if slope is None else replace(own, slope=own.slope @ slope)
-            base = moved if base is None else _after(moved, base)
-            after = _carried(values, own)
-        else:
-            after = sensor.read(values)
-        values, slope = after.values, after.slope if slope is None else after.slope @ slope
-    return Channels(values, _unit(channels) if slope is None else slope, base)
+        here = _beyond(here, sensor)
+    return here
+
+
+def _beyond(before: Channels, sensor: Sensor) -> Channels:
+    """What a sensor makes of what those before it read."""
+    base = before.base
+    if isinstance(sensor, BaseSpring):
+        own = sensor.motion(before.values)
+        moved = replace(own, slopes=lambda: _chained(own, before))
+        base = moved if base is None else _after(moved, base)
+        after = _carried(before.values, own)
+    else:
+        after = sensor.read(before.values)
+    return Channels(after.values, lambda: _chained(after, before), base)
+
+
+def _chained(after: Channels | BaseMotion, before: Channels) -> Array:
+    if isinstance(after, Channels) and after.slopes is None:
+        return before.slope
+    return after.slope if before.slopes is None else after.slope @ before.slope
 
 
 def _after(outer: BaseMotion, inner: BaseMotion) -> BaseMotion:
     """The motion of a body on a body that moves itself."""
     arm = np.einsum("...ij,...j->...i", outer.turn, inner.shift)
-    slope = outer.slope.copy()
-    slope[..., :3, :] += outer.turn @ inner.slope[..., :3, :] - skew(arm) @ outer.slope[..., 3:, :]
-    slope[..., 3:, :] += outer.turn @ inner.slope[..., 3:, :]
-    return BaseMotion(outer.turn @ inner.turn, arm + outer.shift, slope)
+
+    def slopes() -> Array:
+        slope = outer.slope.copy()
+        slope[..., :3, :] += outer.turn @ inner.slope[..., :3, :] - skew(arm) @ outer.slope[..., 3:, :]
+        slope[..., 3:, :] += outer.turn @ inner.slope[..., 3:, :]
+        return slope
+
+    return BaseMotion(outer.turn @ inner.turn, arm + outer.shift, slopes)
 
 
 def _carried(channels: Array, base: BaseMotion) -> Channels:
     """Channels seen from the ground, with their slope by those (..., 12) seen from the base body."""
-    turn, rate = base.turn, base.slope[..., 3:, :]
-    whole = turn @ exp(channels[..., 3:6])
-    values, slope = np.empty_like(channels), _unit(channels)
+    turn, values = base.turn, np.empty_like(channels)
     for i in (0, 6, 9):
-        carried = np.einsum("...ij,...j->...i", turn, channels[..., i : i + 3])
-        values[..., i : i + 3] = carried
-        slope[..., i : i + 3, :] = -skew(carried) @ rate
-        slope[..., i : i + 3, i : i + 3] += turn
+        values[..., i : i + 3] = np.einsum("...ij,...j->...i", turn, channels[..., i : i + 3])
+    carried = values.copy()
     values[..., :3] += base.shift
-    slope[..., :3, :] += base.slope[..., :3, :]
-    values[..., 3:6] = log(whole)
-    own = np.zeros_like(rate)
-    own[..., 3:6] = turn @ rotation_jacobian(channels[..., 3:6])
-    slope[..., 3:6, :] = inverse_rotation_jacobian(values[..., 3:6]) @ (rate + own)
-    return Channels(values, slope)
+    values[..., 3:6] = log(turn @ exp(channels[..., 3:6]))
+
+    def slopes() -> Array:
+        rate, slope = base.slope[..., 3:, :], _unit(channels)
+        for i in (0, 6, 9):
+            slope[..., i : i + 3, :] = -skew(carried[..., i : i + 3]) @ rate
+            slope[..., i : i + 3, i : i + 3] += turn
+        slope[..., :3, :] += base.slope[..., :3, :]
+        own = np.zeros_like(rate)
+        own[..., 3:6] = turn @ rotation_jacobian(channels[..., 3:6])
+        slope[..., 3:6, :] = inverse_rotation_jacobian(values[..., 3:6]) @ (rate + own)
+        return slope
+
+    return Channels(values, slopes)
 
 
 def _unit(channels: Array) -> Array:

@@ -8,6 +8,7 @@ from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.linalg import qr
 from scipy.optimize import lsq_linear
 
 from pipeline.inference.ground import Ground
@@ -261,7 +262,7 @@ def _held(size: Array) -> Array:
 
 def _step(slopes: Array, residuals: Array, box: Array, damping: float) -> Array:
     """(P,) step of least sum of squares within the box (2, P), each column damped by its own size."""
-    triangle = np.linalg.qr(np.column_stack([slopes, residuals]), mode="r")
+    (triangle,) = qr(np.column_stack([slopes, residuals]), mode="r")
     count = slopes.shape[1]
     triangle, aimed = triangle[:count, :count], triangle[:count, count]
     size = np.linalg.norm(triangle, axis=0)

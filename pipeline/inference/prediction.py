@@ -28,8 +28,8 @@ from vjm.sensitivity import (
     AnyDirection,
     Direction,
     DriveDirection,
-    SensorDirection,
     Sensitivity,
+    SensorDirection,
     by_parameters,
     differences,
 )
