@@ -9,6 +9,12 @@ from pipeline.diagnose.shelf import Names, Shelf
 
 HOPELESS = 300.0
 """Times the least chi-square of the roots, beyond which a root is left out unseen."""
+FAR_OFF = 5.0
+"""Times the chi-square of a fit that the same numbers, smooth ones moved by a linear step, leave without an effect that
+is there or not: then it is needed. It is looked at once, where the fit would take longest: it ends far from all noise.
+"""
+NEAR = 1.5
+"""Times the chi-square of a set that one without an effect of it leaves, at most, to be looked at more than once."""
 NEEDLESS = 4.0
 """Times what it has to show: an effect that by its own numbers explains less may not be needed."""
 MORE, BY = 2.0, 2.0
@@ -20,13 +26,23 @@ def pruned(shelf: Shelf, names: Names) -> Names:
     """The set without what is no longer needed."""
     while names:
         fewer = [names - {name} for name in names if _dispensable(shelf, names, name)]
-        shelf.fit_all({each: {} for each in fewer})
+        _fit_fewer(shelf, names, [each for each in fewer if each not in shelf.fits])
         fit_from(shelf, names)
         best = min(fewer, key=lambda each: cost(shelf, each), default=names)
         if not fewer or cost(shelf, best) > cost(shelf, names):
             return names
         names = best
     return names
+
+
+def _fit_fewer(shelf: Shelf, names: Names, fewer: list[Names]) -> None:
+    """Fit sets without one of the effects from where the whole set stands, which takes least; those that this does not
+    show to be good or far from it as if there were no larger set."""
+    shelf.fit_again(fewer, names)
+    most = NEAR * shelf.fit(names).chi_square
+    shelf.fit_anew(
+        [n for n in fewer if cost(shelf, n) > cost(shelf, names) and shelf.fit(n).chi_square < most]
+    )
 
 
 def fit_from(shelf: Shelf, names: Names) -> None:
@@ -50,11 +66,13 @@ def fit_from(shelf: Shelf, names: Names) -> None:
 def _dispensable(shelf: Shelf, names: Names, name: str) -> bool:
     """Whether an effect, by its own numbers and their covariance, explains no more than a few times its price.
 
-    One that is there or not is, unless what is there would be a hopeless root without it; so is one with kinks.
+    One that is there or not is, unless what is there would be hopeless without it; so is one with kinks.
     """
     if not shelf.candidates[name].parameters:
         root = root_of(shelf, names)
-        return shelf.fit(root - {name}).chi_square < HOPELESS * shelf.fit(root).chi_square
+        if shelf.fit(root - {name}).chi_square >= HOPELESS * shelf.fit(root).chi_square:
+            return False
+        return names - {name} in shelf.fits or shelf.left_without(names, name) < FAR_OFF
     return not shelf.candidates[name].smooth or _said(shelf, names, name) < NEEDLESS * price(shelf, [name])
 
 

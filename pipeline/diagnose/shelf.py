@@ -13,12 +13,13 @@ from pipeline.diagnose.picture import Picture, picture
 from pipeline.diagnose.signatures import Look, Probe, Say, look, probed, probes, signatures
 from pipeline.inference.fit import Fit, fit
 from pipeline.inference.model import Model, Term
+from pipeline.inference.parts import at_rows
 from pipeline.inference.prediction import Prediction, predict
 from pipeline.inference.program import Program
 from pipeline.inference.residual import residual
 from pipeline.inference.sent import fits_at_once
 from pipeline.inference.sides import sided
-from pipeline.inference.starts import best_fit
+from pipeline.inference.starts import best_fit, height
 from vjm.effects.base import Effect
 
 Names = frozenset[str]
@@ -63,7 +64,13 @@ class Shelf:
 
     def fit_all(self, wanted: Mapping[Names, Mapping[str, float]]) -> None:
         """Fit several sets of which none holds another, each as `fit` does it alone."""
-        new = {names: begin for names, begin in wanted.items() if names not in self.fits}
+        self._fit_all({names: begin for names, begin in wanted.items() if names not in self.fits})
+
+    def fit_anew(self, wanted: Sequence[Names]) -> None:
+        """Fit sets as if they had not been, and keep the better fit of each."""
+        self._fit_all({names: {} for names in wanted})
+
+    def _fit_all(self, new: Mapping[Names, Mapping[str, float]]) -> None:
         # What takes longest is begun first: rows that choose their side, then other kinks.
         order = sorted(new, key=self._quickness)
         if order:
@@ -71,10 +78,11 @@ class Shelf:
             self.say(self._title(order[0]) + more)
         calls = [(self._model(names), partial(self._fitted, names, new[names])) for names in order]
         made = dict(zip(order, fits_at_once(calls, self.whole), strict=True))
-        self.fits |= {names: made[names] for names in new}
+        for names in new:
+            self._keep(names, made[names])
 
     def fit_again(self, wanted: Sequence[Names], larger: Names) -> None:
-        """Fit sets once more, from where a set that holds them stands, and keep the better fit of each."""
+        """Fit sets from where a set that holds them stands, and keep the better fit of each that has one."""
         there = self.fits[larger]
         new = {n: self._model(n) for n in wanted if (n, larger) not in self.tried}
         models = {names: _valued(model, there.model) for names, model in new.items() if model.free}
@@ -84,11 +92,25 @@ class Shelf:
         self.tried |= {(names, larger) for names in models}
         calls = [(m, partial(fit, m, self.whole, there.prediction, None, PLAUSIBLE)) for m in models.values()]
         for names, found in zip(models, fits_at_once(calls, self.whole), strict=True):
-            old = self.fits[names]
-            best = min(old, found, key=lambda each: each.chi_square)
-            self.fits[names] = replace(best, evaluations=old.evaluations + found.evaluations)
-            if best is found:
-                self.pictures.pop(names, None)
+            self._keep(names, found)
+
+    def _keep(self, names: Names, found: Fit) -> None:
+        old = self.fits.get(names)
+        if old is None:
+            self.fits[names] = found
+            return
+        best = min(old, found, key=lambda each: each.chi_square)
+        self.fits[names] = replace(best, evaluations=old.evaluations + found.evaluations)
+        if best is found:
+            self.pictures.pop(names, None)
+
+    def left_without(self, names: Names, name: str) -> float:
+        """Times its chi-square that a fit leaves without one of its effects, after a linear step of what is smooth."""
+        self.say(f"{self._title(names)} without {name}")
+        found = self.fit(names)
+        rows, own = self.whole.by_role[0]
+        start = at_rows(found.prediction, self.whole, own, rows)
+        return height(found.model.without(name), own, start) / found.chi_square
 
     def picture(self, names: Names) -> Picture:
         """What could be added to a fit."""

@@ -268,7 +268,11 @@ def _begin(
     if start is not None and layout(start.mechanism).drives != layout(mechanism).drives:
         # A model with heat may follow one without: the start is at the inputs of now.
         start = replace(start, drives=drive_values(mechanism, inputs))
-    sliding = any(link.slides for link in mechanism.links) and not initial_memory(mechanism).size
+    remembers = initial_memory(mechanism).size > 0
+    if start is not None and not remembers:
+        # A model that remembers nothing may follow one that does.
+        start = replace(start, memory=start.memory[..., :0])
+    sliding = any(link.slides for link in mechanism.links) and not remembers
     if start is not None and start.unknowns.shape[-1] == layout(mechanism).size:
         return with_slides(start, mechanism) if sliding else replace(start, mechanism=mechanism)
     if not sliding:

@@ -68,7 +68,7 @@ def best_fit(
         there = _typical(fits[0].model, new)
         spent += 1
         # Where the linear step from there promises no more there is nothing to find.
-        if _height(there, own, near) < fits[0].chi_square - WORTH * max(fits[0].rms, 1.0) ** 2:
+        if height(there, own, near) < fits[0].chi_square - WORTH * max(fits[0].rms, 1.0) ** 2:
             fits.append(fit(there, program, start, watch, plausible))
     best = min(fits, key=lambda each: each.chi_square)
     return replace(best, evaluations=spent + sum(each.evaluations for each in fits))
@@ -95,7 +95,7 @@ def _ladder(
 
     def look(number: int, at: dict[str, float]) -> None:
         places.insert(number, at)
-        heights.insert(number, _height(rung(at), program, start))
+        heights.insert(number, height(rung(at), program, start))
         if watch is not None:
             watch(", ".join(f"{name} = {value:.3g}" for name, value in at.items()))
 
@@ -144,7 +144,7 @@ def _rungs(heights: list[float]) -> Iterator[float]:
         yield size
 
 
-def _height(model: Model, program: Program, start: Prediction | None) -> float:
+def height(model: Model, program: Program, start: Prediction | None) -> float:
     """Chi-square after one linear step of what is smooth in the model: a rung is judged with the rest fitted."""
     kinked = {t.effect.name for t in model.terms if not t.effect.smooth}
     model = replace(model, fixed=model.fixed | {f.name for f in model.free if f.effect in kinked})
