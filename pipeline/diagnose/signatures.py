@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,7 +19,8 @@ from pipeline.inference.model import Model
 from pipeline.inference.prediction import Prediction, predict
 from pipeline.inference.program import Program
 from pipeline.inference.residual import residual, whitening
-from vjm.effects.base import Effect
+from pipeline.processors import at_once
+from vjm.effects.base import Effect, Parameter
 
 Array = NDArray[np.float64]
 Say = Callable[[str], None]
@@ -73,11 +75,28 @@ ROUGHLY = 1
 """Order of differences: a thousandth is near enough for a look."""
 
 
+PARTS = 2
+"""Of the candidates, looked at at once: as many whatever the processors, so that digits do not depend on them."""
+
+
 def smooth_signatures(found: Fit, effects: Sequence[Effect], at: Look) -> list[Signature]:
     """Derivatives beside the null of each effect, on the rows of a look; all at null together change nothing.
 
     At the inputs of the fit: the noise of the measured ones would be in the derivatives as it is in the residuals.
     """
+    parts = [effects[k::PARTS] for k in range(min(PARTS, len(effects)))]
+    columns = at_once([partial(_columns, found, part, at) for part in parts])
+    every = {
+        e.name: own
+        for part, some in zip(parts, columns, strict=True)
+        for e, own in zip(part, some, strict=True)
+    }
+    lows = {e.name: np.array([0.0 if p.one_sided else -np.inf for p in _free(found, e)]) for e in effects}
+    return [Signature(effect, (every[effect.name],), lows[effect.name]) for effect in effects]
+
+
+def _columns(found: Fit, effects: Sequence[Effect], at: Look) -> list[Array]:
+    """(N, p) of each effect."""
     model = found.model.with_effects(effects)
     predicted = predict(model, at.program, shift=found.prediction.shift[at.rows], order=ROUGHLY)
     slopes = residual(at.program, predicted).slopes
@@ -85,11 +104,14 @@ def smooth_signatures(found: Fit, effects: Sequence[Effect], at: Look) -> list[S
     out = []
     for effect in effects:
         mine = [k for k, each in enumerate(model.free) if each.effect == effect.name]
-        free = [model.free[k].parameter for k in mine]
-        low = np.array([0.0 if p.one_sided else -np.inf for p in free])
-        columns = slopes[..., mine] * np.array([p.typical for p in free])
-        out.append(Signature(effect, (columns[used],), low))
+        typical = np.array([model.free[k].parameter.typical for k in mine])
+        out.append((slopes[..., mine] * typical)[used])
     return out
+
+
+def _free(found: Fit, effect: Effect) -> list[Parameter]:
+    """Numbers of an effect that a fit with it may move."""
+    return [p for p in effect.parameters if f"{effect.name}.{p.name}" not in found.model.fixed]
 
 
 @dataclass(frozen=True, eq=False)
