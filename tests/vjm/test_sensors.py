@@ -11,9 +11,10 @@ from tests.vjm.strategies import LENGTH, WIDTH
 from vjm import paper
 from vjm.equilibrium import equilibrium, load_path
 from vjm.frames import adjoint, exp, log
+from vjm.friction import Jenkins
 from vjm.mechanisms.assembly import GaugeAt
 from vjm.mechanisms.parallelogram import Parallelogram
-from vjm.sensitivity import DriveDirection, by_parameters, by_targets
+from vjm.sensitivity import Direction, DriveDirection, SensorDirection, by_parameters, by_targets
 from vjm.sensors import BaseSpring, CellOffset, CellTurn, DeadWeight, Sensor, TrueMoment, through
 from vjm.stiffness import unloaded_stiffness
 
@@ -160,3 +161,36 @@ def test_derivative_by_an_input() -> None:
     np.testing.assert_allclose(
         found.readings[..., 0], expected, rtol=1e-5, atol=1e-6 * np.abs(expected).max()
     )
+
+
+@pytest.mark.parametrize("order", [1, 2, 4])
+@pytest.mark.parametrize("sticking", [False, True])
+def test_what_only_sensors_change_has_the_same_derivative(order: int, sticking: bool) -> None:
+    """By a number of each sensor: the linkage built again, and read again. With friction a memory moves too."""
+    hinges = (Jenkins(3e3, 0.1),) if sticking else ()
+    linkage = replace(LINKAGE, hinges=hinges, gauge_at=(GaugeAt(1, 0.5, (0.0, 1.0, 0.0)),))
+
+    def sensors(k: int, p: float) -> tuple[Sensor, ...]:
+        other: dict[int, Sensor] = {
+            1: BaseSpring(p * COMPLIANCE),
+            2: DeadWeight(p * np.array([1.0, -2.0, -9.0])),
+            3: CellOffset(p * np.array([3.0, -2.0, 5.0])),
+            4: CellTurn(p * np.array([0.02, -0.03, 0.01])),
+        }
+        return (*SENSORS[:k], other[k], *SENSORS[k + 1 :])
+
+    held = ("x", "z", "ry")
+    mask = np.isin(np.arange(6), (0, 2, 4))
+    targets = np.where(mask, linkage.unloaded_pose, 0.0) + [-0.05, 12.0, 3.0, 30.0, 1e-5, -50.0]
+    state = equilibrium(replace(linkage, sensors=tuple(SENSORS)), targets, held)
+    assert state.converged and (state.memory.shape[-1] > 0) == sticking
+    built = [Direction(lambda p, k=k: replace(linkage, sensors=sensors(k, p)), 1.0, 0.1) for k in range(1, 5)]
+    reread = [SensorDirection(lambda p, k=k: sensors(k, p), 1.0, 0.1) for k in range(1, 5)]
+    slope = np.random.default_rng(3).normal(size=(state.memory.shape[-1], 4)) * 1e-3
+    found, expected = (
+        by_parameters(state, each, memory_slope=slope, order=order) for each in (reread, built)
+    )
+    for name in ("unknowns", "memory", "readings"):
+        one, other = getattr(found, name), getattr(expected, name)
+        np.testing.assert_allclose(one, other, rtol=0, atol=1e-7 * np.abs(other).max(initial=0.0))
+    assert np.all(np.any(found.readings != 0.0, axis=0))

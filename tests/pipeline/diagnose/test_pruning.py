@@ -7,8 +7,9 @@ from dataclasses import replace
 import pytest
 
 from pipeline.challenge.benches import scaled
+from pipeline.coverage.cases import BASE
 from pipeline.diagnose.diagnosis import diagnose
-from pipeline.diagnose.pruning import fit_from
+from pipeline.diagnose.pruning import FAR_OFF, fit_from, pruned
 from pipeline.diagnose.shelf import Names, Shelf
 from pipeline.inference.fit import Fit, fit
 from pipeline.inference.model import Model
@@ -60,6 +61,39 @@ def test_what_needs_the_effect_is_not_fitted_again() -> None:
     assert before[SMALL].chi_square > before[LARGE].chi_square + 100.0
     fit_from(shelf, LARGE)
     assert shelf.fits == before
+
+
+def test_what_is_there_or_not_is_needed_where_little_is_explained_without_it() -> None:
+    """Geometric stiffness on a good bench: without it a linear step in the load offset leaves many times as much, and
+    no fit of that is made."""
+    cases = program(bench("load_offset.y_mm", 5.0))
+    candidates = {name: catalogue()[name] for name in (BASE, "load_offset", "modulus_error")}
+    shelf = Shelf(cases, Model(), candidates, lambda _: None)
+    names = frozenset({BASE, "load_offset"})
+    fit_without = fit(shelf.fit(names).model.without(BASE), cases).chi_square
+    # The step is linear, so a fit may leave less.
+    assert fit_without == pytest.approx(
+        shelf.left_without(names, BASE) * shelf.fit(names).chi_square, rel=0.05
+    )
+    assert fit_without > 2.0 * FAR_OFF * shelf.fit(names).chi_square
+    assert pruned(shelf, names) == names
+    assert names - {BASE} not in shelf.fits
+
+
+def test_a_set_that_lost_an_effect_is_fitted_from_where_it_stood(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A modulus that is not needed: one fit without it, from there, and none as if the set had not been."""
+    begun: list[Names] = []
+    whole = Shelf._fitted
+    monkeypatch.setattr(
+        Shelf, "_fitted", lambda it, names, begin: (begun.append(names), whole(it, names, begin))[1]
+    )
+    cases = program(bench("load_offset.y_mm", 5.0, AXIAL))
+    shelf = Shelf(cases, Model(), {name: catalogue()[name] for name in sorted(LARGE)}, lambda _: None)
+    shelf.fit(LARGE)
+    begun.clear()
+    assert pruned(shelf, LARGE) == {"load_offset"}
+    assert frozenset({"load_offset"}) not in begun
+    assert shelf.fits[frozenset({"load_offset"})].evaluations < 4
 
 
 @pytest.mark.long

@@ -143,3 +143,21 @@ def test_a_start_that_leads_nowhere_is_left() -> None:
     assert not again.lost.any()
     # Newton's method from elsewhere; the sensors' finest step is a thousand times this.
     np.testing.assert_allclose(again.values, fresh.values, rtol=1e-6, atol=1e-6)
+
+
+def test_what_remembers_nothing_may_follow_what_does() -> None:
+    """A play alone, begun where friction and play stood, in the loads that the friction took."""
+    play = catalogue()["joint_clearance"]
+    both = MODEL.with_effects([play])
+    values = dict(zip((f.name for f in both.free), both.values, strict=True)) | {
+        "joint_clearance.play_mm": 1e-2
+    }
+    both = both.at(np.array([values[f.name] for f in both.free]))
+    start = predict(both, SWING, slopes=False)
+    alone = both.without("joint_friction")
+    found, expected = (predict(alone, SWING, start=it) for it in (start, None))
+    assert not found.lost.any() and start.states[0].memory.size
+    np.testing.assert_allclose(found.values, expected.values, rtol=1e-9, atol=1e-6)
+    np.testing.assert_allclose(
+        found.by_free, expected.by_free, rtol=1e-6, atol=1e-6 * np.abs(expected.by_free).max()
+    )
