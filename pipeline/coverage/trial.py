@@ -38,8 +38,8 @@ class Trial(Record):
     kind: whether the effects were hidden or added to a bench without them. residuals: that were fitted. rms: over
     the degrees of freedom. holdout: whitened RMS of each held-out test. deviations: error of each parameter in its
     own standard errors, those of the side on which the truth is, None where it has none. symmetric: in those of a
-    parabola. inside: whether the 95 % interval of each size holds null. steps: of each test. lost: rows without a prediction.
-    seconds: of processor time. commit: of the code.
+    parabola. inside: whether the 95 % interval of each size holds null. steps: of each test. lost: rows without a
+    prediction. seconds: of processor time. commit: of the code.
     """
 
     kind: Kind
