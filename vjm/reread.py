@@ -2,15 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, fields
-
-import numpy as np
+from dataclasses import dataclass
 
 from vjm.frames import Array
 from vjm.gauges import Gauge
 from vjm.mechanism import ElasticChain, Mechanism
-from vjm.mechanisms.bar import Bar
-from vjm.mechanisms.parallelogram import Parallelogram
 from vjm.sensors import Sensor
 
 
@@ -40,15 +36,3 @@ class Reread:
     def gauges(self) -> tuple[Gauge, ...]:
         """Those of the mechanism."""
         return self.mechanism.gauges
-
-
-def in_sensors_alone(one: Parallelogram | Bar, other: Parallelogram | Bar) -> bool:
-    """Whether two mechanisms differ at most in their sensors. What cannot be told to be the same is not."""
-    names = (each.name for each in fields(one) if each.name != "sensors")
-    return type(one) is type(other) and all(_same(getattr(one, n), getattr(other, n)) for n in names)
-
-
-def _same(one: object, other: object) -> bool:
-    if isinstance(one, np.ndarray) and isinstance(other, np.ndarray):
-        return np.array_equal(one, other)
-    return one is other
