@@ -145,7 +145,7 @@ class ElasticChain:
 class Mechanism(Protocol):
     """Elastic chains in parallel from the base to one platform.
 
-    chains: each ends at the platform point.
+    chains: each ends at the platform point; the same tuple each time, for what follows from it is kept.
     unloaded_pose: (6,) nominal pose of the unloaded platform, base frame.
     length: a characteristic length, mm; makes residuals and eigenvalues dimensionless.
     sensors: from the true pose and load to what is read, in the order they apply; none: read as they are.

@@ -138,8 +138,7 @@ def by_parameters(
     target = np.broadcast_to(np.asarray(target_slope, dtype=float), (*batch, 6, count))
     slope = np.zeros((*state.unknowns.shape, count))
     own = np.zeros((*state.readings.shape, count))
-    here = (_residual(state, state.memory, place), state.readings) if order == 1 else (0.0, 0.0)
-    platform = np.isin(np.arange(place.size), np.arange(place.size)[place.platform])
+    here = {still: _residual(state, state.memory, place, still) for still in (False, True) if order == 1}
     for k, direction in enumerate(directions):
         if isinstance(direction, Target):
             sides = channel_scale(place, state.channels)[..., direction.coordinate]
@@ -148,8 +147,8 @@ def by_parameters(
         still = isinstance(direction, SensorDirection) and not state.memory.shape[-1]
         for step, weight in differences(order, direction.size):
             if not step:
-                slope[..., k] += weight * np.where(still & ~platform, 0.0, here[0])
-                own[..., k] += weight * here[1]
+                slope[..., k] += weight * here[still]
+                own[..., k] += weight * state.readings
                 continue
             moved = direction.moved(state, step)
             slope[..., k] += weight * _residual(moved, state.memory + step * memory[..., k], place, still)

@@ -30,35 +30,37 @@ from vjm.frames import (
 class BaseMotion:
     """Where the base body stands: turn (..., 3, 3), shift (..., 3) of its origin, mm.
 
-    slopes: makes `slope`, which most readings are not asked for.
+    slopes: `slope`, or what makes it, as most readings are not asked for it.
     """
 
     turn: Array
     shift: Array
-    slopes: Callable[[], Array]
+    slopes: Array | Callable[[], Array]
 
     @cached_property
     def slope(self) -> Array:
         """(..., 6, 12) of shift and spin by pose and load."""
-        return self.slopes()
+        return self.slopes() if callable(self.slopes) else self.slopes
 
 
 @dataclass(frozen=True, eq=False)
 class Channels:
     """Twelve channels (..., 12).
 
-    slopes: makes `slope`; None where nothing was changed. base: how the base body moves on its springs; None where it
+    slopes: `slope`, or what makes it; None where it is one. base: how the base body moves on its springs; None where it
     stands still.
     """
 
     values: Array
-    slopes: Callable[[], Array] | None = None
+    slopes: Array | Callable[[], Array] | None
     base: BaseMotion | None = None
 
     @cached_property
     def slope(self) -> Array:
         """(..., 12, 12) by the channels that a sensor, or the first one, sees."""
-        return _unit(self.values) if self.slopes is None else self.slopes()
+        if self.slopes is None:
+            return _unit(self.values)
+        return self.slopes() if callable(self.slopes) else self.slopes
 
 
 class Sensor(Protocol):
@@ -132,7 +134,7 @@ class DeadWeight:
     def read(self, channels: Array) -> Channels:
         values = channels.copy()
         values[..., 6:9] -= self.force
-        return Channels(values)
+        return Channels(values, None)
 
 
 @dataclass(frozen=True, eq=False)
@@ -163,7 +165,7 @@ class CellTurn:
 
 def through(sensors: tuple[Sensor, ...], channels: Array) -> Channels:
     """All sensors in the order of their stage, from true pose and load (..., 12)."""
-    here = Channels(channels)
+    here = Channels(channels, None)
     for sensor in sorted(sensors, key=lambda each: each.stage):
         here = _beyond(here, sensor)
     return here

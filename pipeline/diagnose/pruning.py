@@ -10,11 +10,10 @@ from pipeline.diagnose.shelf import Names, Shelf
 HOPELESS = 300.0
 """Times the least chi-square of the roots, beyond which a root is left out unseen."""
 FAR_OFF = 5.0
-"""Times the chi-square of a fit that the same numbers, smooth ones moved by a linear step, leave without an effect that
-is there or not: then it is needed. It is looked at once, where the fit would take longest: it ends far from all noise.
-"""
+"""Times the chi-square of a fit, or of noise, that the same numbers, smooth ones moved by a linear step, leave without
+an effect that is there or not: then it is needed. The fit itself takes longest where it ends far from all noise."""
 NEAR = 1.5
-"""Times the chi-square of a set that one without an effect of it leaves, at most, to be looked at more than once."""
+"""Times the chi-square of a set, or of noise, that one without an effect of it leaves, at most, to be fitted twice."""
 NEEDLESS = 4.0
 """Times what it has to show: an effect that by its own numbers explains less may not be needed."""
 MORE, BY = 2.0, 2.0
@@ -39,7 +38,7 @@ def _fit_fewer(shelf: Shelf, names: Names, fewer: list[Names]) -> None:
     """Fit sets without one of the effects from where the whole set stands, which takes least; those that this does not
     show to be good or far from it as if there were no larger set."""
     shelf.fit_again(fewer, names)
-    most = NEAR * shelf.fit(names).chi_square
+    most = NEAR * shelf.least(names)
     shelf.fit_anew(
         [n for n in fewer if cost(shelf, n) > cost(shelf, names) and shelf.fit(n).chi_square < most]
     )
@@ -66,7 +65,7 @@ def fit_from(shelf: Shelf, names: Names) -> None:
 def _dispensable(shelf: Shelf, names: Names, name: str) -> bool:
     """Whether an effect, by its own numbers and their covariance, explains no more than a few times its price.
 
-    One that is there or not is, unless what is there would be hopeless without it; so is one with kinks.
+    One that is there or not is, unless its root would be hopeless without it, or the set far off; so is one with kinks.
     """
     if not shelf.candidates[name].parameters:
         root = root_of(shelf, names)

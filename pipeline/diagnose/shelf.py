@@ -1,4 +1,4 @@
-"""Models of a campaign at their best fit, each fitted once."""
+"""Models of a campaign at their best fit, each kept once it is fitted."""
 
 from __future__ import annotations
 
@@ -31,7 +31,8 @@ SETTLED = 3.0
 class Shelf:
     """Fits of the base model with sets of added effects, and the pictures about them.
 
-    candidates: by name, in the order in which they enter a model. tried: sets that were fitted again, and from where.
+    candidates: by name, in the order in which they enter a model. tried: sets that were fitted from where a larger one
+    stands, and that one. looks: what `left_without` found.
     """
 
     whole: Program
@@ -41,6 +42,7 @@ class Shelf:
     fits: dict[Names, Fit] = field(default_factory=dict)
     pictures: dict[Names, Picture] = field(default_factory=dict)
     tried: set[tuple[Names, Names]] = field(default_factory=set)
+    looks: dict[tuple[Names, str], float] = field(default_factory=dict)
     at: Look = field(init=False)
 
     def __post_init__(self) -> None:
@@ -49,7 +51,7 @@ class Shelf:
     @property
     def evaluations(self) -> int:
         """Solutions of the campaign that all fits took."""
-        return sum(each.evaluations for each in self.fits.values())
+        return sum(each.evaluations for each in self.fits.values()) + len(self.looks)
 
     def order(self, names: Names) -> tuple[str, ...]:
         """Names in the order of the candidates."""
@@ -83,7 +85,7 @@ class Shelf:
 
     def fit_again(self, wanted: Sequence[Names], larger: Names) -> None:
         """Fit sets from where a set that holds them stands, and keep the better fit of each that has one."""
-        there = self.fits[larger]
+        there = self.fit(larger)
         new = {n: self._model(n) for n in wanted if (n, larger) not in self.tried}
         models = {names: _valued(model, there.model) for names, model in new.items() if model.free}
         if not models:
@@ -105,12 +107,20 @@ class Shelf:
             self.pictures.pop(names, None)
 
     def left_without(self, names: Names, name: str) -> float:
-        """Times its chi-square that a fit leaves without one of its effects, after a linear step of what is smooth."""
-        self.say(f"{self._title(names)} without {name}")
+        """Chi-square that a fit leaves without one of its effects, after a linear step of what is smooth, in
+        `least`s of the fit."""
+        if (names, name) not in self.looks:
+            self.say(f"{self._title(names)} without {name}")
+            found = self.fit(names)
+            rows, own = self.whole.by_role[0]
+            start = at_rows(found.prediction, self.whole, own, rows)
+            self.looks[names, name] = height(found.model.without(name), own, start) / self.least(names)
+        return self.looks[names, name]
+
+    def least(self, names: Names) -> float:
+        """Chi-square of a fit, or what noise leaves in the mean where that is more."""
         found = self.fit(names)
-        rows, own = self.whole.by_role[0]
-        start = at_rows(found.prediction, self.whole, own, rows)
-        return height(found.model.without(name), own, start) / found.chi_square
+        return max(found.chi_square, float(found.degrees), 1.0)
 
     def picture(self, names: Names) -> Picture:
         """What could be added to a fit."""

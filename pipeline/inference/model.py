@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from pipeline.campaign import Gauge
 from pipeline.campaign import Rig as Described
 from pipeline.inference.rigs import mechanism_of
+from vjm.effects import shipped
 from vjm.effects.base import Effect, Parameter, Rig
 
 Array = NDArray[np.float64]
@@ -118,9 +119,12 @@ class Model:
     def reads_alone(self, free: Free, value: float, rig: Described, gauges: tuple[Gauge, ...]) -> bool:
         """Whether another value of this number changes what sensors read, and nothing else.
 
-        The effects before its own are asked, those after it build on what it leaves.
+        The effects before its own and itself are asked. Those of the catalogue that come after it make no difference by
+        what sensors there are; another one may, so that before it the answer is no.
         """
         number = self.names.index(free.effect)
+        if not all(shipped(term.effect) for term in self.terms[number + 1 :]):
+            return False
         before = self._built(self.terms[:number], mechanism_of(rig, gauges))
         own = self.terms[number]
         other = replace(own, values={**own.values, free.parameter.name: value})

@@ -15,7 +15,7 @@ from vjm.friction import Jenkins
 from vjm.mechanisms.assembly import GaugeAt
 from vjm.mechanisms.parallelogram import Parallelogram
 from vjm.sensitivity import Direction, DriveDirection, SensorDirection, by_parameters, by_targets
-from vjm.sensors import BaseSpring, CellOffset, CellTurn, DeadWeight, Sensor, TrueMoment, through
+from vjm.sensors import BaseSpring, CellOffset, CellTurn, Channels, DeadWeight, Sensor, TrueMoment, through
 from vjm.stiffness import unloaded_stiffness
 
 COMPLIANCE = np.diag([2e-5, 3e-5, 1e-5, 2e-8, 1e-8, 3e-8])
@@ -43,6 +43,28 @@ def test_slopes_are_derivatives(chosen: list[Sensor]) -> None:
         # Rounding of the largest channel over the step.
         limit = 1e-7 * np.abs(expected).max(axis=0) + 1e-10 * size / size[k]
         assert np.all(np.abs(found[..., k] - expected) < limit)
+
+
+class Doubled:
+    """A cell of one's own that reads twice the force along x, its slope given as an array."""
+
+    stage = 5
+
+    def read(self, channels: np.ndarray) -> Channels:
+        scale = np.where(np.arange(12) == 6, 2.0, 1.0)
+        return Channels(scale * channels, np.broadcast_to(np.diag(scale), (*channels.shape, 12)))
+
+
+def test_a_sensor_of_ones_own_may_give_its_slope_as_it_is() -> None:
+    chosen: tuple[Sensor, ...] = (TrueMoment(), Doubled())
+    targets = LINKAGE.unloaded_pose * [0, 1, 1, 1, 1, 1] + [-800.0, 0, 0, 0, 0, 0]
+    held = ("y", "z", "rx", "ry", "rz")
+    state = equilibrium(replace(LINKAGE, sensors=chosen), targets, held)
+    half = equilibrium(LINKAGE, targets - [-400.0, 0, 0, 0, 0, 0], held)
+    assert state.converged
+    np.testing.assert_allclose(state.pose, half.pose, rtol=0, atol=1e-10)
+    slope = by_targets(state).pose[0, 0], by_targets(half).pose[0, 0]
+    assert slope[0] == pytest.approx(0.5 * slope[1], rel=1e-8)
 
 
 def test_sensors_apply_by_stage_and_not_by_order() -> None:

@@ -20,6 +20,11 @@ def catalogue() -> dict[str, Effect]:
     return {effect.name: effect for module in modules for effect in defined_in(module)}
 
 
+def shipped(effect: Effect) -> bool:
+    """Whether an effect belongs to this catalogue."""
+    return type(effect).__module__.startswith(f"{__name__}.")
+
+
 def from_file(path: Path) -> dict[str, Effect]:
     """Effects that a user's own file defines, by name.
 

@@ -9,7 +9,8 @@ import pytest
 from pipeline.challenge.benches import scaled
 from pipeline.coverage.cases import BASE
 from pipeline.diagnose.diagnosis import diagnose
-from pipeline.diagnose.pruning import FAR_OFF, fit_from, pruned
+from pipeline.diagnose.merit import cost
+from pipeline.diagnose.pruning import FAR_OFF, NEAR, fit_from, pruned
 from pipeline.diagnose.shelf import Names, Shelf
 from pipeline.inference.fit import Fit, fit
 from pipeline.inference.model import Model
@@ -72,10 +73,8 @@ def test_what_is_there_or_not_is_needed_where_little_is_explained_without_it() -
     names = frozenset({BASE, "load_offset"})
     fit_without = fit(shelf.fit(names).model.without(BASE), cases).chi_square
     # The step is linear, so a fit may leave less.
-    assert fit_without == pytest.approx(
-        shelf.left_without(names, BASE) * shelf.fit(names).chi_square, rel=0.05
-    )
-    assert fit_without > 2.0 * FAR_OFF * shelf.fit(names).chi_square
+    assert fit_without == pytest.approx(shelf.left_without(names, BASE) * shelf.least(names), rel=0.05)
+    assert fit_without > 2.0 * FAR_OFF * shelf.least(names)
     assert pruned(shelf, names) == names
     assert names - {BASE} not in shelf.fits
 
@@ -94,6 +93,32 @@ def test_a_set_that_lost_an_effect_is_fitted_from_where_it_stood(monkeypatch: py
     assert pruned(shelf, LARGE) == {"load_offset"}
     assert frozenset({"load_offset"}) not in begun
     assert shelf.fits[frozenset({"load_offset"})].evaluations < 4
+
+
+def test_a_fit_from_there_that_shows_nothing_is_made_anew(monkeypatch: pytest.MonkeyPatch) -> None:
+    """One that ended six standard errors away, where the set without the offset is good."""
+    shelf = shelf_of("modulus_error.scale", 0.97)
+    away = stuck(shelf, SMALL)
+    best = shelf.fits.pop(SMALL).chi_square
+    monkeypatch.setattr(Shelf, "fit_again", lambda it, wanted, _: it.fits.update(dict.fromkeys(wanted, away)))
+    assert best + 30.0 < away.chi_square < NEAR * shelf.least(LARGE)
+    assert pruned(shelf, LARGE) == SMALL
+    assert shelf.fit(SMALL).chi_square == pytest.approx(best, abs=0.01)
+
+
+def test_what_leaves_less_than_noise_needs_nothing_by_far() -> None:
+    """Sensors called twenty times worse than they are: five times of next to nothing is next to nothing."""
+    campaign = bench("bar_initial_bow.bow_y_mm", 0.12, AXIAL)
+    worse = {name: 20.0 * getattr(campaign.noise, name) for name in ("displacement", "wrench", "gauges")}
+    cases = program(replace(campaign, noise=replace(campaign.noise, **worse)))
+    candidates = {name: catalogue()[name] for name in (BASE, "bar_initial_bow")}
+    shelf = Shelf(cases, Model(), candidates, lambda _: None)
+    names = frozenset(candidates)
+    without = names - {BASE}
+    shelf.fit(names)
+    assert shelf.left_without(names, BASE) < 1.0
+    assert pruned(shelf, names) != names
+    assert cost(shelf, without) < cost(shelf, names)
 
 
 @pytest.mark.long
