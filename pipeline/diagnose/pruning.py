@@ -16,6 +16,8 @@ NEAR = 1.5
 """Times the chi-square of a set, or of noise, that one without an effect of it leaves, at most, to be fitted twice."""
 NEEDLESS = 4.0
 """Times what it has to show: an effect that by its own numbers explains less may not be needed."""
+CERTAIN = 100.0
+"""The same of an effect with kinks, whose numbers say less: sets without it are tried up to there."""
 MORE, BY = 2.0, 2.0
 """An effect should cost a fit what its own numbers say; so many times that and so much of chi-square, and the fit
 without it has ended elsewhere."""
@@ -63,16 +65,18 @@ def fit_from(shelf: Shelf, names: Names) -> None:
 
 
 def _dispensable(shelf: Shelf, names: Names, name: str) -> bool:
-    """Whether an effect, by its own numbers and their covariance, explains no more than a few times its price.
+    """Whether an effect, by its own numbers and their covariance, explains no more than a few times its price, many
+    times if it has kinks.
 
-    One that is there or not is, unless its root would be hopeless without it, or the set far off; so is one with kinks.
+    One that is there or not is, unless its root would be hopeless without it, or the set far off.
     """
     if not shelf.candidates[name].parameters:
         root = root_of(shelf, names)
         if shelf.fit(root - {name}).chi_square >= HOPELESS * shelf.fit(root).chi_square:
             return False
         return names - {name} in shelf.fits or shelf.left_without(names, name) < FAR_OFF
-    return not shelf.candidates[name].smooth or _said(shelf, names, name) < NEEDLESS * price(shelf, [name])
+    most = NEEDLESS if shelf.candidates[name].smooth else CERTAIN
+    return _said(shelf, names, name) < most * price(shelf, [name])
 
 
 def _said(shelf: Shelf, names: Names, name: str) -> float:

@@ -106,6 +106,21 @@ def test_a_fit_from_there_that_shows_nothing_is_made_anew(monkeypatch: pytest.Mo
     assert shelf.fit(SMALL).chi_square == pytest.approx(best, abs=0.01)
 
 
+def test_a_play_that_is_certain_is_not_left_out_to_see() -> None:
+    """Of a hundred times the noise; one of a fifth of it may be needless, and a set without it is fitted."""
+    tried = {}
+    for play in (0.1, 2e-4):
+        cases = program(bench("joint_clearance.play_mm", play, ("axial_held_q+0",)))
+        shelf = Shelf(
+            cases, Model(), {n: catalogue()[n] for n in ("joint_clearance", "load_offset")}, lambda _: None
+        )
+        names = frozenset(shelf.candidates)
+        shelf.fit(names, {"joint_clearance": play})
+        pruned(shelf, names)
+        tried[play] = names - {"joint_clearance"} in shelf.fits
+    assert tried == {0.1: False, 2e-4: True}
+
+
 def test_what_leaves_less_than_noise_needs_nothing_by_far() -> None:
     """Sensors called twenty times worse than they are: five times of next to nothing is next to nothing."""
     campaign = bench("bar_initial_bow.bow_y_mm", 0.12, AXIAL)
