@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from scipy.linalg import qr
 from scipy.optimize import lsq_linear
 
-from pipeline.inference.ground import Ground
+from pipeline.inference.ground import Ground, nothing
 from pipeline.inference.model import Model
 from pipeline.inference.objective import Objective
 from pipeline.inference.parts import at_rows, joined
@@ -39,8 +39,8 @@ WEAK = 1e-10
 """Damping that a step is first shortened by: along what the data hardly see the least shortens most."""
 HELD = 0.1
 """Of the number that shows most, in typical sizes each: a damped step takes no other for less."""
-LATE, DRAGGING = 10, 0.01
-"""A fit that leaves twice what noise does ends when so many evaluations took less than this part of the excess."""
+LATE = 10
+"""A fit that is far above noise ends when so many evaluations took nothing."""
 TINY = 1e-12
 
 
@@ -231,9 +231,7 @@ def _reach(it: Parameter) -> tuple[float, float]:
 
 def drags(past: list[float], count: int) -> bool:
     """Whether sums of squares after each evaluation stay far above noise and hardly fall: no verdict hangs on them."""
-    if len(past) <= LATE or past[-1] < 2.0 * count:
-        return False
-    return past[-1 - LATE] - past[-1] < DRAGGING * (past[-1] - count)
+    return len(past) > LATE and nothing(past[-1 - LATE] - past[-1], past[-1], count)
 
 
 def _less(damping: float) -> float:

@@ -24,6 +24,20 @@ SAME = 0.1
 """Of chi-square, by which numbers that begin beside their null may leave less than the start."""
 CIRCLES = 3
 """Times in a row that a fit is linearised anew and finds no less than before."""
+FAR = 2.0
+"""A model that leaves so many times what noise does is far from it: no verdict hangs on how much it leaves."""
+DRAGGING = 0.01
+"""Of what is left beyond noise: less than this is nothing there."""
+
+
+def far(total: float, count: int) -> bool:
+    """Whether a sum of so many squares is far above noise."""
+    return total > FAR * count
+
+
+def nothing(gain: float, total: float, count: int) -> bool:
+    """Whether a sum of so many squares is far above noise, and what it fell by is nothing."""
+    return far(total, count) and gain < DRAGGING * (total - count)
 
 
 @dataclass(eq=False)
@@ -34,6 +48,7 @@ class Ground:
     total: Callable[[Array], float]
     least: float = np.inf
     vain: int = 0
+    _firm: Array | None = field(default=None, repr=False)
     _refuge: tuple[float, Array, Place] | None = field(default=None, repr=False)
 
     def begin(self, values: Array) -> None:
@@ -45,11 +60,19 @@ class Ground:
             self._refuge = (self._noted(values), values, self.aim.place)
 
     def anew(self, place: Place, values: Array) -> bool:
-        """Whether back at a place it took to be linearised anew, as it was far from the inputs that fit best."""
+        """Whether back at a place it took to be linearised anew, as it was far from the inputs that fit best.
+
+        Far above noise it is not where that changed nothing before: inputs that no noise could bring to the readings
+        are never found.
+        """
         self.aim.back(place)
-        if self.aim.unsettled(values) <= NEAR:
+        if self.aim.unsettled(values) <= NEAR or (
+            self._firm is not None and np.array_equal(values, self._firm)
+        ):
             return False
-        self.aim.again(values)
+        before, after = (float(left @ left) for left in (self.aim.residuals(values), self.aim.again(values)))
+        count = self.aim.residuals(values).size
+        self._firm = values if nothing(abs(after - before), after, count) else None
         self._noted(values)
         return True
 

@@ -9,9 +9,10 @@ Regression Analysis, Wiley 1988, ch. 6.
 
 from __future__ import annotations
 
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import partial
-from typing import Literal
+from typing import Literal, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -29,7 +30,10 @@ from pipeline.inference.sides import sided
 from pipeline.processors import at_once
 
 Array = NDArray[np.float64]
+Out = TypeVar("Out")
 Z = float(norm.ppf(0.975))
+FARTHER = 3.0
+"""Times the distance at which a profile is looked at next, at most, where it has not risen enough."""
 
 
 @dataclass(frozen=True)
@@ -95,10 +99,16 @@ class _Near:
 
 def intervals(land: Landscape) -> tuple[Interval, ...]:
     """The interval of every number."""
-    before = land.evaluations
-    found = at_once([partial(_counted, land, k) for k in range(land.values.size)])
-    land.evaluations = before + sum(count for _, count in found)
-    return tuple(each for each, _ in found)
+    looks = _at_once(land, [partial(_looked, land, k) for k in range(land.values.size)])
+    sides = [
+        (k, *side) for k, look in enumerate(looks) if not isinstance(look, Interval) for side in look.items()
+    ]
+    ends = _at_once(land, [partial(_end, land, *each) for each in sides])
+    found = {(k, side): end for (k, side, _), end in zip(sides, ends, strict=True)}
+    return tuple(
+        look if isinstance(look, Interval) else _profile(land, k, {side: found[k, side] for side in look})
+        for k, look in enumerate(looks)
+    )
 
 
 def straight(land: Landscape) -> tuple[Interval, ...]:
@@ -116,48 +126,75 @@ def _straight(land: Landscape, k: int) -> Interval:
     return Interval(value, std if seen else np.inf, *ends, "wald" if seen else "undetermined")
 
 
-def _counted(land: Landscape, k: int) -> tuple[Interval, int]:
-    """The interval of a number and the evaluations that it took."""
+def _at_once(land: Landscape, calls: Sequence[Callable[[], Out]]) -> list[Out]:
+    """What calls that look at a landscape return; it counts what they took wherever they were made."""
     before = land.evaluations
-    return _interval(land, k), land.evaluations - before
+    found = at_once([partial(_counted, land, call) for call in calls])
+    land.evaluations = before + sum(count for _, count in found)
+    return [each for each, _ in found]
 
 
-def _interval(land: Landscape, k: int) -> Interval:
+def _counted(land: Landscape, call: Callable[[], Out]) -> tuple[Out, int]:
+    before = land.evaluations
+    return call(), land.evaluations - before
+
+
+def _looked(land: Landscape, k: int) -> Interval | dict[int, float]:
+    """The interval of a number where no end must be looked for; else the sides, -1 and 1, on which one must, and how
+    far away it may be."""
     value, span = float(land.values[k]), land.ranges[k]
     way, variance = land.ridge(k)
     std = float(np.sqrt(variance))
     if not std < span.high - span.low:
         return Interval(value, np.inf, span.end(-1), span.end(1), "undetermined")
     reach = Z * std
-    room = {-1: value - span.low, 1: span.high - value}
-    undecided = {side for side in (-1, 1) if _null_in_doubt(land, k, side, room[side], way)}
-    if not land.active[k] and not undecided and min(room.values()) > reach:
-        # One look a side, the others moved along; what they could still gain makes the rise no larger.
-        looks = [land.chi_square(land.values + s * reach * way) for s in (-1, 1)]
-        if all(abs(look - land.least - RISE) < NEARLY * RISE for look in looks):
-            return Interval(value, std, value - reach, value + reach, "wald")
-    ends: dict[int, float | None] = {}
-    for side in (-1, 1):
-        if side in undecided:
-            ends[side] = span.end(side)
-            continue
-        slope = 2.0 * side * float(land.jacobian[:, k] @ land.residuals) if land.active[k] else 0.0
-        guess = 0.5 * (np.hypot(slope * variance, 2.0 * np.sqrt(RISE * variance)) - slope * variance)
-        shift = _end(land, k, side, float(guess), room[side], way)
-        ends[side] = span.end(side) if shift is None else value + side * shift
-    open_ends = all(ends[side] == span.end(side) for side in (-1, 1))
-    return Interval(value, std, ends[-1], ends[1], "undetermined" if open_ends else "profile")
+    sides = [side for side in (-1, 1) if not _null_in_doubt(land, k, side, way)]
+    if land.active[k] or len(sides) < 2 or min(span.room(value, side) for side in sides) <= reach:
+        return {side: _distance(land, k, side, variance) for side in sides}
+    # One look a side, the others moved along; what they could still gain makes the rise no larger.
+    rises = [land.chi_square(land.values + side * reach * way) - land.least for side in sides]
+    if all(abs(rise - RISE) < NEARLY * RISE for rise in rises):
+        return Interval(value, std, value - reach, value + reach, "wald")
+    return {side: reach * _farther(rise) for side, rise in zip(sides, rises, strict=True)}
 
 
-def _null_in_doubt(land: Landscape, k: int, side: int, room: float, way: Array) -> bool:
+def _distance(land: Landscape, k: int, side: int, variance: float) -> float:
+    """At which a parabola has risen by 3.841, from a bound where that stops the number."""
+    slope = 2.0 * side * float(land.jacobian[:, k] @ land.residuals) if land.active[k] else 0.0
+    return float(0.5 * (np.hypot(slope * variance, 2.0 * np.sqrt(RISE * variance)) - slope * variance))
+
+
+def _farther(rise: float) -> float:
+    """Times a distance with this rise at which a parabola has risen by 3.841, within reason."""
+    return float(np.clip(Z / np.sqrt(max(rise, 1e-9)), 1.0 / FARTHER, FARTHER))
+
+
+def _profile(land: Landscape, k: int, ends: dict[int, float | None]) -> Interval:
+    """ends: of the sides on which they were looked for."""
+    span, std = land.ranges[k], float(np.sqrt(land.ridge(k)[1]))
+    low, high = (ends.get(side, span.end(side)) for side in (-1, 1))
+    open_ends = low == span.end(-1) and high == span.end(1)
+    return Interval(float(land.values[k]), std, low, high, "undetermined" if open_ends else "profile")
+
+
+def _null_in_doubt(land: Landscape, k: int, side: int, way: Array) -> bool:
     """Whether the number has its null on that side, and what speaks against null may be choices of sides."""
     span = land.ranges[k]
     if not span.doubt or span.end(side) is None:
         return False
-    return room <= 0.0 or land.rise(k, side * room, way)[0] < RISE + span.doubt
+    room, most = span.room(float(land.values[k]), side), RISE + span.doubt
+    return room <= 0.0 or land.rise(k, side * room, way, most)[0] < most
 
 
-def _end(land: Landscape, k: int, side: int, guess: float, room: float, way: Array) -> float | None:
+def _end(land: Landscape, k: int, side: int, guess: float) -> float | None:
+    """The value at which the profile has risen by 3.841 on that side, looked for at first at a distance; what the
+    interval says if the bound comes first."""
+    value, span = float(land.values[k]), land.ranges[k]
+    shift = _shift(land, k, side, guess, span.room(value, side), land.ridge(k)[0])
+    return span.end(side) if shift is None else value + side * shift
+
+
+def _shift(land: Landscape, k: int, side: int, guess: float, room: float, way: Array) -> float | None:
     """Distance from the value at which the profile has risen by 3.841; None if the bound comes first."""
     if room <= 1e-6 * (land.ranges[k].high - land.ranges[k].low):
         return None
@@ -175,7 +212,7 @@ def _end(land: Landscape, k: int, side: int, guess: float, room: float, way: Arr
         else:
             outside, above = step, height
         if np.isinf(outside):
-            step = min(room, step * float(np.clip(Z / max(height, 1e-9), 1.2, 10.0)))
+            step = min(room, step * max(_farther(rise), 1.2))
             continue
         # The square root of a parabola is a line; kept off the ends of the bracket it also halves a jump.
         part = float(np.clip((Z - below) / (above - below), 0.1, 0.9))
@@ -192,7 +229,8 @@ def holds_null(land: Landscape, k: int) -> bool:
     shift = float(np.clip(span.null, span.low, span.high)) - float(land.values[k])
     if not np.sqrt(variance) < span.high - span.low or abs(shift) <= 1e-6 * (span.high - span.low):
         return True
-    return land.rise(k, shift, way)[0] < RISE + (span.doubt if span.one_sided else 0.0)
+    most = RISE + (span.doubt if span.one_sided else 0.0)
+    return land.rise(k, shift, way, most)[0] < most
 
 
 def correlations(land: Landscape, least: float = 0.9) -> list[tuple[int, int, float]]:

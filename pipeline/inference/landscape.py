@@ -19,6 +19,8 @@ the profile's."""
 CLOSE = 0.03
 """Ends of a profile are found to this part of their distance."""
 STEPS = 14
+ENOUGH = 10.0
+"""Times a rise that is asked about: of one that is larger only that is wanted."""
 FLAT = 0.03
 """Of a standard error: the step whose gain a fit no longer takes."""
 BLIND = 1e-6
@@ -47,6 +49,10 @@ class Range:
     null: float
     one_sided: bool = False
     doubt: float = 0.0
+
+    def room(self, value: float, side: int) -> float:
+        """From a value to the bound below (-1) or above (1)."""
+        return value - self.low if side < 0 else self.high - value
 
     def end(self, side: int) -> float | None:
         """What an interval says that reaches the bound below (-1) or above (1): None, unless null is there."""
@@ -98,22 +104,24 @@ class Landscape:
         found = self.problem.residuals(np.clip(values, *self.bounds))
         return float(found @ found)
 
-    def rise(self, k: int, shift: float, way: Array) -> tuple[float, Array]:
+    def rise(self, k: int, shift: float, way: Array, asked: float = RISE) -> tuple[float, Array]:
         """By how much the sum of squares rises when number k is moved and all others are fitted again.
 
-        way: (P,) how the others begin, a unit of k. Returns also how they went, to begin with at the next shift.
+        way: (P,) how the others begin, a unit of k. asked: what the rise is compared with; a much larger one is an
+        estimate. Returns also how the others went, to begin with at the next shift.
         """
         values = np.clip(self.values + shift * way, *self.bounds)
         if values.size == 1:
             return self.chi_square(values) - self.least, way
         others = np.arange(values.size) != k
-        values, total = self._refitted(values, others)
+        values, total = self._refitted(values, others, asked)
         return total - self.least, (values - self.values) / shift
 
-    def _refitted(self, values: Array, others: NDArray[np.bool_]) -> tuple[Array, float]:
+    def _refitted(self, values: Array, others: NDArray[np.bool_], asked: float) -> tuple[Array, float]:
         """Values and sum of squares after Gauss-Newton steps of the others within their bounds.
 
-        The last step is not solved again where it gains little: its linear estimate is taken.
+        The last step is not solved again where it gains little, or leaves a rise that is far larger than what is asked
+        about: its linear estimate is taken.
         """
         residuals, slopes = self.problem.both(values)
         total = float(residuals @ residuals)
@@ -126,7 +134,7 @@ class Landscape:
             trial = values.copy()
             trial[others] = np.clip(values[others] + step / sizes, *self.bounds[:, others])
             gain = total - float(left @ left)
-            if gain < CLOSE * RISE:
+            if gain < CLOSE * RISE or total - gain - self.least > ENOUGH * asked:
                 return trial, total - gain
             found, new = self.problem.both(trial)
             self.evaluations += 1

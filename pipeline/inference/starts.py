@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from scipy.optimize import lsq_linear
 
 from pipeline.inference.fit import Fit, fit
+from pipeline.inference.ground import far
 from pipeline.inference.inputs import begun, linearised
 from pipeline.inference.model import Free, Model
 from pipeline.inference.parts import at_rows
@@ -33,6 +34,8 @@ BETWEEN = 4
 """Looks between the last rung at which an effect does not show and the first at which there is too much of it."""
 MINIMA = 2
 """Valleys of the ladder that are fitted."""
+FOOT = 1.5
+"""Times the best rung, from which the foot of the ladder is no valley: it is the model without the effect."""
 
 
 def best_fit(
@@ -111,10 +114,24 @@ def _ladder(
             break
         before, beyond = places[edge - 1 : edge + 1]
         look(edge, {name: 0.5 * (value + beyond[name]) for name, value in before.items()})
+    return [rung(places[k]) for k in _valleys(heights, int(np.sum(program.predicted)))[:MINIMA]], len(places)
+
+
+def _valleys(heights: list[float], count: int) -> list[int]:
+    """Numbers of the rungs that are lower than those beside them, lowest first.
+
+    count: of the squares that each height is the sum of. Where these are far above noise a rise by less than their
+    mean parts no valleys.
+    """
     padded = [np.inf, *heights, np.inf]
-    valleys = [k for k, h in enumerate(heights) if h <= padded[k] and h < padded[k + 2]]
-    valleys.sort(key=lambda k: heights[k])
-    return [rung(places[k]) for k in valleys[:MINIMA]], len(places)
+    found: list[int] = []
+    rim = WORTH * min(heights) / count if far(min(heights), count) else 0.0
+    for k in sorted(range(len(heights)), key=lambda k: heights[k]):
+        low = heights[k] <= padded[k] and heights[k] < padded[k + 2]
+        low &= k > 0 or heights[k] <= FOOT * min(heights)
+        if low and all(max(heights[min(k, j) : max(k, j) + 1]) - heights[k] >= rim for j in found):
+            found.append(k)
+    return found
 
 
 def _edge(heights: list[float]) -> int:

@@ -5,7 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from pipeline.inference.fit import DRAGGING, LATE, drags
+from pipeline.inference.fit import LATE, drags
+from pipeline.inference.ground import DRAGGING
 
 ROWS = 100
 

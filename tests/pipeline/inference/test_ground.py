@@ -8,7 +8,7 @@ import pytest
 from pipeline.coverage.cases import BASE
 from pipeline.coverage.trial import campaign
 from pipeline.inference.fit import fit
-from pipeline.inference.ground import CIRCLES, Ground
+from pipeline.inference.ground import CIRCLES, NEAR, Ground
 from pipeline.inference.model import Model
 from pipeline.inference.objective import Objective
 from pipeline.inference.program import program
@@ -46,3 +46,24 @@ def test_no_way_back_to_what_looks_better_than_the_start_at_once(size: float, gr
     it = Ground(aim, lambda _: 1.0)
     it.begin(np.array([size]))
     assert (it.least == 1.0) == ground
+
+
+def test_far_above_noise_it_is_linearised_anew_until_that_changes_nothing(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """Plain bars, that no play makes fit, about inputs that never settle."""
+    tests = program(campaign((), 1, 8))
+    aim = Objective(Model().with_effects([EFFECTS["joint_clearance"]]), tests)
+    values, other = np.array([0.004]), np.array([0.0041])
+    aim.at(values)
+    ground, place = Ground(aim, lambda _: 1.0), aim.place
+    times = 0
+    while ground.anew(place, values):
+        place, times = aim.place, times + 1
+        assert times < 10 and aim.unsettled(values) > NEAR
+    assert times >= 1, "at first it is"
+    aim.at(other)
+    assert ground.anew(aim.place, other), "elsewhere it is"
+    monkeypatch.setattr("pipeline.inference.ground.FAR", np.inf)
+    near = Ground(aim, lambda _: 1.0)
+    assert all(near.anew(aim.place, other) for _ in range(4)), "near noise every change counts"

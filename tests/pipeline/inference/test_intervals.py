@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 import pytest
 from numpy.typing import NDArray
-from scipy.optimize import least_squares
+from scipy.optimize import brentq, least_squares
 
 from pipeline.inference.intervals import (
     Interval,
@@ -120,6 +120,29 @@ def test_null_is_left_only_for_more_than_is_in_doubt(measured: float, low: float
     assert it.low == pytest.approx(low, abs=CLOSE * Z) and it.high == pytest.approx(measured + Z, rel=CLOSE)
     sure = intervals(land(linear(np.eye(1), np.array([measured])), np.ones(1), [POSITIVE]))[0]
     assert sure.low == pytest.approx(measured - Z, rel=CLOSE)
+
+
+@pytest.mark.parametrize(("shift", "far"), [(-1e3, True), (-5.0, False)])
+def test_a_rise_far_beyond_what_is_asked_about_takes_one_look(shift: float, far: bool) -> None:
+    """y = a + e^b - 1: b follows a by steps, which are taken where the rise is near the 28.8 that are asked about."""
+    toy = Toy(
+        lambda v: np.array([v[0] + np.exp(v[1]) - 1.0, v[1]]),
+        lambda v: np.array([[1.0, np.exp(v[1])], [0.0, 1.0]]),
+    )
+    start = np.zeros(2)
+    there = Landscape(toy, start, [WIDE, WIDE], toy.function(start), toy.slopes(start))
+    rise, _ = there.rise(0, shift, np.array([1.0, 0.0]), RISE + 25.0)
+    assert (rise > RISE + 25.0) == far and (there.evaluations == 1) == far
+
+
+def test_ends_are_looked_for_where_the_looks_at_a_parabola_say() -> None:
+    """(x + 0.03 x³)² has risen by 4.8 at 1.96; a parabola with that rises by 3.841 where the end nearly is."""
+    toy = Toy(lambda v: v + 0.03 * v**3, lambda v: np.array([[1.0 + 0.09 * v[0] ** 2]]))
+    there = Landscape(toy, np.zeros(1), [WIDE], np.zeros(1), np.eye(1))
+    (it,) = intervals(there)
+    end = brentq(lambda x: x + 0.03 * x**3 - Z, 0.0, Z)
+    assert it.kind == "profile" and ends(it) == pytest.approx((-end, end), rel=CLOSE)
+    assert there.evaluations == toy.solved == 4
 
 
 def test_a_number_at_its_bound_no_longer_widens_the_others() -> None:

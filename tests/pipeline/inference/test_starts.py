@@ -18,7 +18,7 @@ from pipeline.inference.objective import Objective
 from pipeline.inference.prediction import predict
 from pipeline.inference.program import Program, program
 from pipeline.inference.residual import residual
-from pipeline.inference.starts import SIZES, _edge, _rungs, best_fit
+from pipeline.inference.starts import FOOT, SIZES, _edge, _rungs, _valleys, best_fit
 from pipeline.simulate import bench_rig
 from pipeline.virtual.bench import measure
 from pipeline.virtual.plan import SENSORS, PlannedTest
@@ -89,6 +89,21 @@ def test_the_ladder_goes_on_while_that_helps_and_keeps_valleys_only() -> None:
         heights.append(abs(np.log(size / 100.0)))
     # 100 is the seventh rung; the eighth is worse and ends it.
     assert len(heights) == len(SIZES) + 3
+
+
+def test_valleys_are_rungs_that_are_lower_than_those_beside_them() -> None:
+    assert _valleys([60.0, 50.0, 70.0, 40.0, 90.0], 100) == [3, 1]
+    assert _valleys([50.0, 50.0, 60.0], 100) == [1]
+    # Four times noise: a rise by less than one square of the mean is none.
+    assert _valleys([400.0, 403.0, 401.0, 500.0], 100) == [0]
+    assert _valleys([400.0, 405.5, 401.0, 500.0], 100) == [0, 2]
+    assert _valleys([100.0, 103.0, 101.0, 120.0], 100) == [0, 2]
+
+
+def test_the_foot_of_a_ladder_is_no_valley_where_another_is_much_lower() -> None:
+    assert _valleys([FOOT * 50.0, 90.0, 50.0, 90.0], 100) == [2, 0]
+    assert _valleys([FOOT * 50.0 + 1.0, 90.0, 50.0, 90.0], 100) == [2]
+    assert _valleys([50.0, 90.0, FOOT * 50.0 + 1.0, 90.0], 100) == [0, 2], "what is not the foot may be"
 
 
 @cache
