@@ -38,8 +38,7 @@ class Beyond(Record):
     deviation: float | None
 
     def __str__(self) -> str:
-        by = "without a standard error" if self.deviation is None else f"{self.deviation:+.1f}"
-        return f"{self.name} {by}"
+        return "without a standard error" if self.deviation is None else f"{self.deviation:+.1f}"
 
 
 class Row(Record):
@@ -183,8 +182,11 @@ def page(found: Study) -> str:
     if curved:
         said = ", ".join(f"{' + '.join(row.effects)} {row.symmetric}" for row in curved)
         lines += ["", f"Within three standard errors of a parabola instead: {said}."]
-    beyond = [each for row in found.rows for each in row.beyond]
+    beyond: dict[str, list[str]] = {}
+    for each in (each for row in found.rows for each in row.beyond):
+        beyond.setdefault(each.name, []).append(str(each))
     if beyond:
-        lines += ["", f"Beyond three standard errors: {', '.join(map(str, beyond))}."]
+        said = "; ".join(f"{name} {', '.join(offs)}" for name, offs in beyond.items())
+        lines += ["", f"Beyond three standard errors: {said}."]
     lines += ["", "`coverage.json` has the mean and the spread of every parameter's deviation.", ""]
     return "\n".join(lines)

@@ -52,7 +52,7 @@ def test_shares_are_counted() -> None:
     assert (row.symmetric.count, row.symmetric.of) == (4, 5)
     assert [(it.seed, it.deviation) for it in row.beyond] == [(3, -3.5), (4, None)]
     text = page(study(trials))
-    assert "errors: modulus_error.scale -3.5, modulus_error.scale without a standard error." in text
+    assert "errors: modulus_error.scale -3.5, without a standard error." in text
     assert "of a parabola instead: modulus_error 80.0 % of 5." in text
     assert "| modulus_error | 1.000 .. 1.155 | 80.0 % of 5 |" in text and text.startswith("# How often")
 
