@@ -155,7 +155,12 @@ def _looked(land: Landscape, k: int) -> Interval | dict[int, float]:
     rises = [land.chi_square(land.values + side * reach * way) - land.least for side in sides]
     if all(abs(rise - RISE) < NEARLY * RISE for rise in rises):
         return Interval(value, std, value - reach, value + reach, "wald")
-    return {side: reach * _farther(rise) for side, rise in zip(sides, rises, strict=True)}
+    # What rises by so much more is no parabola: the others will have to move another way.
+    steep = [rise > FARTHER**2 * RISE for rise in rises]
+    return {
+        side: reach if much else reach * _farther(rise)
+        for side, rise, much in zip(sides, rises, steep, strict=True)
+    }
 
 
 def _distance(land: Landscape, k: int, side: int, variance: float) -> float:

@@ -121,7 +121,7 @@ class Landscape:
         """Values and sum of squares after Gauss-Newton steps of the others within their bounds.
 
         The last step is not solved again where it gains little, or leaves a rise that is far larger than what is asked
-        about: its linear estimate is taken.
+        about: its linear estimate is taken. Residuals that no slope foresees, as those of lost rows, say nothing there.
         """
         residuals, slopes = self.problem.both(values)
         total = float(residuals @ residuals)
@@ -134,7 +134,9 @@ class Landscape:
             trial = values.copy()
             trial[others] = np.clip(values[others] + step / sizes, *self.bounds[:, others])
             gain = total - float(left @ left)
-            if gain < CLOSE * RISE or total - gain - self.least > ENOUGH * asked:
+            seen = np.any(slopes[:, others] != 0.0, axis=1)
+            foreseen = float(left[seen] @ left[seen] - self.residuals[seen] @ self.residuals[seen])
+            if gain < CLOSE * RISE or foreseen > ENOUGH * asked:
                 return trial, total - gain
             found, new = self.problem.both(trial)
             self.evaluations += 1

@@ -135,6 +135,19 @@ def test_a_rise_far_beyond_what_is_asked_about_takes_one_look(shift: float, far:
     assert (rise > RISE + 25.0) == far and (there.evaluations == 1) == far
 
 
+def test_what_no_slope_foresees_is_no_rise_yet() -> None:
+    """(0.3 a)² + (b - a)² / 4 + b⁴, and 900 of a lost row where b > 1, which b leaves in its second step."""
+    toy = Toy(
+        lambda v: np.array([0.3 * v[0], 0.5 * (v[1] - v[0]), v[1] ** 2, 30.0 * (v[1] > 1.0)]),
+        lambda v: np.array([[0.3, 0.0], [-0.5, 0.5], [0.0, 2.0 * v[1]], [0.0, 0.0]]),
+    )
+    there = Landscape(toy, np.zeros(2), [WIDE, WIDE], np.zeros(4), toy.slopes(np.zeros(2)))
+    rise, way = there.rise(0, 2.0, np.array([1.0, 1.0]))
+    b = brentq(lambda b: 0.5 * (b - 2.0) + 4.0 * b**3, 0.0, 1.0)
+    assert 2.0 * way[1] == pytest.approx(b, rel=0.05)
+    assert rise == pytest.approx(0.36 + 0.25 * (b - 2.0) ** 2 + b**4, rel=0.05)
+
+
 def test_ends_are_looked_for_where_the_looks_at_a_parabola_say() -> None:
     """(x + 0.03 x³)² has risen by 4.8 at 1.96; a parabola with that rises by 3.841 where the end nearly is."""
     toy = Toy(lambda v: v + 0.03 * v**3, lambda v: np.array([[1.0 + 0.09 * v[0] ** 2]]))
