@@ -70,9 +70,10 @@ class Ground:
             self._firm is not None and np.array_equal(values, self._firm)
         ):
             return False
-        before, after = (float(left @ left) for left in (self.aim.residuals(values), self.aim.again(values)))
-        count = self.aim.residuals(values).size
-        self._firm = values if nothing(abs(after - before), after, count) else None
+        before, after = self.aim.residuals(values), self.aim.again(values)
+        left = float(after @ after)
+        change = abs(left - float(before @ before))
+        self._firm = values if nothing(change, left, after.size) else None
         self._noted(values)
         return True
 

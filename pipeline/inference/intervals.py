@@ -155,12 +155,7 @@ def _looked(land: Landscape, k: int) -> Interval | dict[int, float]:
     rises = [land.chi_square(land.values + side * reach * way) - land.least for side in sides]
     if all(abs(rise - RISE) < NEARLY * RISE for rise in rises):
         return Interval(value, std, value - reach, value + reach, "wald")
-    # What rises by so much more is no parabola: the others will have to move another way.
-    steep = [rise > FARTHER**2 * RISE for rise in rises]
-    return {
-        side: reach if much else reach * _farther(rise)
-        for side, rise, much in zip(sides, rises, steep, strict=True)
-    }
+    return {side: reach * _farther(rise) for side, rise in zip(sides, rises, strict=True)}
 
 
 def _distance(land: Landscape, k: int, side: int, variance: float) -> float:
@@ -170,8 +165,10 @@ def _distance(land: Landscape, k: int, side: int, variance: float) -> float:
 
 
 def _farther(rise: float) -> float:
-    """Times a distance with this rise at which a parabola has risen by 3.841, within reason."""
-    return float(np.clip(Z / np.sqrt(max(rise, 1e-9)), 1.0 / FARTHER, FARTHER))
+    """Times a distance with this rise at which a parabola has risen by 3.841, within reason; 1 where it rose by so much
+    that it is none, and the others will have to move another way."""
+    times = Z / float(np.sqrt(max(rise, 1e-9)))
+    return 1.0 if times < 1.0 / FARTHER else min(times, FARTHER)
 
 
 def _profile(land: Landscape, k: int, ends: dict[int, float | None]) -> Interval:
