@@ -114,6 +114,7 @@ def test_sensors_as_coarse_as_the_play_leave_no_misfit(share: float, play: float
     assert chi2.sf(float(np.sum(left.aimed**2)), count) > 1e-3
 
 
+@pytest.mark.long
 def test_a_row_costs_the_least_that_any_force_costs() -> None:
     """Charges included: the axial force of each row on a fine grid, everything else linear about it.
 
@@ -141,13 +142,14 @@ def test_a_row_costs_the_least_that_any_force_costs() -> None:
     assert np.mean(np.abs(off) < 0.1) > 0.75 and np.abs(off).max() < 3.0
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     ("seed", "beside"),
     [
         (1, ()),
-        pytest.param(2, (), marks=pytest.mark.long),
-        pytest.param(3, (), marks=pytest.mark.long),
-        pytest.param(1, ("joint_friction",), marks=pytest.mark.long),
+        (2, ()),
+        (3, ()),
+        (1, ("joint_friction",)),
     ],
 )
 def test_a_play_that_is_not_there_takes_up_little(seed: int, beside: tuple[str, ...]) -> None:

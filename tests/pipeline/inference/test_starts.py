@@ -120,6 +120,7 @@ def test_a_strain_of_yielding_between_two_sizes_of_the_ladder_is_found(strain: f
     assert abs(best.model.values[0] - strain) < 4.0 * best.std[0]
 
 
+@pytest.mark.long
 def test_no_step_of_a_fit_goes_most_of_the_way_to_where_an_effect_is_strongest() -> None:
     model, tried = BENT.with_effects([EFFECTS["material_yield"]]), [0.0026]
     aim = Objective(model.at(np.array(tried)), yielding(0.00215).by_role[0][1])
