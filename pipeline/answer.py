@@ -14,7 +14,7 @@ from meshes.files import replacing
 from pipeline.errors import InputError
 from pipeline.record import Record
 
-Verdict = Literal["within_noise", "identified", "ambiguous", "unknown"]
+Verdict = Literal["nothing_tested", "within_noise", "identified", "ambiguous", "unknown"]
 LEVEL = 0.01
 """A p-value below which what is left is not taken for noise."""
 
@@ -22,7 +22,8 @@ LEVEL = 0.01
 class Value(Record):
     """A parameter. std: standard error; low95, high95: interval; None where the data set no end.
 
-    interval: how it was found, "wald", "profile", "undetermined", or "fixed" for what the fit left alone.
+    interval: how it was found, "wald", "profile", "undetermined", or "fixed" for what the fit left alone. at_bound:
+    whether it ends at a bound of what it may be, other than the absence of the effect.
     """
 
     value: float
@@ -32,13 +33,27 @@ class Value(Record):
     interval: Literal["wald", "profile", "undetermined", "fixed"]
     unit: str
     meaning: str
+    at_bound: bool = False
+
+
+class UnknownZero(Record):
+    """A sensor that was not zeroed, as it seems: the constant that a column reads too much in some tests, its standard
+    error, and the chi-square that it takes off."""
+
+    column: str
+    tests: tuple[str, ...]
+    value: float
+    std: float
+    unit: str
+    chi_square: float
 
 
 class ModelError(Record):
     """What a model leaves unexplained. chi_square_p, lag_one_p: of the fitted tests, small is no noise.
 
     holdout: of tests that were never used to fit or choose. lost: tests in which rows have no prediction, and why;
-    each such reading counts as 30 sigmas.
+    each such reading counts as 30 sigmas. not_noise: what the checks say against noise, a sentence each, of the last
+    model of an answer.
     """
 
     effects: tuple[str, ...]
@@ -49,6 +64,7 @@ class ModelError(Record):
     chi_square_p: float | None
     lag_one_p: float | None
     lost: tuple[str, ...] = ()
+    not_noise: tuple[str, ...] = ()
 
 
 class TestNoise(Record):
@@ -97,7 +113,10 @@ class Answer(Record):
     """The answer. effects: of the model, in order; added: those that this command added.
 
     error: of the models on the way, the last is the answer's. undetermined: sets of parameters about which the data
-    say nothing, or of which they see only combinations. confusable: effects whose parameters go together.
+    say nothing, or of which they see only combinations. confusable: effects whose parameters go together. at_bound:
+    numbers that end at a bound of what they may be. out_by_plausibility: sets that fit as well and are out only because
+    their sizes would be implausible. zeros: of sensors that seem not to be zeroed. not_done: optional parts that failed,
+    and why.
     """
 
     campaign: str
@@ -112,6 +131,10 @@ class Answer(Record):
     correlations: tuple[Correlation, ...] = ()
     undetermined: tuple[tuple[str, ...], ...] = ()
     confusable: tuple[tuple[str, ...], ...] = ()
+    at_bound: tuple[str, ...] = ()
+    out_by_plausibility: tuple[tuple[str, ...], ...] = ()
+    zeros: tuple[UnknownZero, ...] = ()
+    not_done: tuple[str, ...] = ()
     next_test: dict[str, Any] | None = None
     sentences: tuple[str, ...] = ()
     evaluations: int = 0

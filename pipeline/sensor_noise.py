@@ -11,6 +11,8 @@ from scipy.stats import norm
 Array = NDArray[np.float64]
 FEWEST = 6
 """Differences below which a median says nothing."""
+FEWEST_FREE = 3
+"""Degrees of freedom about straight lines below which their scatter says nothing."""
 DRAWS, FEWEST_DRAWS, BATCH, EFFORT = 1000, 100, 20, 10**7
 """Draws of noise: the bias is known to the spread of one estimate over the root of this, 3 % of its
 standard error; where the differences are so many that the bias is lost anyway, by fewer draws."""
@@ -42,7 +44,33 @@ def from_repeats(readings: Array, group: NDArray[np.int64]) -> SigmaEstimate:
     if nu < 1:
         return SigmaEstimate(None, None, 0, "no step was repeated")
     means = np.bincount(place, readings) / np.bincount(place)
-    s = np.sqrt(float(np.sum((readings - means[place]) ** 2)) / nu)
+    return _pooled(float(np.sum((readings - means[place]) ** 2)), nu)
+
+
+def from_lines(paths: Sequence[tuple[Array, Array]]) -> SigmaEstimate:
+    """Sigma from the scatter about a straight line over the load, one line a path; paths as for `from_roughness`.
+
+    Pooled and unbiased as in `from_repeats`, nu = sum of readings less two a path, at least `FEWEST_FREE`. What bends
+    or loops only adds to it. ValueError for loads or readings that are not finite.
+    """
+    total, nu = 0.0, 0
+    for load, y in paths:
+        if not (np.isfinite(load).all() and np.isfinite(y).all()):
+            raise ValueError("the loads or the readings have values that are not finite")
+        if np.unique(load).size < 3:
+            continue
+        centred = (load - load.mean()) / np.ptp(load)
+        left = y - y.mean() - centred * float(centred @ y) / float(centred @ centred)
+        total, nu = total + float(left @ left), nu + load.size - 2
+    if nu < FEWEST_FREE:
+        return SigmaEstimate(
+            None, None, nu, f"{nu} degrees of freedom about straight lines, allowed are {FEWEST_FREE}"
+        )
+    return _pooled(total, nu)
+
+
+def _pooled(squares: float, nu: int) -> SigmaEstimate:
+    s = np.sqrt(squares / nu)
     c4 = np.sqrt(2.0 / nu) * np.exp(gammaln(0.5 * (nu + 1)) - gammaln(0.5 * nu))
     # Rounding of c4 at many repeats must not turn the root around; 1 / c4² - 1 tends to 1 / (2 nu).
     spread = np.sqrt(max(1.0 / c4**2 - 1.0, 0.25 / nu))

@@ -3,34 +3,43 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from time import perf_counter
 
+import numpy as np
+
 from pipeline.add.sentences import sentences
-from pipeline.add.summary import changes, confusable, error_of, is_noise, undetermined, values_of
+from pipeline.add.summary import changes, confusable, error_of, undetermined, values_of
+from pipeline.adequacy.judgement import judge
+from pipeline.adequacy.untested import in_units, untested
 from pipeline.answer import Answer, Correlation
+from pipeline.attempt import Attempts
 from pipeline.campaign import Campaign
+from pipeline.diagnose.shelf import Shelf
 from pipeline.errors import InputError
-from pipeline.inference.fit import Fit, fit
-from pipeline.inference.intervals import correlations, intervals, landscape, only_together
-from pipeline.inference.model import Model
+from pipeline.inference.fit import Fit, fit, unfitted
+from pipeline.inference.intervals import correlations, intervals, landscape, only_together, straight
+from pipeline.inference.model import Model, at_bound
 from pipeline.inference.model_file import Uncertainty
 from pipeline.inference.program import Program, program
 from pipeline.inference.sigmas import completed
-from pipeline.inference.starts import best_fit
 from pipeline.inference.suitable import check_suitable
 from pipeline.provenance import commit, versions
 from vjm.effects.base import Effect
 
 Say = Callable[[str], None]
+WORSE = 1.0
+"""Chi-square by which a fit may leave more than the model before: a step that noise takes."""
 
 
 @dataclass(frozen=True, eq=False)
 class Added:
-    """The model at its best fit, and the answer about it."""
+    """The model at its best fit, and the answer about it. keep: why it should not take the place of a saved model, ""
+    if nothing speaks against it."""
 
     model: Model
     answer: Answer
+    keep: str = ""
 
     @property
     def uncertainty(self) -> dict[str, Uncertainty]:
@@ -45,10 +54,10 @@ class Added:
 def add(campaign: Campaign, model: Model, effects: Sequence[Effect], say: Say = lambda _: None) -> Added:
     """The campaign's model with further effects, all its free numbers fitted to the tests that may be fitted.
 
-    No diagnosis is made: the verdict is "within_noise" where what is left looks like noise by its size
-    and by its order along the load paths, else "unknown". Tests that are held out only have their error said.
-    InputError for an effect that is in the model already or that the campaign cannot have, RuntimeError if the
-    model has no prediction for any row that is fitted.
+    No diagnosis is made: the verdict is "within_noise" where what is left passes the same checks as in a diagnosis,
+    "nothing_tested" where no reading is left to test it by, else "unknown". Tests that are held out only have their
+    error said. Effects enter one after the other, each from where the fit without it stands, so that a larger model
+    never leaves more. InputError for an effect that is in the model already or that the campaign cannot have.
     """
     start = perf_counter()
     for effect in effects:
@@ -58,14 +67,15 @@ def add(campaign: Campaign, model: Model, effects: Sequence[Effect], say: Say = 
     whole = completed(campaign)
     cases = program(whole)
     say("the model as it was")
-    before = fit(replace(model, fixed=frozenset(f.name for f in model.free) | model.fixed), cases)
-    new = [effect.name for effect in effects]
-    after = best_fit(model.with_effects(effects), cases, new, before.prediction, say)
-    if after.prediction.lost[cases.fitted].all():
-        reason = next(iter(after.prediction.reasons.values()))
-        raise RuntimeError(
-            f"the model with {', '.join(after.model.names)} cannot be solved anywhere: {reason}"
-        )
+    before = unfitted(model, cases)
+    shelf = Shelf(cases, model, {effect.name: effect for effect in effects}, say)
+    new = tuple(effect.name for effect in effects)
+    if (cases.predicted & cases.fitted[:, None]).any():
+        for count in range(len(new)):
+            shelf.fit(frozenset(new[: count + 1]))
+        after = shelf.fit(frozenset(new))
+    else:
+        after = unfitted(model.with_effects(effects), cases)
     return _compared(cases, (before, after), len(model.free), new, say, start)
 
 
@@ -82,7 +92,7 @@ def remove(campaign: Campaign, model: Model, names: Sequence[str], say: Say = la
     whole = completed(campaign)
     cases = program(whole)
     say("the model as it was")
-    before = fit(replace(model, fixed=frozenset(f.name for f in model.free) | model.fixed), cases)
+    before = unfitted(model, cases)
     less = model
     for name in names:
         less = less.without(name)
@@ -95,27 +105,49 @@ def _compared(
     """The answer about a fit, beside the one before, which had so many fitted numbers."""
     before, after = fits
     say("intervals")
+    attempts = Attempts()
     land = landscape(after, cases)
-    values = values_of(after.model, intervals(land))
-    pairs = correlations(land)
+    ends = attempts.get("intervals", lambda: intervals(land), None) or straight(land)
+    values = values_of(after.model, ends)
+    pairs = attempts.get("correlations of the numbers", lambda: correlations(land), [])
+    together = attempts.get("what is seen only together", lambda: only_together(land), [])
     names = [each.name for each in after.model.free]
-    errors = (error_of(before, cases, numbers), error_of(after, cases, len(after.model.free)))
+    nothing = untested(after)
+    judged = None if nothing else judge(after)
+    errors = (error_of(before, cases, numbers), error_of(after, cases, len(after.model.free), judged))
     answer = Answer(
         campaign=cases.campaign.name,
-        verdict="within_noise" if is_noise(errors[-1]) else "unknown",
+        verdict="unknown" if judged and not judged.noise else "within_noise" if judged else "nothing_tested",
         effects=after.model.names,
         added=tuple(new),
         parameters=values,
         error=errors,
         tests=changes(before, after, cases),
         correlations=tuple(Correlation(first=names[i], second=names[j], value=r) for i, j, r in pairs),
-        undetermined=undetermined(values, [[names[k] for k in group] for group in only_together(land)]),
+        undetermined=undetermined(values, [[names[k] for k in group] for group in together]),
         confusable=confusable(names, pairs),
+        at_bound=at_bound(after.model),
+        not_done=tuple(attempts.failed),
         evaluations=1 + after.evaluations + land.evaluations,
         seconds=round(perf_counter() - start, 3),
         commit=commit(),
         versions=versions(),
     )
-    return Added(
-        after.model, answer.model_copy(update={"sentences": sentences(answer, cases.campaign.remarks)})
-    )
+    keep = _keeps(before, after, nothing)
+    said = sentences(answer, cases.campaign.remarks, nothing or "", in_units(after), keep)
+    return Added(after.model, answer.model_copy(update={"sentences": said}), keep)
+
+
+def _keeps(before: Fit, after: Fit, nothing: str | None) -> str:
+    """Why a fit should not take the place of the model before it."""
+    rows = after.residual.program.fitted
+    lost = int(np.sum(after.prediction.lost & ~before.prediction.lost & rows))
+    if nothing:
+        return "nothing was tested"
+    if after.prediction.lost[rows].all():
+        return "it has no prediction for any fitted row"
+    if lost:
+        return f"it has no prediction for {lost} rows for which the model before has one"
+    if after.chi_square > before.chi_square + WORSE:
+        return "it leaves more than the model before"
+    return ""

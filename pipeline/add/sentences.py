@@ -9,8 +9,10 @@ from pipeline.answer import LEVEL, Answer, ModelError
 CLEARLY = 1.0 - LEVEL
 
 
-def verdict_sentence(answer: Answer) -> str:
-    """The verdict with its numbers."""
+def verdict_sentence(answer: Answer, nothing: str = "") -> str:
+    """The verdict with its numbers. nothing: why nothing could be tested."""
+    if answer.verdict == "nothing_tested":
+        return nothing or "nothing_tested: no reading is left to test the model by."
     before, after = answer.error[0], answer.error[-1]
     fall = f"error {before.fit:.3g} -> {after.fit:.3g} sigma (whitened RMS, 1 is noise)"
     if after.holdout is not None and before.holdout is not None:
@@ -20,20 +22,30 @@ def verdict_sentence(answer: Answer) -> str:
     return f"{answer.verdict}: {_not_noise(after)}; {fall}."
 
 
-def sentences(answer: Answer, remarks: tuple[str, ...]) -> tuple[str, ...]:
-    """All that is worth saying, the verdict first."""
-    return (verdict_sentence(answer), *_details(answer), *_lost(answer), *(f"{r}." for r in remarks))
+def sentences(
+    answer: Answer, remarks: tuple[str, ...], nothing: str = "", units: tuple[str, ...] = (), keep: str = ""
+) -> tuple[str, ...]:
+    """All that is worth saying, the verdict first. nothing: why nothing could be tested. units: what is known of
+    channels without a sigma. keep: why the model is not saved."""
+    details = () if answer.verdict == "nothing_tested" else _details(answer)
+    unsaved = (f"The model is not saved: {keep}.",) if keep else ()
+    failed = (f"{said}." for said in answer.not_done)
+    return (
+        verdict_sentence(answer, nothing),
+        *unsaved,
+        *units,
+        *details,
+        *_lost(answer),
+        *failed,
+        *(f"{r}." for r in remarks),
+    )
 
 
 def _not_noise(error: ModelError) -> str:
     if error.lost:
         return "the model has no prediction for some rows"
-    said = [
-        f"{what} (p = {p:.2g})"
-        for what, p in (("its size", error.chi_square_p), ("its order along the loads", error.lag_one_p))
-        if p is not None and p < LEVEL
-    ]
-    return f"what is left is no noise by {' and '.join(said)}" if said else "nothing can be tested"
+    said = "; ".join(error.not_noise)
+    return f"what is left is no noise: {said}"
 
 
 def _with(answer: Answer) -> str:

@@ -6,11 +6,12 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from pipeline.answer import LEVEL, ModelError, TestChange, TestNoise, Value
+from pipeline.adequacy.judgement import Judgement
+from pipeline.answer import ModelError, TestChange, TestNoise, Value
 from pipeline.compare.error import Discrepancy
 from pipeline.inference.fit import Fit
 from pipeline.inference.intervals import Interval
-from pipeline.inference.model import Model
+from pipeline.inference.model import Model, at_bound
 from pipeline.inference.program import Program
 from pipeline.noise import chi_square, lag_one
 
@@ -18,7 +19,7 @@ from pipeline.noise import chi_square, lag_one
 def values_of(model: Model, intervals: Sequence[Interval]) -> dict[str, Value]:
     """Every number of the model, in order; intervals: of those that were free."""
     found = {each.name: it for each, it in zip(model.free, intervals, strict=True)}
-    out = {}
+    out, bounded = {}, at_bound(model)
     for term in model.terms:
         for p in term.effect.parameters:
             name, value = f"{term.effect.name}.{p.name}", float(term.values[p.name])
@@ -31,12 +32,13 @@ def values_of(model: Model, intervals: Sequence[Interval]) -> dict[str, Value]:
                 interval="fixed" if it is None else it.kind,
                 unit=p.unit,
                 meaning=p.meaning,
+                at_bound=name in bounded,
             )
     return out
 
 
-def error_of(found: Fit, cases: Program, parameters: int) -> ModelError:
-    """What a fit leaves, its numbers counted as fitted to these tests."""
+def error_of(found: Fit, cases: Program, parameters: int, judged: Judgement | None = None) -> ModelError:
+    """What a fit leaves, its numbers counted as fitted to these tests. judged: what its checks said."""
     gap = Discrepancy(cases, found.prediction, parameters)
     size, order = gap.size(), gap.order()
     return ModelError(
@@ -48,13 +50,8 @@ def error_of(found: Fit, cases: Program, parameters: int) -> ModelError:
         chi_square_p=None if size is None else size.p_value,
         lag_one_p=None if order is None else order.p_value,
         lost=tuple(each.sentence for each in gap.lost()),
+        not_noise=() if judged is None else tuple(check.words for check in judged.checks if not check.passed),
     )
-
-
-def is_noise(error: ModelError) -> bool:
-    """Whether what is left passes for noise, and nothing was lost."""
-    checks = [p for p in (error.chi_square_p, error.lag_one_p) if p is not None]
-    return bool(checks) and min(checks) >= LEVEL and not error.lost
 
 
 def changes(before: Fit, after: Fit, cases: Program) -> tuple[TestChange, ...]:

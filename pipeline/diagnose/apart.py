@@ -63,11 +63,7 @@ def signature_of(shelf: Shelf, names: Names, name: str, about: Picture) -> Array
     """(k,) what an effect does at its fitted size, to first order; one with kinks as at its nearest probe."""
     found = shelf.fit(names)
     effect = shelf.candidates[name]
-    values = {
-        f.parameter.name: v
-        for f, v in zip(found.model.free, found.model.values, strict=True)
-        if f.effect == name
-    }
+    values = next(term.values for term in found.model.terms if term.effect.name == name)
     if effect.smooth:
         by_typical = [(values[p.name] - p.null) / p.typical for p in effect.parameters]
         return np.asarray(about.columns(name) @ np.array(by_typical))

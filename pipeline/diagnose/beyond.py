@@ -9,9 +9,9 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+from pipeline.adequacy.judgement import HELD_OUT, judge
 from pipeline.diagnose.exclusion import possible
 from pipeline.diagnose.merit import badness
-from pipeline.diagnose.refuse import HELD_OUT, judge
 from pipeline.diagnose.rivals import Found
 from pipeline.diagnose.shelf import Names
 

@@ -3,29 +3,33 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from time import perf_counter
 
 import numpy as np
 
 from pipeline.add.summary import changes, confusable, error_of, undetermined, values_of
-from pipeline.answer import Answer, Candidate, Correlation, Verdict
+from pipeline.adequacy.judgement import Judgement, judge
+from pipeline.adequacy.untested import untested
+from pipeline.answer import Answer, Candidate, Correlation, UnknownZero, Verdict
+from pipeline.attempt import Attempts
 from pipeline.campaign import Campaign
 from pipeline.campaign.names import COORDINATES
-from pipeline.diagnose.apart import Likeness, likenesses
+from pipeline.diagnose.apart import Likeness
 from pipeline.diagnose.beyond import with_what_held_out_tests_need
 from pipeline.diagnose.folds import agreement, crossvalidated, crossvalidated_with
 from pipeline.diagnose.menu import Choice
 from pipeline.diagnose.merit import taken
 from pipeline.diagnose.next_test import NextTest, best_next_test
-from pipeline.diagnose.refuse import Judgement, judge
 from pipeline.diagnose.rivals import Found
-from pipeline.diagnose.search import search
-from pipeline.diagnose.sensor_faults import Instead, faults_instead
+from pipeline.diagnose.ruling import Ruling, ruled
+from pipeline.diagnose.search import search, search_one_by_one
+from pipeline.diagnose.sensor_faults import Instead, plain_zero
 from pipeline.diagnose.shelf import Names, Shelf
 from pipeline.diagnose.signatures import Say
+from pipeline.diagnose.zeros import Zero
 from pipeline.errors import InputError
-from pipeline.inference.fit import Fit
+from pipeline.inference.fit import Fit, unfitted
 from pipeline.inference.intervals import correlations, intervals, landscape, only_together, straight
 from pipeline.inference.model import Model
 from pipeline.inference.program import program
@@ -40,27 +44,46 @@ FEW = 3
 
 @dataclass(frozen=True, eq=False)
 class Diagnosis:
-    """What was found. sets: the effects to add, the simplest first; one where the verdict is certain. instead: faults
-    of sensors that explain as much as an effect of the best set.
+    """What was found. ruling: the verdict and what it rests on. untested: why nothing can be tested, "" if something can.
 
-    refused: effects that the rig or the campaign cannot have, and why.
+    refused: effects that the rig or the campaign cannot have, and why. failed: optional parts that failed, and why.
     """
 
     campaign: Campaign
-    verdict: Verdict
     found: Found
-    sets: tuple[tuple[str, ...], ...]
-    instead: tuple[Instead, ...]
+    ruling: Ruling
     judgement: Judgement
-    alike: tuple[Likeness, ...]
     agreement: Mapping[str, float]
     next_test: NextTest | None
     refused: Mapping[str, str]
+    untested: str = ""
+    failed: tuple[str, ...] = ()
     seconds: float = 0.0
-    fit: Fit = field(init=False)
 
-    def __post_init__(self) -> None:
-        object.__setattr__(self, "fit", self.shelf.fit(frozenset(self.sets[0])))
+    @property
+    def verdict(self) -> Verdict:
+        """One of the five."""
+        return self.ruling.verdict
+
+    @property
+    def fit(self) -> Fit:
+        """Of the first set."""
+        return self.ruling.fit
+
+    @property
+    def instead(self) -> tuple[Instead, ...]:
+        """Faults of sensors that explain as much as an effect of the best set."""
+        return self.ruling.instead
+
+    @property
+    def alike(self) -> tuple[Likeness, ...]:
+        """What could be taken for the effects of the best set."""
+        return self.ruling.alike
+
+    @property
+    def sets(self) -> tuple[tuple[str, ...], ...]:
+        """The effects to add, the simplest set first; one where the verdict is certain."""
+        return tuple(self.shelf.order(names) for names in self.ruling.sets)
 
     @property
     def shelf(self) -> Shelf:
@@ -70,7 +93,8 @@ class Diagnosis:
     @property
     def possible(self) -> tuple[tuple[str, ...], ...]:
         """The sets, and those that need a fault of a sensor beside them."""
-        return (*self.sets, *dict.fromkeys(self.shelf.order(it.without) for it in self.instead))
+        beside = (self.shelf.order(it.without) for it in self.instead)
+        return tuple(dict.fromkeys((*self.sets, *beside)))
 
     @property
     def model(self) -> Model:
@@ -86,40 +110,52 @@ def diagnose(
     whole = completed(campaign)
     check_suitable([term.effect for term in model.terms], whole)
     candidates, refused = suitable(whole, model, known)
-    cases = program(whole)
-    if not (cases.predicted & cases.fitted[:, None]).any():
-        raise InputError(
-            f"{campaign.name}: no fitted test has a reading that a model predicts, so nothing to diagnose"
-        )
+    cases, attempts = program(whole), Attempts()
     shelf = Shelf(cases, model, candidates, say)
-    found = with_what_held_out_tests_need(search(shelf))
+    before = beginning(shelf)
+    if why := untested(before):
+        found = Found(shelf, frozenset(), ())
+        nothing = Ruling("nothing_tested", (frozenset(),), before)
+        return Diagnosis(whole, found, nothing, Judgement((), 1.0), {}, None, refused, why, (), _since(begin))
+    found = search_one_by_one(shelf) if plain_zero(before) else with_what_held_out_tests_need(search(shelf))
     judgement = judge(shelf.fit(found.best))
-    sets = sorted((found.best, *found.rivals), key=lambda n: _simplicity(shelf, n))
-    say("what a sensor's fault would explain")
-    instead = faults_instead(found) if judgement.noise else ()
-    verdict = _verdict(found, judgement, instead)
-    if verdict != "ambiguous":
-        sets = [found.best]
-    say("what could be taken for what")
+    say("what else could explain it")
+    ruling = ruled(found, judgement, attempts)
     next_test = None
-    if len(sets) > 1:
+    if len(ruling.sets) > 1:
         say("the next test")
-        next_test = best_next_test([shelf.fit(n) for n in sets[:FEW]], shelf.whole)
-    named = tuple(shelf.order(names) for names in sets)
-    stable = {name: agreement(shelf, found.best, name) for name in found.best}
+        fits = [shelf.fit(n) for n in ruling.sets[:FEW]]
+        next_test = attempts.get("the next test", lambda: best_next_test(fits, shelf.whole), None)
+    stable = attempts.get("whether folds of the tests agree", lambda: _agreements(shelf, found.best), {})
     return Diagnosis(
         whole,
-        verdict,
         found,
-        named,
-        instead,
-        judge(shelf.fit(sets[0])),
-        tuple(likenesses(shelf, found.best)),
-        {name: share for name, share in stable.items() if share is not None},
+        ruling,
+        judge(ruling.fit),
+        stable,
         next_test,
         refused,
-        round(perf_counter() - begin, 3),
+        "",
+        tuple(attempts.failed),
+        _since(begin),
     )
+
+
+def beginning(shelf: Shelf) -> Fit:
+    """The base model fitted, or as it is where no fitted test has a reading to fit it to."""
+    whole = shelf.whole
+    if not (whole.predicted & whole.fitted[:, None]).any():
+        shelf.fits[frozenset()] = unfitted(shelf.base, whole)
+    return shelf.fit(frozenset())
+
+
+def _agreements(shelf: Shelf, best: Names) -> dict[str, float]:
+    stable = {name: agreement(shelf, best, name) for name in best}
+    return {name: share for name, share in stable.items() if share is not None}
+
+
+def _since(begin: float) -> float:
+    return round(perf_counter() - begin, 3)
 
 
 def suitable(
@@ -138,25 +174,18 @@ def suitable(
     return can, cannot
 
 
-def _verdict(found: Found, judgement: Judgement, instead: tuple[Instead, ...]) -> Verdict:
-    if not judgement.noise:
-        return "unknown"
-    if not found.best:
-        return "within_noise"
-    return "ambiguous" if found.rivals or instead else "identified"
-
-
-def _simplicity(shelf: Shelf, names: Names) -> tuple[int, int, float]:
-    return len(names), taken(shelf, names), shelf.fit(names).chi_square
-
-
 def answer_of(it: Diagnosis, sentences: tuple[str, ...] = (), found: Fit | None = None) -> Answer:
     """The diagnosis as a record. found: whose numbers it has, default those of the first set."""
     shelf, whole, found = it.shelf, it.shelf.whole, found or it.fit
-    before = shelf.fit(frozenset())
+    before, attempts = shelf.fit(frozenset()), Attempts()
     land = landscape(found, whole)
-    values = values_of(found.model, intervals(land) if it.judgement.noise else straight(land))
-    pairs = correlations(land)
+    surely = it.judgement.noise and not it.untested
+    ends = attempts.get("intervals", lambda: intervals(land) if surely else straight(land), None) or straight(
+        land
+    )
+    values = values_of(found.model, ends)
+    pairs = attempts.get("correlations of the numbers", lambda: correlations(land), [])
+    together = attempts.get("what is seen only together", lambda: only_together(land), [])
     names = [each.name for each in found.model.free]
     steps = [before, *_steps(it)]
     return Answer(
@@ -166,18 +195,34 @@ def answer_of(it: Diagnosis, sentences: tuple[str, ...] = (), found: Fit | None 
         added=it.sets[0],
         alternatives=tuple((*shelf.base.names, *names) for names in it.possible[1:]),
         parameters=values,
-        error=tuple(error_of(each, whole, len(each.model.free)) for each in steps),
+        error=tuple(
+            error_of(each, whole, len(each.model.free), it.judgement if each is steps[-1] else None)
+            for each in steps
+        ),
         tests=changes(before, it.fit, whole),
-        candidates=candidates_of(it),
+        candidates=attempts.get("the table of candidates", lambda: candidates_of(it), ()),
         correlations=tuple(Correlation(first=names[i], second=names[j], value=r) for i, j, r in pairs),
-        undetermined=undetermined(values, [[names[k] for k in group] for group in only_together(land)]),
+        undetermined=undetermined(values, [[names[k] for k in group] for group in together]),
         confusable=confusable(names, pairs) + _alike(it),
         next_test=next_test_record(it.next_test, it.sets),
-        sentences=sentences,
+        at_bound=it.ruling.at_bound,
+        out_by_plausibility=tuple((*shelf.base.names, *shelf.order(n)) for n in it.ruling.out),
+        zeros=()
+        if it.ruling.zero is None or it.ruling.zero.zero is None
+        else (zero_record(it.ruling.zero.zero),),
+        not_done=(*it.failed, *attempts.failed),
+        sentences=(*sentences, *(f"{said}." for said in attempts.failed)),
         evaluations=shelf.evaluations + land.evaluations,
         seconds=it.seconds,
         commit=commit(),
         versions=versions(),
+    )
+
+
+def zero_record(it: Zero) -> UnknownZero:
+    """As a record."""
+    return UnknownZero(
+        column=it.column, tests=it.tests, value=it.value, std=it.std, unit=it.unit, chi_square=it.gain
     )
 
 

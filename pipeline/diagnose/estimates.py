@@ -35,6 +35,8 @@ def estimates(shelf: Shelf, start: Names, counts: Iterable[int]) -> list[Estimat
     for count in counts:
         groups = [(n,) for n in single] if count == 1 else list(combinations(leaders, count))
         for group in groups:
+            if not shelf.affords(start | set(group)):
+                continue
             gain = single[group[0]] if count == 1 else found.gain(group)
             out.append(Estimate(start | set(group), base - gain.value + price(shelf, group), gain.probes))
     return sorted(out, key=lambda e: e.cost)

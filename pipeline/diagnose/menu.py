@@ -74,14 +74,22 @@ def menu(campaign: Campaign) -> list[Choice]:
     """
     if campaign.rig.manipulator is not None:
         return []
+    there = sensors(campaign)
     heat = any(t.data.temperature is not None for t in campaign.tests)
     out: list[Choice] = []
     for angle in _angles(campaign):
         for shape in _shapes(campaign):
-            out.append(_choice(campaign, shape, angle, len(out), 0.0))
+            if there[shape.coordinate + (6 if shape.control[shape.coordinate] == _F else 0)]:
+                out.append(_choice(campaign, shape, angle, len(out), 0.0))
     if heat:
         out += [_choice(campaign, c.shape, c.test.q_deg, len(out) + k, WARMER) for k, c in enumerate(out[:2])]
     return out
+
+
+def sensors(campaign: Campaign) -> NDArray[np.bool_]:
+    """(12 + gauges,) channels that some test of the campaign reads."""
+    read = [np.hstack([t.data.displacement, t.data.wrench, t.data.gauges]) for t in campaign.tests]
+    return np.asarray(np.isfinite(np.concatenate(read)).any(axis=0))
 
 
 def _angles(campaign: Campaign) -> list[float]:
@@ -122,7 +130,9 @@ def planned(
     rig: Rig,
     warmer: float = 0.0,
 ) -> Test:
-    """A test whose sensors all read, with zeros for what is to come; values (S, 6) of what `control` prescribes."""
+    """A test in which every sensor of the campaign reads, with zeros for what is to come; values (S, 6) of what `control`
+    prescribes, which a clamp may hold without a sensor."""
+    there = np.where(sensors(campaign), 0.0, np.nan)
     forced = np.array([by == FORCE for by in control])
     steps = len(values)
     heat = None
@@ -130,9 +140,9 @@ def planned(
         heat = np.full(steps, (rig.reference_temperature or 20.0) + warmer)
     data = Data(
         np.arange(steps),
-        np.where(forced, 0.0, values),
-        np.where(forced, values, 0.0),
-        np.zeros((steps, len(campaign.gauges))),
+        np.where(forced, there[:6], values),
+        np.where(forced, values, there[6:12]),
+        np.tile(there[12:], (steps, 1)),
         heat,
         np.zeros(steps, dtype=np.int64),
     )

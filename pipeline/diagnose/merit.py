@@ -9,6 +9,7 @@ import numpy as np
 from pipeline.diagnose.evidence import PLAUSIBLE, entry, numbers
 from pipeline.diagnose.shelf import Names, Shelf
 from pipeline.inference.fit import Fit
+from pipeline.inference.residual import LOST
 
 
 def cost(shelf: Shelf, names: Names) -> float:
@@ -20,7 +21,18 @@ def badness(shelf: Shelf, names: Names) -> float:
     """Chi-square of the fit, what choices of sides took off it, and of its numbers, each `PLAUSIBLE` typical sizes a
     sigma."""
     found = shelf.fit(names)
-    return found.chi_square + found.residual.doubt + implausibility(found)
+    return found.chi_square + found.residual.doubt + implausibility(found) + _lost(shelf, found)
+
+
+def _lost(shelf: Shelf, found: Fit) -> float:
+    """Chi-square that rows without a prediction count beyond their 30 sigma a reading: where the base model has a
+    prediction they count no less than with it, for to lose a row is not to explain it."""
+    if not found.lost:
+        return 0.0
+    base, whole = shelf.fit(frozenset()), shelf.whole
+    rows = found.prediction.lost & ~base.prediction.lost & whole.fitted
+    squares = np.sum(base.residual.values[rows] ** 2, axis=1)
+    return float(np.sum(np.maximum(squares - LOST**2 * np.sum(whole.predicted[rows], axis=1), 0.0) + LOST**2))
 
 
 def implausibility(found: Fit) -> float:

@@ -129,7 +129,7 @@ def picture(found: Fit, every: Sequence[Signature], at: Look, rescues: Mapping[s
     mask = used[rows]
     base = np.hstack([it.slopes[rows][mask], it.offsets[rows][mask]])
     tests = np.broadcast_to(it.program.test[rows][:, None], mask.shape)[mask]
-    share = float(mask.sum() / used.sum())
+    share = float(mask.sum() / max(used.sum(), 1)) or 1.0
     return Picture(
         found, {s.effect.name: s for s in every}, it.values[rows][mask], base, tests, share, rescues
     )

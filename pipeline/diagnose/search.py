@@ -12,6 +12,7 @@ from itertools import combinations
 
 from pipeline.diagnose.estimates import Estimate, doubt, estimates
 from pipeline.diagnose.evidence import APART
+from pipeline.diagnose.exclusion import possible
 from pipeline.diagnose.few_rows import few, grown_by_everything
 from pipeline.diagnose.merit import cost, is_noise, root_of
 from pipeline.diagnose.pruning import HOPELESS, pruned
@@ -27,6 +28,14 @@ ENOUGH = 24
 FAR, SLOW = 2.0, 0.7
 """Sigmas from which an explanation is far from one; growth that leaves more than this part of chi-square is slow. What
 is far from explained and falls slowly is not explained by more effects: so it ends as unknown."""
+
+
+def search_one_by_one(shelf: Shelf) -> Found:
+    """The best single effect and those that may as well be true: enough where something else comes before physics."""
+    empty: Names = frozenset()
+    starts = [empty, *(e.names for e in _competing(shelf, empty, 1))]
+    best = _best(shelf, starts)
+    return Found(shelf, best, tuple(possible(shelf, starts, best)))
 
 
 def search(shelf: Shelf) -> Found:
@@ -87,7 +96,7 @@ def _roots(shelf: Shelf) -> list[Names]:
     switches = _switches(shelf)
     roots = [frozenset(some) for k in range(len(switches) + 1) for some in combinations(switches, k)]
     least = min(shelf.fit(root).chi_square for root in roots)
-    roots = [root for root in roots if shelf.fit(root).chi_square < HOPELESS * least]
+    roots = [root for root in roots if shelf.fit(root).chi_square <= HOPELESS * least]
     if len(roots) == 1:
         return roots
     promise = {

@@ -2,25 +2,41 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 
+from scipy.stats import chi2
+
+from pipeline.adequacy.patterns import scores
 from pipeline.diagnose.evidence import apart, numbers
-from pipeline.diagnose.merit import badness
-from pipeline.diagnose.patterns import scores
+from pipeline.diagnose.merit import badness, cost
 from pipeline.diagnose.rivals import Found
-from pipeline.diagnose.shelf import Names
+from pipeline.diagnose.shelf import Names, Shelf
+from pipeline.diagnose.zeros import Zero, zeros
+from pipeline.inference.fit import Fit
+
+MOST = 2.5
+"""A sensor's zero comes before all physics where it leaves less than the best set of effects, divided by this, or noise.
+Discrete mistakes take far more than that off a misfit, an effect that looks a little like one takes less."""
+NOISE = 1e-3
+"""Chance that noise leaves so much: what is as large as that is noise."""
+LARGE, NEARLY_ALL = 20.0, 0.99
+"""Sigmas from which a misfit is large; part of its chi-square that is nearly all of it."""
+NEAR = 12
+"""Sets of least cost beside which a zero is looked for."""
 
 
 @dataclass(frozen=True)
 class Instead:
-    """A pattern that a sensor's fault leaves, beside the set without an effect. explains, of: chi-square that the
-    pattern takes off with one number, and the effect with its own."""
+    """A fault of a sensor beside the set without an effect. explains, of: chi-square that the fault takes off with one
+    number, and the effect with its own. zero: where the fault is a constant."""
 
     effect: str
     without: Names
     words: str
     explains: float
     of: float
+    zero: Zero | None = None
 
 
 def faults_instead(found: Found) -> tuple[Instead, ...]:
@@ -35,7 +51,41 @@ def faults_instead(found: Found) -> tuple[Instead, ...]:
         if not effect.parameters or any(name in shelf.candidates[other].includes for other in without):
             continue
         gain = badness(shelf, without) - badness(shelf, best)
-        every = scores(shelf.fit(without))
-        if every and every[0].score ** 2 >= gain - apart(numbers(effect) - 1):
-            out.append(Instead(name, without, every[0].words, every[0].score ** 2, gain))
+        enough = gain - apart(numbers(effect) - 1)
+        every = sorted(_faults(shelf, name, without, gain), key=lambda it: -it.explains)
+        out += [it for it in every[:1] if it.explains >= enough]
     return tuple(out)
+
+
+def _faults(shelf: Shelf, name: str, without: Names, gain: float) -> Iterator[Instead]:
+    """What each fault would explain in place of an effect."""
+    fit = shelf.fit(without)
+    for zero in zeros(fit):
+        # One test alone that was not zeroed is a choice among many: it has to do better than the effect.
+        if zero.everywhere or zero.gain >= gain:
+            yield Instead(name, without, zero.words, zero.gain, gain, zero)
+    for pattern in scores(fit)[:1]:
+        yield Instead(name, without, pattern.words, pattern.score**2, gain)
+
+
+def plain_zero(found: Fit) -> bool:
+    """Whether a zero alone explains nearly all of a large misfit: then nothing else is looked for in depth."""
+    every = zeros(found)
+    return bool(every) and found.rms > LARGE and every[0].gain > NEARLY_ALL * found.chi_square
+
+
+def zero_first(found: Found) -> Instead | None:
+    """The zero of a sensor that explains more than the best set of effects, beside the set that needs it."""
+    shelf, best = found.shelf, found.best
+    sets = sorted(shelf.fits, key=lambda names: cost(shelf, names))[:NEAR]
+    most = shelf.fit(best).chi_square
+    out: list[tuple[float, Instead]] = []
+    for names in dict.fromkeys([frozenset(), *sets]):
+        fit = shelf.fit(names)
+        for zero in zeros(fit)[:1]:
+            left = fit.chi_square - zero.gain
+            total = cost(shelf, names) - zero.gain + zero.price
+            noise = left <= float(chi2.isf(NOISE, max(fit.degrees - 1, 1)))
+            if total < cost(shelf, best) and (noise or left < most / MOST):
+                out.append((total, Instead("", names, zero.words, zero.gain, most, zero)))
+    return min(out, key=lambda it: it[0])[1] if out else None

@@ -10,7 +10,7 @@ import numpy as np
 
 from pipeline.diagnose.evidence import PLAUSIBLE
 from pipeline.diagnose.picture import Picture, picture
-from pipeline.diagnose.signatures import Look, Probe, Say, look, probed, probes, signatures
+from pipeline.diagnose.signatures import Look, Probe, Say, hidden, look, probed, probes, signatures
 from pipeline.inference.fit import Fit, fit
 from pipeline.inference.model import Model, Term
 from pipeline.inference.parts import at_rows
@@ -23,6 +23,8 @@ from pipeline.inference.starts import best_fit, height
 from vjm.effects.base import Effect
 
 Names = frozenset[str]
+FEW_READINGS = 24
+"""Readings up to which a set has no numbers that they do not see: two of the largest effects would take them all."""
 SETTLED = 3.0
 """Whitened RMS below which a misfit moves the inputs by no more than their noise."""
 
@@ -53,6 +55,27 @@ class Shelf:
         """Solutions of the campaign that all fits took."""
         return sum(each.evaluations for each in self.fits.values()) + len(self.looks)
 
+    @property
+    def room(self) -> int:
+        """Numbers that a set may have: readings less unknown zeros and the numbers of the base model."""
+        return self.fit(frozenset()).degrees
+
+    def affords(self, names: Names) -> bool:
+        """Whether a set has no more free numbers than there are readings to fit them to."""
+        fixed = self.unseen
+        return sum(_free_numbers(self.candidates[name], fixed) for name in names) <= self.room
+
+    @cached_property
+    def unseen(self) -> frozenset[str]:
+        """Names effect.parameter that stay at null: where readings are few, those that they do not see beside the
+        others of their effect, at any plausible size. Where readings are many a fit finds them by itself."""
+        if self.room > FEW_READINGS or self.fit(frozenset()).prediction.lost.any():
+            return frozenset()
+        shown = self.picture(frozenset()).signatures
+        return frozenset(
+            name for it in shown.values() if not it.probes for name in hidden(it, self.base.fixed)
+        )
+
     def order(self, names: Names) -> tuple[str, ...]:
         """Names in the order of the candidates."""
         return tuple(name for name in self.candidates if name in names)
@@ -61,7 +84,7 @@ class Shelf:
         """The base model with these effects at its best fit. begin: where those with kinks begin."""
         if names not in self.fits:
             self.say(self._title(names))
-            self.fits[names] = self._fitted(names, begin or {})
+            self.fits[names] = self._no_worse(names, self._fitted(names, begin or {}))
         return self.fits[names]
 
     def fit_all(self, wanted: Mapping[Names, Mapping[str, float]]) -> None:
@@ -81,7 +104,7 @@ class Shelf:
         calls = [(self._model(names), partial(self._fitted, names, new[names])) for names in order]
         made = dict(zip(order, fits_at_once(calls, self.whole), strict=True))
         for names in new:
-            self._keep(names, made[names])
+            self._keep(names, self._no_worse(names, made[names]))
 
     def fit_again(self, wanted: Sequence[Names], larger: Names) -> None:
         """Fit sets from where a set that holds them stands, and keep the better fit of each that has one."""
@@ -96,12 +119,32 @@ class Shelf:
         for names, found in zip(models, fits_at_once(calls, self.whole), strict=True):
             self._keep(names, found)
 
+    def _no_worse(self, names: Names, found: Fit) -> Fit:
+        """The fit, or a better one from where a set that it contains stands: a larger set never leaves more.
+
+        Of sets that differ by effects with numbers; what is there or not may make things worse. Where no step from there
+        is better either, the further effects are at their null: there the two are one.
+        """
+        inside = [n for n in self.fits if n < names and all(self.candidates[e].parameters for e in names - n)]
+        if not inside:
+            return found
+        best = min(inside, key=lambda n: self.fits[n].order)
+        smaller = self.fits[best]
+        if found.order <= smaller.order:
+            return found
+        model = _valued(self._model(names), smaller.model)
+        again = fit(model, self.whole, smaller.prediction, None, PLAUSIBLE)
+        again = replace(again, evaluations=again.evaluations + found.evaluations)
+        if again.order <= smaller.order:
+            return again
+        return replace(_at_null(model, smaller), evaluations=again.evaluations)
+
     def _keep(self, names: Names, found: Fit) -> None:
         old = self.fits.get(names)
         if old is None:
             self.fits[names] = found
             return
-        best = min(old, found, key=lambda each: each.chi_square)
+        best = min(old, found, key=lambda each: each.order)
         self.fits[names] = replace(best, evaluations=old.evaluations + found.evaluations)
         if best is found:
             self.pictures.pop(names, None)
@@ -177,7 +220,11 @@ class Shelf:
         return not any(map(sided, effects)), all(effect.smooth for effect in effects)
 
     def _model(self, names: Names) -> Model:
-        return self.base.with_effects([self.candidates[name] for name in self.order(names)])
+        base = self.base
+        if names and any(self.candidates[name].parameters for name in names):
+            own = {name for name in self.unseen if name.partition(".")[0] in names}
+            base = replace(base, fixed=base.fixed | own)
+        return base.with_effects([self.candidates[name] for name in self.order(names)])
 
     def _begin(self, names: Names) -> tuple[Model, Prediction | None, Names]:
         """The model with values of the best of the largest sets that were fitted already, where that one stood, and
@@ -189,6 +236,19 @@ class Shelf:
         largest = max(inside, key=lambda each: (len(each), -self.fits[each].chi_square))
         known = self.fits[largest]
         return _valued(model, known.model), known.prediction, largest
+
+
+def _free_numbers(effect: Effect, fixed: frozenset[str]) -> int:
+    return sum(f"{effect.name}.{p.name}" not in fixed for p in effect.parameters)
+
+
+def _at_null(model: Model, smaller: Fit) -> Fit:
+    """The fit of a larger model whose further effects are absent, and stay so: that of the smaller one."""
+    old = {f.name: v for f, v in zip(smaller.model.free, smaller.model.values, strict=True)}
+    values = np.array([old.get(f.name, f.parameter.null) for f in model.free])
+    further = {f.name for f in model.free if f.name not in old}
+    absent = replace(model.at(values), fixed=model.fixed | further)
+    return Fit(absent, smaller.prediction, smaller.residual, 0)
 
 
 def _valued(model: Model, other: Model) -> Model:

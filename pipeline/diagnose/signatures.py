@@ -7,13 +7,15 @@ all that it serves.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Collection, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.linalg import qr
 
+from pipeline.diagnose.evidence import PLAUSIBLE
 from pipeline.inference.fit import Fit
 from pipeline.inference.model import Model
 from pipeline.inference.prediction import Prediction, predict
@@ -26,6 +28,8 @@ Array = NDArray[np.float64]
 Say = Callable[[str], None]
 PLAIN = 100.0
 """Sigmas of all readings together from which nobody overlooks an effect."""
+SEEN = 1e-3
+"""Part of the largest column that must be left of another one for it to be seen beside it."""
 ENOUGH = 200
 """Rows that a look at smooth effects needs; of more, some are left out."""
 
@@ -48,6 +52,18 @@ class Signature:
             return [1.0] * sum(each.shape[1] for each in self.columns)
         first = self.effect.parameters[0]
         return [(value - first.null) / first.typical for value in self.probes]
+
+
+def hidden(it: Signature, fixed: Collection[str]) -> list[str]:
+    """Names effect.parameter that a smooth effect's own others make needless: what is seen of it, at plausible sizes, is
+    spanned by the columns that show most (QR with pivots)."""
+    names = [f"{it.effect.name}.{p.name}" for p in it.effect.parameters]
+    free = [name for name in names if name not in fixed]
+    (columns,) = it.columns
+    triangle, order = qr(columns * PLAUSIBLE, mode="r", pivoting=True)
+    sizes = np.abs(np.diag(triangle))
+    kept = {int(order[k]) for k in np.flatnonzero(sizes > SEEN * sizes.max(initial=0.0))}
+    return [name for k, name in enumerate(free) if k not in kept]
 
 
 @dataclass(frozen=True, eq=False)

@@ -2,18 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 
 import numpy as np
 
+from pipeline.adequacy.judgement import judge
+from pipeline.adequacy.untested import in_units
+from pipeline.attempt import Attempts
 from pipeline.campaign.names import COORDINATES
 from pipeline.diagnose.description import descriptions
 from pipeline.diagnose.diagnosis import Diagnosis, in_words
 from pipeline.diagnose.evidence import RAW
 from pipeline.diagnose.exclusion import needed, worse
-from pipeline.diagnose.menu import Choice
+from pipeline.diagnose.menu import Choice, menu
 from pipeline.diagnose.merit import badness
-from pipeline.diagnose.refuse import judge
 from pipeline.diagnose.seen_at import only_place
 from pipeline.inference.driving import column_name
 from vjm.effects.base import Effect
@@ -23,18 +25,31 @@ CARRIES = 0.7
 
 
 def sentences(it: Diagnosis) -> tuple[str, ...]:
-    """All that is worth saying, the verdict first."""
-    return (
-        *_verdict(it),
-        *_evidence(it),
-        *_left(it),
-        *_rivals(it),
-        *_next(it),
-        *(f"{r}." for r in it.campaign.remarks),
-    )
+    """All that is worth saying, the verdict first. A part that fails is said, and takes no other with it."""
+    attempts = Attempts()
+    first = attempts.get("the verdict in words", lambda: tuple(_verdict(it)), (f"{it.verdict}.",))
+    parts: dict[str, Callable[[], tuple[str, ...]]] = {"what is known in units": lambda: in_units(it.fit)}
+    if it.verdict != "nothing_tested":
+        parts |= {
+            "the evidence in words": lambda: tuple(_evidence(it)),
+            "what is left in words": lambda: tuple(_left(it)),
+            "the rivals in words": lambda: tuple(_rivals(it)),
+            "the next test in words": lambda: tuple(_next(it)),
+        }
+    told = [said for name, part in parts.items() for said in attempts.get(name, part, ())]
+    failed = [f"{said}." for said in (*it.failed, *attempts.failed)]
+    return (*first, *told, *failed, *(f"{r}." for r in it.campaign.remarks))
 
 
 def _verdict(it: Diagnosis) -> Iterator[str]:
+    if it.untested:
+        yield it.untested
+        return
+    zero = it.ruling.zero
+    asked = f"{zero.words} " if zero else ""
+    if it.verdict == "nothing_tested":
+        yield f"nothing_tested: {asked}With that zero unknown no reading is left to test a model by."
+        return
     rms, before = it.fit.rms, it.shelf.fit(frozenset()).rms
     fall = f"the error falls from {before:.3g} to {rms:.3g} sigma (1 is noise)"
     if it.verdict == "within_noise":
@@ -44,12 +59,14 @@ def _verdict(it: Diagnosis) -> Iterator[str]:
     elif it.verdict == "ambiguous":
         fault = ["a fault of a sensor"] if it.instead else []
         sets = " or ".join([*(_and(names) for names in it.sets), *fault])
-        yield f"ambiguous: {sets}; these tests cannot tell; {fall}."
+        yield f"ambiguous: {asked}{sets}; these tests cannot tell; {fall}."
+    elif it.ruling.because:
+        yield f"unknown: {_and(it.sets[0])} would explain the misfit, {fall}, but {it.ruling.because}."
     elif it.sets[0]:
         rest = "what is left is no noise and nothing known explains it"
-        yield f"unknown: {_and(it.sets[0])} help, {fall}, but {rest}."
+        yield f"unknown: {asked}{_and(it.sets[0])} help, {fall}, but {rest}."
     else:
-        yield f"unknown: the misfit of {rms:.3g} sigma is no noise, and nothing known explains it."
+        yield f"unknown: {asked}the misfit of {rms:.3g} sigma is no noise, and nothing known explains it."
 
 
 def _evidence(it: Diagnosis) -> Iterator[str]:
@@ -132,6 +149,12 @@ def _described(it: Diagnosis) -> Iterator[str]:
 def _rivals(it: Diagnosis) -> Iterator[str]:
     shelf = it.shelf
     for fault in it.instead:
+        if not fault.effect:
+            yield (
+                f"A sensor that was not zeroed comes before all physics: {fault.words} That takes {fault.explains:.3g} "
+                f"off chi-square beside {_and(shelf.order(fault.without))}; say so in campaign.toml and diagnose again."
+            )
+            continue
         yield (
             f"Instead of {fault.effect} a sensor may be at fault: {fault.words}. That takes {fault.explains:.3g} off "
             f"chi-square with one number, {fault.effect} {fault.of:.3g}: check that sensor, or measure again with "
@@ -146,6 +169,13 @@ def _rivals(it: Diagnosis) -> Iterator[str]:
             if more > limit:
                 so = "alone that might exclude it, but not with others as near or with numbers that only fit noise"
             yield f"{_and(names)}: chi-square {more:.1f} above the best; {so}."
+    for names in it.ruling.out:
+        yield (
+            f"{_and(shelf.order(names))} fits as well, but needs a size that is far beyond the usual: out by "
+            "plausibility alone."
+        )
+    for name in it.ruling.at_bound:
+        yield f"{name} ends at the bound of what it may be: it excludes nothing and names nothing."
     for a in it.alike:
         if a.correlation > 0.9 and a.effect in it.sets[0] and a.size < a.needed:
             yield (
@@ -158,7 +188,10 @@ def _next(it: Diagnosis) -> Iterator[str]:
     if len(it.sets) < 2:
         return
     if it.next_test is None or not it.next_test.apart:
-        yield "No test of these kinds tells them apart on this rig: measure the part itself."
+        if it.campaign.rig.manipulator is None and not menu(it.campaign):
+            yield "No planned test reads a sensor that exists: none can be proposed."
+        else:
+            yield "No test of these kinds tells them apart on this rig: measure the part itself."
         return
     first, *others = it.next_test.choices
     yield f"Next test: {in_words(first)}. {_how(first)}"

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -12,12 +12,14 @@ from scipy.linalg import qr
 from scipy.optimize import lsq_linear
 
 from pipeline.inference.ground import Ground, nothing
+from pipeline.inference.inputs import linearised
 from pipeline.inference.model import Model
 from pipeline.inference.objective import Objective
 from pipeline.inference.parts import at_rows, joined
 from pipeline.inference.prediction import Prediction
 from pipeline.inference.program import Program
 from pipeline.inference.residual import Residual, residual
+from pipeline.inference.span import basis
 from vjm.effects.base import Parameter
 
 Array = NDArray[np.float64]
@@ -74,9 +76,21 @@ class Fit:
     @cached_property
     def degrees(self) -> int:
         """Residuals less fitted numbers and unknown zeros."""
-        zeros = self.residual.flat(self.residual.offsets)
-        lost = np.linalg.matrix_rank(zeros) if zeros.size else 0
-        return int(self.whitened.size - lost - len(self.model.free))
+        zeros = basis(self.residual.flat(self.residual.offsets)).shape[1]
+        # Rows that a model loses have no column of their zero, but it is still there to be spent.
+        zeros = max(zeros, self.residual.program.unknown_zeros)
+        return int(self.whitened.size - zeros - len(self.model.free))
+
+    @cached_property
+    def lost(self) -> int:
+        """Rows of the fitted tests without a prediction."""
+        return int(np.sum(self.prediction.lost & self.residual.program.fitted))
+
+    @property
+    def order(self) -> tuple[int, float]:
+        """Of two fits to the same data the one that is less by this is the better: a row without a prediction is worse
+        than one that is badly predicted, whatever it counts in chi-square."""
+        return self.lost, self.chi_square
 
     @property
     def rms(self) -> float:
@@ -130,6 +144,13 @@ def fit(
         pieces.append((rest, apart, held.at(values)[0]))
     whole = joined(program, pieces)
     return Fit(model.at(values), whole, residual(program, whole), aim.count)
+
+
+def unfitted(model: Model, cases: Program) -> Fit:
+    """A model as it is: nothing is fitted but the inputs, which were measured as well."""
+    fixed = replace(model, fixed=frozenset(each.name for each in model.free) | model.fixed)
+    there, left = linearised(fixed, cases)
+    return Fit(fixed, *linearised(fixed, cases, start=there, shift=left.shift), 2)
 
 
 @dataclass(frozen=True, eq=False)
@@ -200,7 +221,7 @@ def _descend(aim: Objective, watch: Callable[[str], None] | None, plausible: flo
         gain = here @ here - there @ there
         if watch is not None:
             watch(f"{aim.count} evaluations, chi-square {min(here @ here, there @ there):.5g}")
-        if gain > 0.1 * promise:
+        if aim.lost < lost or (aim.lost == lost and gain > 0.1 * promise):
             values, here, slopes, lost, place = tried, there, pulled.jacobian(tried), aim.lost, aim.place
             damping = max(_less(damping), least)
             least /= 10.0

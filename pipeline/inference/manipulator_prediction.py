@@ -219,7 +219,9 @@ def _by_heat(whole: Manipulator, group: Group, start: States) -> Array | float:
 
 def _by_number(model: Model, number: int, group: Group, start: States) -> Array:
     """(T, S, 12) derivative by one number of the model."""
-    value, parameter = float(model.values[number]), model.free[number].parameter
+    parameter = model.free[number].parameter
+    # Of a number at its bound the differences are taken beside it.
+    value = float(np.clip(model.values[number], *model.free[number].bounds))
     room = min(value - parameter.low, parameter.high - value)
     step = min(STEP * abs(parameter.typical), room)
     ends = []

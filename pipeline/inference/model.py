@@ -135,6 +135,19 @@ class Model:
         return reduce(lambda it, term: term.effect.apply(it, term.values), terms, rig)
 
 
+def at_bound(model: Model) -> tuple[str, ...]:
+    """Names of the free numbers that end at a bound of theirs which is no absence of the effect."""
+    out = []
+    for each, value in zip(model.free, model.values, strict=True):
+        low, high = each.bounds
+        near = 1e-6 * (high - low)
+        ends = ((low, each.parameter.low), (high, each.parameter.high))
+        physical = [end for end, own in ends if own != each.parameter.null]
+        if any(abs(value - end) <= near for end in physical):
+            out.append(each.name)
+    return tuple(out)
+
+
 def _beside_null(each: Free) -> float:
     """A value that is not null, so that the effect is there, and no farther from it than `START`."""
     p = each.parameter

@@ -44,6 +44,7 @@ _SLIGHT = 1e-3
 """Bow, in lengths of a bar, from which straight bars find the branch on which they bend."""
 PLAYS = 2
 """Plays of a bench, at most: one in each bar. Manipulators may have more."""
+OVERFLOW = "the numbers of the model leave the range of arithmetic there"
 NEAR_KINKS = 1e-3
 """Of its typical size, over which a number with kinks is differentiated."""
 
@@ -129,7 +130,27 @@ def predict(
         for row, reason in zip(place[lost[real]], part.state.reason[real][lost[real]], strict=True):
             out.reasons[int(row)] = "unstable" if reason == "converged" else str(reason)
         states.append(part.state)
-    return replace(zeroed(out, program), states=tuple(states))
+    return replace(zeroed(_finite(out), program), states=tuple(states))
+
+
+def _finite(found: Prediction) -> Prediction:
+    """The prediction with rows lost of which a number is none: no weighting can be made of them."""
+    parts = (found.values, found.by_inputs, found.by_free, found.slides[..., 2:], found.stops[..., 1:])
+    good = np.all([np.isfinite(part.reshape(len(part), -1)).all(axis=1) for part in parts], axis=0)
+    if good.all():
+        return found
+    arrays = {
+        name: np.where(good.reshape(-1, *[1] * (getattr(found, name).ndim - 1)), getattr(found, name), blank)
+        for name, blank in (
+            ("values", 0.0),
+            ("by_inputs", 0.0),
+            ("by_free", 0.0),
+            ("stops", no_stops(1, found.stops.shape[1])),
+            ("slides", no_slides(1, found.slides.shape[1])),
+        )
+    }
+    said = {int(row): OVERFLOW for row in np.flatnonzero(~good)}
+    return replace(found, lost=found.lost | ~good, reasons=said | found.reasons, **arrays)
 
 
 def no_stops(rows: int, plays: int = PLAYS) -> Array:
@@ -292,9 +313,10 @@ def _shifted(group: Group, shift: Array) -> Group:
 
 
 def _direction(model: Model, number: int, group: Group, program: Program) -> Direction | SensorDirection:
-    value, each = float(model.values[number]), model.free[number]
+    each = model.free[number]
     parameter = each.parameter
-    # Differences stay on the same side of a bound as the value.
+    # Differences stay on the same side of a bound as the value; of one at a bound they are taken beside it.
+    value = float(np.clip(model.values[number], *each.bounds))
     room = min(value - parameter.low, parameter.high - value)
     size = min(abs(parameter.typical), room / 3e-3)
     # Differences that reach across a kink are no derivative of either side: few states are so near to one.

@@ -73,7 +73,7 @@ class Program:
     """All rows of a campaign, in its order; C = 12 + gauges channels.
 
     measured: (R, C), NaN where not measured. predicted: (R, C) mask of what a model predicts and the campaign
-    measured. channels: (R, 6) channel that each coordinate's control prescribes. input_sigma: (R, 7) noise of
+    measured, with a sigma. channels: (R, 6) channel that each coordinate's control prescribes. input_sigma: (R, 7) noise of
     what is prescribed, and of the temperature, K. sigma: (C,) noise of every sensor. test: (R,) its number.
     """
 
@@ -91,6 +91,22 @@ class Program:
         """(tests + 1,) first row of each test."""
         counts = [test.data.steps.size for test in self.campaign.tests]
         return np.concatenate([[0], np.cumsum(counts)]).astype(int)
+
+    @cached_property
+    def unweighted(self) -> np.ndarray:
+        """(R, C) readings of what a model predicts whose sigma is not known: they are told in units alone."""
+        there = np.isfinite(self.measured) & np.isnan(self.sigma)
+        np.put_along_axis(there, self.channels, False, axis=1)
+        return there
+
+    @cached_property
+    def unknown_zeros(self) -> int:
+        """Zeros of predicted readings that the fitted tests leave unknown, each with a reading of its own."""
+        return sum(
+            int(np.any(self.predicted[self.test == k], axis=0).sum())
+            for k, test in enumerate(self.campaign.tests)
+            if test.zero == "fitted" and test.role == "fit"
+        )
 
     @cached_property
     def fitted(self) -> np.ndarray:
@@ -128,7 +144,7 @@ class Program:
 
 
 def program(campaign: Campaign) -> Program:
-    """The load cases of a campaign. Sigmas that it does not say must have been filled in before."""
+    """The load cases of a campaign. Readings of a channel without a sigma are not compared, see `unweighted`."""
     tests, gauges = campaign.tests, campaign.gauges
     noise = campaign.noise
     sigma = np.concatenate([noise.displacement, noise.wrench, noise.gauges])
@@ -140,10 +156,11 @@ def program(campaign: Campaign) -> Program:
     given = np.take_along_axis(measured, channels, axis=1)
     held = np.array([[by == SUPPORT for by in t.control] for t in tests])[number]
     # A force that was not read, and a coordinate on its support, are what they are without a sensor's noise.
-    input_sigma = np.where(np.isnan(given) | held, 0.0, sigma[channels])
+    input_sigma = np.where(np.isnan(given) | held, 0.0, np.nan_to_num(sigma[channels]))
     warm = np.full((len(number), 1), np.nan_to_num(noise.temperature))
     input_sigma = np.concatenate([input_sigma, warm], axis=1)
-    predicted = np.isfinite(measured)
+    # A reading whose scatter nobody knows is compared in units alone, one without any scatter says nothing of a model.
+    predicted = np.isfinite(measured) & (sigma > 0.0)
     np.put_along_axis(predicted, channels, False, axis=1)
     groups: dict[int, list[int]] = {}
     for k, test in enumerate(tests):

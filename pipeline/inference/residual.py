@@ -31,6 +31,8 @@ LOST = 30.0
 """Sigmas that stand for a reading for which the model has no stable equilibrium."""
 FARTHEST = 5.0
 """Sigmas from where it was read that an input is looked for."""
+ROUNDED = 1e5
+"""Noise of an input in sigmas of a reading from which the covariance is not formed: its ones would be lost."""
 SURE = 2.0
 """Standard deviations from which a row is sure of its stop."""
 
@@ -55,13 +57,30 @@ def whitening(program: Program, prediction: Prediction) -> Whitening:
     through = _through(program, prediction) * program.input_sigma[:, None, :]
     scale = np.where(used, program.sigma, 1.0)
     through = through / scale[..., None]
-    unit = through @ np.swapaxes(through, -1, -2) + np.eye(used.shape[1])
-    factors = np.linalg.inv(np.linalg.cholesky(unit)) / scale[:, None, :]
-    return Whitening(factors, used)
+    return Whitening(_inverse_root(through) / scale[:, None, :], used)
+
+
+def _inverse_root(through: Array) -> Array:
+    """(R, C, C) inverse of the lower Cholesky factor of 1 + T Tᵀ, T (R, C, K).
+
+    Where T is so large that the sum loses its ones to rounding, the factor is the triangle of a QR of [1, Tᵀ], which
+    never forms the sum (G. H. Golub, C. F. Van Loan, Matrix Computations, 4th ed., 2013, section 5.2).
+    """
+    size = through.shape[1]
+    factors = np.empty((len(through), size, size))
+    huge = np.max(np.abs(through), axis=(1, 2), initial=0.0) > ROUNDED
+    plain = through[~huge]
+    factors[~huge] = np.linalg.cholesky(plain @ np.swapaxes(plain, -1, -2) + np.eye(size))
+    if huge.any():
+        ones = np.broadcast_to(np.eye(size), (int(huge.sum()), size, size))
+        upper = np.linalg.qr(np.concatenate([np.swapaxes(through[huge], -1, -2), ones], axis=1), mode="r")
+        upper = upper * np.sign(np.diagonal(upper, axis1=-2, axis2=-1))[..., None]
+        factors[huge] = np.swapaxes(upper, -1, -2)
+    return np.asarray(np.linalg.inv(factors))
 
 
 def _through(program: Program, prediction: Prediction) -> Array:
-    """(R, C, 7) derivative by the inputs of the channels that are compared; none of a lost row."""
+    """(R, C, 7) derivative by the inputs of the channels that are compared; none of a lost row, or where there is none."""
     kept = program.predicted & ~prediction.lost[:, None]
     return np.where(kept[..., None], prediction.by_inputs, 0.0)
 

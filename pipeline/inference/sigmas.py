@@ -11,29 +11,31 @@ from numpy.typing import NDArray
 from pipeline.campaign import Campaign, Gauge, Noise, Test
 from pipeline.campaign.names import DISPLACEMENTS, TEMPERATURE, WRENCHES, gauge_column
 from pipeline.campaign.reading import DESCRIPTION
-from pipeline.errors import InputError
 from pipeline.inference.driving import control_channels, driving
-from pipeline.sensor_noise import FEWEST, SigmaEstimate, from_repeats, from_roughness
+from pipeline.sensor_noise import FEWEST, SigmaEstimate, from_lines, from_repeats, from_roughness
 
 Array = NDArray[np.float64]
 Readings = Callable[[Test], Array]
+EVEN, CELLS = 1e-4, 10.0
+"""Of their number, by which multiples of a step may miss it; smallest steps within the range, for each reading, up to
+which they were chosen."""
 HEAT = -1
 """Stands for the thermometer among the channels."""
 
 
 def completed(campaign: Campaign) -> Campaign:
-    """The campaign with a sigma for everything that it measures; each estimate is said in a remark.
+    """The campaign with a sigma for everything that it measures and of which one is given or can be told; each estimate
+    is said in a remark, and what has none, with the line to write.
 
     From steps done twice in a row where there are enough of them, else from what no smooth curve explains. Of the
     curves over the step number and over the load the one with the least roughness counts: noise of the load and
-    the shape of the curve only add to an estimate. Readings too coarse to show noise have that of their rounding;
-    what is only ever prescribed, and never moves, counts as exact. InputError where none of this gives a number.
+    the shape of the curve only add to an estimate. Readings too coarse to show noise have that of their rounding.
+    What is only ever prescribed counts as exact where its readings are steps that somebody chose, or too few to tell.
     """
     noise = campaign.noise
     sigmas = np.concatenate([noise.displacement, noise.wrench, noise.gauges, [noise.temperature]])
     names = [*DISPLACEMENTS, *WRENCHES, *(gauge_column(g.name) for g in campaign.gauges), TEMPERATURE]
     remarks: list[str] = []
-    complaints: list[str] = []
     for k, name in enumerate(names):
         channel = HEAT if name == TEMPERATURE else k
         if np.isfinite(sigmas[k]) or not any(_measured(t, channel).any() for t in campaign.tests):
@@ -42,43 +44,66 @@ def completed(campaign: Campaign) -> Campaign:
             sigmas[k], how = _sigma(campaign, channel)
             remarks.append(f"{name}: sigma {sigmas[k]:.3g} {how}")
         except ValueError as error:
-            complaints.append(f"{_file(campaign)}, noise.{name}: is missing and cannot be estimated: {error}")
-    if complaints:
-        raise InputError("\n".join(complaints))
+            remarks.append(f"{name}: no sigma is given and none can be told: {error}; {to_write(name)}")
     last = 12 + len(campaign.gauges)
     known = Noise(sigmas[:6], sigmas[6:12], sigmas[12:last], float(sigmas[last]))
     return replace(campaign, noise=known, remarks=(*campaign.remarks, *remarks))
 
 
+def to_write(column: str) -> str:
+    """The line that gives a sigma."""
+    unit = "K" if column == TEMPERATURE else column.rpartition("_")[2]
+    return f"write under [noise] in {DESCRIPTION}: {column} = ...  (one standard deviation, {unit})"
+
+
 def _sigma(campaign: Campaign, channel: int) -> tuple[float, str]:
     """Estimate and how it was found. ValueError, with the reason, where there is none."""
+    given = channel == HEAT or _prescribed(campaign, channel)
+    if given and _chosen(np.concatenate(list(map(_known, _columns(campaign, channel))))):
+        return 0.0, ": it is prescribed in steps that were chosen, so it counts as exact"
     repeats = _from_repeats(campaign, channel)
     if repeats.value and repeats.differences >= FEWEST:
         return repeats.value, f"± {repeats.std:.1g}, from {repeats.differences} repeated steps"
-    rough = [_from_roughness(campaign, channel, over) for over in (_step, _load)]
+    rough = [from_roughness(_paths_over(campaign, channel, over)) for over in (_step, _load)]
+    lines = from_lines(_paths_over(campaign, channel, _load))
     largest = max(float(np.abs(known).max(initial=0.0)) for known in map(_known, _columns(campaign, channel)))
     # Differences of equal readings are zero but for rounding.
-    found = [each for each in rough if each.value is not None and each.value > 1e-12 * largest]
+    found = [each for each in (*rough, lines) if each.value is not None and each.value > 1e-12 * largest]
     if found:
         best = min(found, key=lambda each: each.value or 0.0)
-        return float(
-            best.value or 0.0
-        ), f"± {best.std:.1g}, from the roughness of {best.differences} differences"
+        how = "scatter about straight lines over the load" if best is lines else "roughness"
+        number = "degrees of freedom" if best is lines else "differences"
+        return float(best.value or 0.0), f"± {best.std:.1g}, from the {how}, {best.differences} {number}"
     steps = np.concatenate([_steps_of(readings) for readings in _columns(campaign, channel)])
     # So many differences without any noise in them: the readings are rounded.
     if steps.size and rough[0].differences >= FEWEST:
         return float(steps.min() / np.sqrt(12.0)), f"of readings rounded to {steps.min():.3g}"
-    if (
-        not steps.size
-        and channel != HEAT
-        and all(
-            channel in control_channels(test, campaign.gauges)
-            for test in campaign.tests
-            if _measured(test, channel).any()
-        )
-    ):
-        return 0.0, ": it is prescribed and its readings never move, so it counts as exact"
-    raise ValueError(f"{rough[0].reason}; allowed is a sigma in [noise], or more steps")
+    if given:
+        return 0.0, ": it is prescribed and its readings do not tell its noise, so it counts as exact"
+    raise ValueError(rough[0].reason)
+
+
+def _prescribed(campaign: Campaign, channel: int) -> bool:
+    """Whether a channel controls its coordinate in every test that measures it."""
+    return all(
+        channel in control_channels(test, campaign.gauges)
+        for test in campaign.tests
+        if _measured(test, channel).any()
+    )
+
+
+def _chosen(readings: Array) -> bool:
+    """Whether readings (N,) are steps that somebody chose: whole multiples of the smallest, and not many of them. What a
+    display rounds lies on multiples too, of a step that is far smaller than those of the load."""
+    values = np.unique(readings)
+    steps = _steps_of(values)
+    if not steps.size:
+        return True
+    counts = (values - values[0]) / steps.min()
+    return bool(
+        np.all(np.abs(counts - np.round(counts)) < EVEN * np.maximum(counts, 1.0))
+        and counts[-1] <= CELLS * values.size
+    )
 
 
 def _from_repeats(campaign: Campaign, channel: int) -> SigmaEstimate:
@@ -97,15 +122,16 @@ def _from_repeats(campaign: Campaign, channel: int) -> SigmaEstimate:
     return from_repeats(np.concatenate(readings), np.concatenate(groups))
 
 
-def _from_roughness(
+def _paths_over(
     campaign: Campaign, channel: int, over: Callable[[Test, tuple[Gauge, ...], int], Array]
-) -> SigmaEstimate:
+) -> list[tuple[Array, Array]]:
+    """Loads and readings (n,) of each test."""
     paths = []
     for test in campaign.tests:
         load, readings = over(test, campaign.gauges, channel), _column(test, channel)
         there = np.isfinite(load) & np.isfinite(readings)
         paths.append((load[there], readings[there]))
-    return from_roughness(paths)
+    return paths
 
 
 def _step(test: Test, gauges: tuple[Gauge, ...], channel: int) -> Array:
@@ -146,7 +172,3 @@ def _steps_of(readings: Array) -> Array:
     known = _known(readings)
     steps = np.diff(np.unique(known))
     return np.asarray(steps[steps > 1e-9 * np.abs(known).max(initial=0.0)])
-
-
-def _file(campaign: Campaign) -> str:
-    return DESCRIPTION if campaign.folder is None else str(campaign.folder / DESCRIPTION)

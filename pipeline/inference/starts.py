@@ -73,7 +73,7 @@ def best_fit(
         # Where the linear step from there promises no more there is nothing to find.
         if height(there, own, near) < fits[0].chi_square - WORTH * max(fits[0].rms, 1.0) ** 2:
             fits.append(fit(there, program, start, watch, plausible))
-    best = min(fits, key=lambda each: each.chi_square)
+    best = min(fits, key=lambda each: each.order)
     return replace(best, evaluations=spent + sum(each.evaluations for each in fits))
 
 

@@ -8,7 +8,6 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from pipeline.add.sentences import verdict_sentence
-from pipeline.add.summary import is_noise
 from pipeline.answer import Answer, Value
 from pipeline.campaign import Campaign
 from pipeline.inference.driving import column_name, unit_of
@@ -99,10 +98,12 @@ def proposed(model: Model, answer: Answer, known: Known) -> Model:
 
 def headline(answer: Answer, found: Stages, diagnosed: bool) -> str:
     """The verdict in one sentence."""
-    if not found.before.program.predicted.any():
+    if found.untested and not np.isfinite(found.before.program.measured).any():
         return "not measured yet: no reading that a model predicts; plan says what these tests can show."
     if diagnosed and answer.sentences:
         return answer.sentences[0]
+    if found.untested:
+        return found.untested
     if len(found.error) > 1:
         return verdict_sentence(answer.model_copy(update={"error": (found.error[0], found.error[-1])}))
     left = found.error[0].fit
@@ -117,7 +118,7 @@ def _plain_answer(it: Subject, model: Model, found: Stages) -> Answer:
     last = found.error[-1]
     return Answer(
         campaign=it.campaign.name,
-        verdict="within_noise" if is_noise(last) else "unknown",
+        verdict=found.verdict,
         effects=model.names,
         parameters=_parameters(model, it.uncertainty),
         error=found.error,

@@ -6,10 +6,11 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 from pipeline.add.summary import error_of
-from pipeline.answer import ModelError
+from pipeline.adequacy.judgement import judge
+from pipeline.adequacy.untested import untested
+from pipeline.answer import ModelError, Verdict
 from pipeline.compare.error import Discrepancy
-from pipeline.inference.fit import Fit, fit
-from pipeline.inference.inputs import linearised
+from pipeline.inference.fit import fit, unfitted
 from pipeline.inference.model import Model
 from pipeline.inference.program import Program
 
@@ -18,17 +19,20 @@ Say = Callable[[str], None]
 
 @dataclass(frozen=True, eq=False)
 class Stages:
-    """error: of every stage, the plain model first. before, after: the first and the last against the data."""
+    """error: of every stage, the plain model first. before, after: the first and the last against the data. verdict: on
+    the last; untested: why nothing can be tested, "" if something can."""
 
     error: tuple[ModelError, ...]
     before: Discrepancy
     after: Discrepancy
+    verdict: Verdict
+    untested: str
 
 
 def stages(model: Model, cases: Program, say: Say = lambda _: None) -> Stages:
     """Every stage fitted from the model's own values; the model itself is taken as it is."""
     say("plain virtual springs")
-    plain = as_it_is(Model(), cases)
+    plain = unfitted(Model(), cases)
     found = [(plain, 0)]
     for count in range(1, len(model.terms)):
         part = replace(model, terms=model.terms[:count])
@@ -36,14 +40,12 @@ def stages(model: Model, cases: Program, say: Say = lambda _: None) -> Stages:
         found.append((fit(part, cases, plain.prediction), len(part.free)))
     if model.terms:
         say(" + ".join(model.names))
-        found.append((as_it_is(model, cases), len(model.free)))
-    errors = tuple(error_of(each, cases, free) for each, free in found)
+        found.append((unfitted(model, cases), len(model.free)))
+    nothing = untested(found[-1][0])
+    judged = None if nothing else judge(found[-1][0])
+    errors = tuple(
+        error_of(each, cases, free, judged if each is found[-1][0] else None) for each, free in found
+    )
     first, last = (Discrepancy(cases, each.prediction, free) for each, free in (found[0], found[-1]))
-    return Stages(errors, first, last)
-
-
-def as_it_is(model: Model, cases: Program) -> Fit:
-    """A model against the data with nothing fitted but the inputs, which were measured as well."""
-    fixed = replace(model, fixed=frozenset(each.name for each in model.free) | model.fixed)
-    there, left = linearised(fixed, cases)
-    return Fit(fixed, *linearised(fixed, cases, start=there, shift=left.shift), 2)
+    verdict: Verdict = "nothing_tested" if judged is None else "within_noise" if judged.noise else "unknown"
+    return Stages(errors, first, last, verdict, nothing or "")

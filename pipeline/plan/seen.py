@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.linalg import block_diag
 
 from pipeline.campaign import Campaign
 from pipeline.diagnose.signatures import Say, look, probes, signatures
@@ -15,22 +16,24 @@ from pipeline.inference.model import Model
 from pipeline.inference.prediction import predict
 from pipeline.inference.program import program
 from pipeline.inference.residual import residual
+from pipeline.inference.span import basis
 from vjm.effects.base import Effect
 
 Array = NDArray[np.float64]
-RANK = 1e-8
 
 
 @dataclass(frozen=True, eq=False)
 class Seen:
     """columns: by effect one (N, p), of typical sizes; of one with kinks one (N, 1) for each size in `probes`.
 
-    base: (N, P) of the model's own numbers. tests: (N,) numbers. share: of the readings, that are looked at.
+    base: (N, P) of the model's own numbers. zeros: (N, Z) of unknown zeros, each of its own test. tests: (N,) numbers.
+    share: of the readings, that are looked at.
     """
 
     columns: Mapping[str, tuple[Array, ...]]
     probes: Mapping[str, tuple[float, ...]]
     base: Array
+    zeros: Array
     tests: NDArray[np.int_]
     share: float
 
@@ -38,7 +41,8 @@ class Seen:
         """Of some tests alone."""
         kept = np.isin(self.tests, tests)
         some = {name: tuple(c[kept] for c in every) for name, every in self.columns.items()}
-        return replace(self, columns=some, base=self.base[kept], tests=self.tests[kept])
+        parts = {"base": self.base[kept], "zeros": self.zeros[kept], "tests": self.tests[kept]}
+        return replace(self, columns=some, **parts)
 
     def and_(self, other: Seen) -> Seen:
         """With the tests of another look at the same candidates."""
@@ -49,18 +53,16 @@ class Seen:
             if name in other.columns and len(other.columns[name]) == len(every)
         }
         base = np.vstack([self.base, other.base * weight])
-        return replace(self, columns=both, base=base, tests=np.concatenate([self.tests, other.tests]))
+        zeros = block_diag(self.zeros, other.zeros * weight)
+        tests = np.concatenate([self.tests, other.tests])
+        return replace(self, columns=both, base=base, zeros=zeros, tests=tests)
 
     def free(self) -> Mapping[str, tuple[Array, ...]]:
         """The columns of all readings, without what the base can explain."""
         scale = 1.0 / np.sqrt(self.share)
-        basis = np.zeros((self.base.shape[0], 0))
-        if self.base.shape[1]:
-            sizes = np.maximum(np.linalg.norm(self.base, axis=0), 1e-300)
-            left, values, _ = np.linalg.svd(self.base / sizes, full_matrices=False)
-            basis = left[:, values > RANK]
+        taken = basis(np.hstack([self.base, self.zeros]))
         return {
-            name: tuple(scale * (c - basis @ (basis.T @ c)) for c in every)
+            name: tuple(scale * (c - taken @ (taken.T @ c)) for c in every)
             for name, every in self.columns.items()
         }
 
@@ -68,6 +70,9 @@ class Seen:
 def seen(campaign: Campaign, model: Model, candidates: Mapping[str, Effect], say: Say) -> Seen:
     """By derivatives and probes about the model's prediction."""
     cases = program(campaign)
+    # A saved number may stand at its bound, where an effect is absent and has no derivative.
+    if model.free:
+        model = model.at(np.clip(model.values, *np.array([each.bounds for each in model.free]).T))
     there = predict(model, cases)
     left = residual(cases, there)
     found = Fit(model, there, replace(left, values=np.zeros_like(left.values)), 1)
@@ -77,12 +82,12 @@ def seen(campaign: Campaign, model: Model, candidates: Mapping[str, Effect], say
     signs = signatures(found, every, kinked, at, say)
     used = cases.predicted & cases.fitted[:, None]
     mask = used[at.rows]
-    base = np.hstack([left.slopes[at.rows][mask], left.offsets[at.rows][mask]])
     tests = np.broadcast_to(cases.test[at.rows][:, None], mask.shape)[mask]
     return Seen(
         {s.effect.name: s.columns for s in signs},
         {s.effect.name: s.probes for s in signs if s.probes},
-        base,
+        left.slopes[at.rows][mask],
+        left.offsets[at.rows][mask],
         tests,
-        float(mask.sum() / used.sum()),
+        float(mask.sum() / max(used.sum(), 1)) or 1.0,
     )

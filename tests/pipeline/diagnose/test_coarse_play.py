@@ -7,10 +7,10 @@ from functools import cache
 import numpy as np
 import pytest
 
+from pipeline.adequacy.patterns import scores
 from pipeline.challenge.benches import scaled
 from pipeline.coverage.cases import BASE
 from pipeline.diagnose.diagnosis import diagnose
-from pipeline.diagnose.patterns import scores
 from pipeline.inference.fit import Fit, fit
 from pipeline.inference.model import Model
 from pipeline.inference.program import Program, program

@@ -7,8 +7,8 @@ from functools import cache
 import numpy as np
 import pytest
 
+from pipeline.adequacy.judgement import judge
 from pipeline.campaign import Campaign
-from pipeline.diagnose.refuse import judge
 from pipeline.inference.fit import Fit, fit
 from pipeline.inference.model import Model
 from pipeline.inference.program import program

@@ -51,7 +51,7 @@ def scores(found: Fit) -> list[Pattern]:
         if not named:
             continue
         errors = np.stack([error for _, error in named], axis=-1)
-        columns = weights.apply(_acting(found, channel, errors))[used]
+        columns = weights.apply(acting(found, channel, errors))[used]
         left = columns - taken @ (taken.T @ columns)
         sizes, whole_sizes = np.linalg.norm(left, axis=0), np.linalg.norm(columns, axis=0)
         seen = sizes > FLAT * np.maximum(whole_sizes, 1e-300)
@@ -77,7 +77,7 @@ def steady(column: Array, residual: Array) -> float:
     return float(np.sign(total) * max(0.0, min(abs(whole), without * np.sign(total))))
 
 
-def _acting(found: Fit, channel: int, errors: Array) -> Array:
+def acting(found: Fit, channel: int, errors: Array) -> Array:
     """(R, C, K) what errors (R, K) of a channel's readings do to the differences of readings and predictions."""
     whole = found.residual.program
     out = np.zeros((*whole.measured.shape, errors.shape[1]))

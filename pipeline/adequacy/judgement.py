@@ -8,9 +8,9 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.stats import chi2, norm
 
-from pipeline.diagnose.constancy import largest_departure
+from pipeline.adequacy.constancy import largest_departure
+from pipeline.adequacy.patterns import scores
 from pipeline.diagnose.evidence import FALSE_ALARM
-from pipeline.diagnose.patterns import scores
 from pipeline.inference.driving import column_name
 from pipeline.inference.fit import Fit, fit
 from pipeline.inference.program import program

@@ -7,9 +7,9 @@ from functools import cache
 
 import pytest
 
+from pipeline.adequacy.constancy import largest_departure
+from pipeline.adequacy.judgement import judge
 from pipeline.campaign import Campaign
-from pipeline.diagnose.constancy import largest_departure
-from pipeline.diagnose.refuse import judge
 from pipeline.inference.fit import Fit
 from pipeline.inference.model import Model
 from pipeline.inference.program import program

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from pipeline.diagnose.patterns import FLAT, steady
+from pipeline.adequacy.patterns import FLAT, steady
 from pipeline.inference.fit import Fit
 from pipeline.inference.span import basis
 

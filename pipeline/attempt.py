@@ -1,0 +1,39 @@
+"""Work that may fail without taking the result with it: pictures, the next test, words."""
+
+from __future__ import annotations
+
+import logging
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from typing import TypeVar
+
+from numpy.linalg import LinAlgError
+
+Out = TypeVar("Out")
+LOG = logging.getLogger(__name__)
+
+
+@dataclass
+class Attempts:
+    """Runs optional work; `failed` has a sentence for each part that failed, in order."""
+
+    failed: list[str] = field(default_factory=list)
+
+    def get(self, what: str, work: Callable[[], Out], otherwise: Out) -> Out:
+        """What the work returns, or `otherwise` where it fails. what: begins the sentence, such as "the next test"."""
+        try:
+            return work()
+        # Whatever goes wrong in an optional part, a user's own effect included, the verdict stays.
+        except Exception as error:
+            LOG.info("%s failed", what, exc_info=True)
+            self.failed.append(f"{what} could not be worked out: {plain(error)}")
+            return otherwise
+
+
+def plain(error: Exception) -> str:
+    """An error in words of the field; what a library of linear algebra says of itself says nothing to a user."""
+    if isinstance(error, LinAlgError):
+        return "its equations have no single solution"
+    if isinstance(error, ArithmeticError):
+        return "its numbers leave the range of arithmetic"
+    return str(error) or type(error).__name__

@@ -1,0 +1,141 @@
+"""The verdict on what a search has found: a name is given only to what nothing else explains as well.
+
+Never from a number that nothing determines, or that ends at its bound; never without a reading left to test it by, and
+never where a sensor that was not zeroed would do.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from pipeline.adequacy.judgement import Judgement
+from pipeline.answer import Verdict
+from pipeline.attempt import Attempts
+from pipeline.diagnose.apart import Likeness, likenesses
+from pipeline.diagnose.determined import determined, undetermined
+from pipeline.diagnose.evidence import RAW
+from pipeline.diagnose.exclusion import needed, worse
+from pipeline.diagnose.merit import implausibility, is_noise, taken
+from pipeline.diagnose.rivals import Found
+from pipeline.diagnose.sensor_faults import Instead, faults_instead, zero_first
+from pipeline.diagnose.shelf import Names, Shelf
+from pipeline.inference.fit import Fit
+from pipeline.inference.model import at_bound
+
+EQUAL = 1.0 - 1e-6
+"""Correlation from which two effects are one in all readings."""
+
+
+@dataclass(frozen=True, eq=False)
+class Ruling:
+    """A verdict. sets: the simplest first; one where the verdict is certain. fit: of the first, its numbers that nothing
+    determines at null. instead: faults of sensors that explain as much; zero: one that comes before all physics.
+
+    at_bound: numbers of the first set that end at their bound. out: sets that only an implausible size excludes.
+    because: why the best set is not named though it explains all.
+    """
+
+    verdict: Verdict
+    sets: tuple[Names, ...]
+    fit: Fit
+    instead: tuple[Instead, ...] = ()
+    zero: Instead | None = None
+    alike: tuple[Likeness, ...] = ()
+    at_bound: tuple[str, ...] = ()
+    out: tuple[Names, ...] = ()
+    because: str = ""
+
+
+def ruled(found: Found, judgement: Judgement, attempts: Attempts) -> Ruling:
+    """The ruling. What is optional and fails is said in the attempts."""
+    shelf, best = found.shelf, found.best
+    here = shelf.fit(best)
+    alike = tuple(attempts.get("what could be taken for what", lambda: likenesses(shelf, best), []))
+    zero = attempts.get("whether a sensor was not zeroed", lambda: zero_first(found), None)
+    bounded = at_bound(here.model)
+    out = tuple(_implausible(found))
+    if zero is not None and zero.zero is not None and zero.zero.unloaded and not zero.without:
+        if shelf.fit(zero.without).degrees <= 1:
+            return Ruling("nothing_tested", (zero.without,), shelf.fit(zero.without), (), zero)
+    if not judgement.noise:
+        if zero is not None and not zero.without:
+            # What a sensor's zero hides is named when that is settled.
+            return Ruling("unknown", (zero.without,), shelf.fit(zero.without), (), zero)
+        return Ruling("unknown", (best,), here, (), zero, alike, bounded, out)
+    instead = attempts.get("what a sensor's fault would explain", lambda: faults_instead(found), ())
+    rivals = _with_equals(found, alike, bounded)
+    if zero is not None:
+        instead = (*instead, zero)
+    sets = tuple(sorted(dict.fromkeys((best, *rivals)), key=lambda n: _simplicity(shelf, n)))
+    if not best and zero is None and not rivals:
+        return Ruling("within_noise", (best,), here, (), None, alike, (), out)
+    if len(sets) > 1 or instead:
+        return Ruling(
+            "ambiguous",
+            sets,
+            shelf.fit(sets[0]),
+            instead,
+            zero,
+            alike,
+            at_bound(shelf.fit(sets[0]).model),
+            out,
+        )
+    settled = determined(here, shelf.whole) if undetermined(here, shelf.whole) else here
+    because = _not_named(settled, shelf, bounded)
+    verdict: Verdict = "unknown" if because else "identified"
+    return Ruling(verdict, (best,), settled, (), None, alike, bounded, out, because)
+
+
+def _not_named(settled: Fit, shelf: Shelf, bounded: tuple[str, ...]) -> str:
+    """Why a set that explains all is not named; empty where it may be."""
+    if bounded:
+        return f"{', '.join(bounded)} ends at the bound of what it may be"
+    if settled.degrees < 1:
+        return "it takes as many numbers as there are readings, so none is left to test it by"
+    blind = undetermined(settled, shelf.whole)
+    if blind:
+        return f"these tests do not determine {', '.join(blind)}"
+    return ""
+
+
+def _with_equals(found: Found, alike: tuple[Likeness, ...], bounded: tuple[str, ...]) -> list[Names]:
+    """The rivals, and those that are one with an effect of the best set in all readings; where a number of the best set
+    ends at its bound it excludes nothing that leaves noise."""
+    shelf, best = found.shelf, found.best
+    rivals = list(found.rivals)
+    for each in alike:
+        other = best - {each.effect} | {each.rival}
+        if each.correlation > EQUAL and shelf.affords(other) and _whole(shelf, other):
+            shelf.fit(other)
+            if worse(shelf, other, best) <= max(RAW, needed(shelf, other, best)):
+                rivals.append(other)
+    if bounded:
+        room = taken(shelf, best)
+        rivals += [n for n in shelf.fits if n != best and taken(shelf, n) <= room and is_noise(shelf, n)]
+    return [n for n in dict.fromkeys(rivals) if n != best]
+
+
+def _whole(shelf: Shelf, names: Names) -> bool:
+    """Whether every effect of a set has those that it cannot be without."""
+    there = names | set(shelf.base.names)
+    return all(set(shelf.candidates[name].includes) <= there for name in names)
+
+
+def _implausible(found: Found) -> Iterator[Names]:
+    """Sets as simple as the best one that fit as well and are out only because their numbers would be implausible."""
+    shelf, best = found.shelf, found.best
+    mine = implausibility(shelf.fit(best))
+    for names in shelf.fits:
+        if names == best or names in found.rivals or not names or best < names or names < best:
+            continue
+        if len(names) > len(best) and taken(shelf, names) > taken(shelf, best):
+            continue
+        far = implausibility(shelf.fit(names)) - mine
+        limit = max(RAW, needed(shelf, names, best))
+        if worse(shelf, names, best) > limit >= worse(shelf, names, best) - max(far, 0.0):
+            yield names
+
+
+def _simplicity(shelf: Shelf, names: Names) -> tuple[int, int, float]:
+    return len(names), taken(shelf, names), shelf.fit(names).chi_square

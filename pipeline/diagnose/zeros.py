@@ -1,0 +1,105 @@
+"""A sensor that was not zeroed: one constant of one channel, in all tests or in one, beside a set of effects.
+
+A constant of one channel is first a zero: a dial that starts at 2.95 mm is no wrong dimension. The constant of what
+controls a coordinate acts through the mechanism.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.stats import chi2
+
+from pipeline.adequacy.patterns import FLAT, acting
+from pipeline.diagnose.evidence import FALSE_ALARM
+from pipeline.inference.driving import column_name, unit_of
+from pipeline.inference.fit import Fit
+from pipeline.inference.program import Program
+from pipeline.inference.residual import whitening
+from pipeline.inference.span import basis
+
+Array = NDArray[np.float64]
+NOTHING = 0.01
+"""Part of a constant that is nothing beside it."""
+
+
+@dataclass(frozen=True)
+class Zero:
+    """A constant that a channel reads too much. tests: ids of those it is in. value, std: in `unit`. gain: chi-square
+    that it takes off, after the numbers of the fit took their part; looks: how many constants were looked at. unloaded:
+    whether the model expects nothing of the channel there, so that the readings are nothing but this constant."""
+
+    column: str
+    tests: tuple[str, ...]
+    everywhere: bool
+    value: float
+    std: float
+    unit: str
+    gain: float
+    looks: int
+    unloaded: bool
+
+    @property
+    def price(self) -> float:
+        """Chi-square that noise alone takes off by the best of so many constants, once in two hundred campaigns."""
+        return float(chi2.isf(FALSE_ALARM / self.looks, 1))
+
+    @property
+    def words(self) -> str:
+        """As an engineer would ask."""
+        where = "" if self.everywhere else f" in {self.tests[0]}"
+        return f'{self.column} starts at {self.value:.3g} {self.unit}{where}: zero = "fitted"?'
+
+
+def zeros(found: Fit) -> list[Zero]:
+    """Every constant that the readings can tell beside the numbers of a fit, the one that explains most first."""
+    whole = found.residual.program
+    named = list(_constants(whole))
+    if not named:
+        return []
+    used = whole.predicted & whole.fitted[:, None]
+    weights = whitening(whole, found.prediction)
+    taken = basis(np.hstack([found.jacobian, found.residual.flat(found.residual.offsets)]))
+    out = []
+    for channel in dict.fromkeys(channel for channel, _ in named):
+        own = [tests for other, tests in named if other == channel]
+        errors = np.stack([np.isin(whole.test, tests).astype(float) for tests in own], axis=-1)
+        errors[found.prediction.lost] = 0.0
+        columns = weights.apply(acting(found, channel, errors))[used]
+        left = columns - taken @ (taken.T @ columns)
+        sizes = np.linalg.norm(left, axis=0)
+        seen = sizes > FLAT * np.maximum(np.linalg.norm(columns, axis=0), 1e-300)
+        for k in np.flatnonzero(seen):
+            value = float(left[:, k] @ found.whitened / sizes[k] ** 2)
+            out.append(_zero(found, channel, own[k], value, 1.0 / float(sizes[k]), len(named)))
+    return sorted(out, key=lambda it: -it.gain)
+
+
+def _zero(found: Fit, channel: int, tests: tuple[int, ...], value: float, std: float, looks: int) -> Zero:
+    whole, expected = found.residual.program, found.prediction.values
+    ids = tuple(whole.campaign.tests[k].id for k in tests)
+    every = {t for c, t in _constants(whole) if c == channel}
+    largest = max(every, key=len)
+    unit = unit_of(channel).replace("Nmm", "N·mm")
+    rows = np.isin(whole.test, tests) & whole.predicted[:, channel]
+    unloaded = bool(rows.any() and np.all(np.abs(expected[rows, channel]) < NOTHING * abs(value)))
+    name = column_name(channel, whole.campaign.gauges)
+    return Zero(name, ids, tests == largest, value, std, unit, (value / std) ** 2, looks, unloaded)
+
+
+def _constants(whole: Program) -> Iterator[tuple[int, tuple[int, ...]]]:
+    """Channel and numbers of the tests of every constant: all tests in which the channel was read from its own zero,
+    and each of several alone."""
+    fitted = [
+        k for k, test in enumerate(whole.campaign.tests) if test.role == "fit" and test.zero == "nominal"
+    ]
+    for channel in np.flatnonzero(np.isfinite(whole.measured).any(axis=0) & (whole.sigma > 0.0)):
+        mine = [k for k in fitted if np.isfinite(whole.measured[whole.test == k, channel]).any()]
+        if mine:
+            yield int(channel), tuple(mine)
+        if len(mine) > 1:
+            for k in mine:
+                yield int(channel), (k,)
