@@ -86,7 +86,8 @@ def root(condition: Callable[[float], float], low: float, high: float) -> float:
 def torsional_load(s: Segment, warping_waves: float, polar_radius_squared: float) -> float:
     """Compression that buckles a doubly symmetric bar in torsion, N: (GJ + (n π / L)² EIw) / r₀².
 
-    `warping_waves` n: 2 where both ends are held plane and from turning, 1/2 where one end is free of both;
+    `warping_waves` n: 2 where both ends are held plane and from turning, 1 where one end is held plane but may turn,
+    1/2 where it is free of both;
     `polar_radius_squared` r₀² = (Iy + Iz) / A, mm².
     """
     return (s.GJ + (warping_waves * pi / s.length) ** 2 * s.EIw) / polar_radius_squared

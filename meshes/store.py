@@ -15,11 +15,10 @@ from meshes.resolution import Resolution
 from meshes.solid import FACET_OF, SolidMesh
 from meshes.sweep import build_swept
 from meshes.tets import build_tetrahedra
+from meshes.workable import require_workable
 
 # Part of the cache key: raise it when the same input would give another mesh.
 MESHER = 2
-# Half a million quadratic hexahedra are six million unknowns, beyond what a direct solver takes here.
-MOST_CELLS = 5e5
 FACES = ("base", "tip", "side")
 
 
@@ -39,29 +38,6 @@ def mesh_bar(bar: Bar, resolution: Resolution, tetrahedra: bool = False) -> Soli
         path = Path(folder) / "bar.msh"
         gmsh.write(str(path))
         return read_mesh(path)
-
-
-def require_workable(bar: Bar, resolution: Resolution) -> None:
-    """Raise ValueError for a mesh size that resolves nothing or that no machine could hold."""
-    coarsest = bar.length / 4
-    if resolution.size > coarsest:
-        raise ValueError(
-            f"mesh size is {resolution.size:g} mm, allowed is at most a quarter of the bar's length, {coarsest:g} mm"
-        )
-    cells = estimated_cells(bar, resolution)
-    if cells > MOST_CELLS:
-        raise ValueError(
-            f"mesh size is {resolution.size:g} mm, at level {resolution.level} that makes about {cells:.2g} cells; "
-            f"allowed are {MOST_CELLS:g}: take a larger size"
-        )
-
-
-def estimated_cells(bar: Bar, resolution: Resolution) -> float:
-    """About how many swept hexahedra a bar takes."""
-    width, height = bar.section.size
-    filled = bar.section.area / (width * height)
-    across = resolution.across(width) * resolution.across(height)
-    return max(filled * across, resolution.level**2) * 2.0 * resolution.along(bar.length / 2)[0]
 
 
 def read_mesh(path: Path) -> SolidMesh:

@@ -7,6 +7,7 @@ from pipeline.errors import InputError
 from pipeline.progress import Progress
 from pipeline.system import require_libraries
 from pipeline.validation.case import load_case
+from pipeline.validation.detail import COARSE, DEFAULT, FINE
 
 KEPT = Path("reports/validation")
 OWN = Path("results")
@@ -15,15 +16,14 @@ WORKSHOP = Path(".parastiff")
 
 def validate(name: str, coarse: bool, fine: bool, out: Path | None, quiet: bool, typed: str) -> None:
     """The whole validation of a case, and its report; `typed` is the command line."""
-    case = load_case(name)
+    detail = COARSE if coarse else FINE if fine else DEFAULT
+    case = load_case(name, max(detail.study))
     require_libraries()
-    from pipeline.validation.detail import COARSE, DEFAULT, FINE
     from pipeline.validation.result import write_result
     from pipeline.validation.run import run
     from pipeline.validation.workshop import Workshop
 
     progress = Progress(quiet)
-    detail = COARSE if coarse else FINE if fine else DEFAULT
     # Only the default look at the paper's case replaces the report that is kept with the project.
     kept = name == "orthoglide" and detail is DEFAULT
     folder = out or (KEPT if kept else OWN / f"{case.name}-{detail.name}")

@@ -1,165 +1,28 @@
-"""A validation case: TOML in, frozen Case out; every complaint names the file, the key, what was found and allowed."""
+"""A validation case: TOML in, frozen Case out; all complaints at once, each with file, line, key, found and allowed."""
 
 import tomllib
-from math import isfinite
+from copy import deepcopy
 from pathlib import Path
-from typing import Annotated, Any, Literal
+from typing import Any, TypeVar
 
-from pydantic import BaseModel, ConfigDict, Field, ValidationError, field_validator, model_validator
+from pydantic import BaseModel, ValidationError
 
+from meshes.resolution import Resolution
+from meshes.workable import require_workable
+from pipeline.campaign.complaints import Complaints
+from pipeline.campaign.toml_lines import TomlLines
 from pipeline.errors import InputError
+from pipeline.validation.case_tables import BarChoice, Case, LinkageSize, MeshSize
+from pipeline.validation.geometry import bar_of, contradictions, height_of, overlapping
+
+__all__ = ["SHIPPED", "Case", "load_case", "shipped_cases"]
 
 SHIPPED = Path(__file__).parent / "cases"
-Number = Annotated[float, Field(strict=True, allow_inf_nan=False)]
-Length = Annotated[Number, Field(gt=0.0)]
-Angle = Annotated[Number, Field(ge=-60.0, le=60.0)]
-Matrix = tuple[tuple[Number, ...], ...]
 TOML_NAMES: dict[type, str] = {dict: "table", list: "list", tuple: "list"}
+TAGS = ("i_section", "rectangle", "round", "tube")
+"""What pydantic puts into the place of a mistake in a section beside its keys."""
 
-
-class Part(BaseModel):
-    """A table of the case file; unknown keys are refused."""
-
-    model_config = ConfigDict(extra="forbid", frozen=True)
-
-
-class Material(Part):
-    """Isotropic material."""
-
-    E_MPa: Annotated[Number, Field(gt=0.0)]
-    nu: Annotated[Number, Field(gt=-1.0, lt=0.5)]
-    source: str = ""
-
-
-class LinkageSize(Part):
-    """Length between the pins, distance of the bars, and the angles to look at."""
-
-    length_mm: Length
-    width_mm: Length
-    angles_deg: tuple[Angle, ...] = (0.0,)
-
-    @field_validator("angles_deg")
-    @classmethod
-    def each_once(cls, value: tuple[float, ...]) -> tuple[float, ...]:
-        if not value or len(set(value)) != len(value):
-            raise ValueError("allowed is a list of one or more angles, each once")
-        return value
-
-
-class ISectionSize(Part):
-    """I-section: flanges along y, height along z."""
-
-    kind: Literal["i_section"]
-    flange_width_mm: Length
-    flange_thickness_mm: Length
-    height_mm: Length
-    web_mm: Length
-
-
-class RectangleSize(Part):
-    """Solid rectangle: width along y, height along z."""
-
-    kind: Literal["rectangle"]
-    width_mm: Length
-    height_mm: Length
-
-
-class RoundSize(Part):
-    """Solid round."""
-
-    kind: Literal["round"]
-    diameter_mm: Length
-
-
-class TubeSize(Part):
-    """Round tube."""
-
-    kind: Literal["tube"]
-    outer_diameter_mm: Length
-    wall_mm: Length
-
-
-class LugSize(Part):
-    """Block in place of the section at both ends."""
-
-    length_mm: Length
-    width_mm: Length
-    height_mm: Length
-
-
-SectionSize = Annotated[ISectionSize | RectangleSize | RoundSize | TubeSize, Field(discriminator="kind")]
-
-
-class BarChoice(Part):
-    """Either dimensions, or the family of which the one that meets the paper's matrix is to be found."""
-
-    section: SectionSize | None = None
-    lug: LugSize | None = None
-    family: Literal["i_section"] | None = None
-    lug_length_mm: Length | None = None
-    meets: Literal["paper"] | None = None
-
-    @model_validator(mode="after")
-    def one_way(self) -> "BarChoice":
-        if (self.section is None) == (self.family is None):
-            raise ValueError("allowed is one of the two: section (dimensions), or family with meets")
-        if self.family is not None and (
-            self.meets is None or self.lug_length_mm is None or self.lug is not None
-        ):
-            raise ValueError(
-                'a family needs meets = "paper" and lug_length_mm, and takes no lug: its size is found'
-            )
-        if self.family is None and (self.meets is not None or self.lug_length_mm is not None):
-            raise ValueError("meets and lug_length_mm belong to a family, not to a section")
-        return self
-
-
-class Paper(Part):
-    """Published matrices to stand beside the computed ones."""
-
-    source: str
-    bar_stiffness: Matrix
-    half_linkage_stiffness: Matrix | None = None
-    linkage_angle_deg: Number | None = None
-
-    @field_validator("bar_stiffness", "half_linkage_stiffness")
-    @classmethod
-    def six_by_six(cls, value: Matrix | None) -> Matrix | None:
-        if value is None:
-            return None
-        if len(value) != 6 or any(len(row) != 6 for row in value):
-            raise ValueError("allowed is a matrix of 6 rows with 6 numbers")
-        if not all(isfinite(x) for row in value for x in row):
-            raise ValueError("allowed are finite numbers")
-        if any(value[i][j] != value[j][i] for i in range(6) for j in range(i)):
-            raise ValueError("allowed is a symmetric matrix")
-        return value
-
-
-class MeshSize(Part):
-    """Coarse element size; the levels of detail refine it."""
-
-    size_mm: Length = 8.0
-
-
-class Case(Part):
-    """Everything a validation run needs to know."""
-
-    schema_version: Annotated[int, Field(alias="schema", strict=True, ge=1, le=1)]
-    name: Annotated[str, Field(pattern=r"^[A-Za-z0-9][A-Za-z0-9_-]*$")]
-    title: str
-    source: str = ""
-    material: Material
-    linkage: LinkageSize
-    bar: BarChoice
-    paper: Paper | None = None
-    mesh: MeshSize = MeshSize()
-
-    @model_validator(mode="after")
-    def matrix_to_meet(self) -> "Case":
-        if self.bar.meets == "paper" and self.paper is None:
-            raise ValueError("bar.meets is 'paper', but there is no [paper] table with bar_stiffness")
-        return self
+Table = TypeVar("Table", bound=BaseModel)
 
 
 def shipped_cases() -> list[str]:
@@ -167,8 +30,11 @@ def shipped_cases() -> list[str]:
     return sorted(path.stem for path in SHIPPED.glob("*.toml"))
 
 
-def load_case(name: str) -> Case:
-    """The shipped case of this name, or the case in the TOML file at this path; InputError says what is wrong."""
+def load_case(name: str, finest: int = 1) -> Case:
+    """The shipped case of this name, or the case in the TOML file at this path; InputError says all that is wrong.
+
+    `finest` is the level of the finest mesh that will be made of it.
+    """
     path = SHIPPED / f"{name}.toml" if name in shipped_cases() else Path(name)
     if path.is_dir():
         raise InputError(f"case {name!r} is a folder, allowed is the path of a .toml file")
@@ -176,20 +42,89 @@ def load_case(name: str) -> Case:
         allowed = ", ".join(shipped_cases())
         raise InputError(f"case {name!r} is unknown, allowed are {allowed} or the path of a .toml file")
     try:
-        raw = tomllib.loads(path.read_text(encoding="utf-8-sig"))
+        text = path.read_text(encoding="utf-8-sig")
+        raw = tomllib.loads(text)
     except (tomllib.TOMLDecodeError, UnicodeDecodeError, OSError) as error:
         raise InputError(f"{path}: not a readable TOML file: {error}") from error
-    try:
-        return Case.model_validate(raw)
-    except ValidationError as error:
-        raise InputError("; ".join(f"{path}: {complaint(e)}" for e in error.errors())) from error
+    reader = _Reader(raw, text, Complaints(str(path)))
+    case = reader.case()
+    reader.together(finest)
+    reader.complaints.check()
+    if case is None:
+        raise AssertionError("a case that cannot be used has raised a complaint")
+    return case
+
+
+class _Reader:
+    """Checks every table, and then what has to go together of those that are right by themselves."""
+
+    def __init__(self, raw: dict[str, Any], text: str, complaints: Complaints) -> None:
+        self.raw, self.complaints = raw, complaints
+        self.lines = TomlLines(text.replace("\r\n", "\n"))
+
+    def case(self) -> Case | None:
+        """The case, or None after a complaint."""
+        try:
+            return Case.model_validate(self.raw)
+        except ValidationError as error:
+            for mistake in error.errors():
+                path = tuple(step for step in mistake["loc"] if step not in TAGS)
+                self._say(path, complaint(mistake))
+        return None
+
+    def together(self, finest: int) -> None:
+        """Complaints about dimensions that contradict each other, and about a mesh that cannot be made of them."""
+        linkage, bar = self._table(LinkageSize, "linkage"), self._table(BarChoice, "bar")
+        if linkage is None or bar is None or bar.section is None:
+            return
+        mistakes = contradictions(bar, linkage.length_mm)
+        for key, said in mistakes:
+            self._say(("bar", key), said)
+        if said := overlapping(linkage.width_mm, linkage.angles_deg, height_of(bar)):
+            self._say(("linkage", "width_mm"), said)
+        mesh = self._table(MeshSize, "mesh")
+        if mistakes or mesh is None:
+            return
+        try:
+            require_workable(bar_of(bar, linkage.length_mm), Resolution(mesh.size_mm, finest))
+        except ValueError as error:
+            self._say(("mesh", "size_mm"), f"mesh: {error}")
+
+    def _table(self, kind: type[Table], name: str) -> Table | None:
+        """A table without its unknown keys, of which `case` complains; None where anything else is wrong with it."""
+        raw = deepcopy(self.raw.get(name, {}))
+        try:
+            return kind.model_validate(raw)
+        except ValidationError as error:
+            mistakes = error.errors()
+        if any(mistake["type"] != "extra_forbidden" for mistake in mistakes):
+            return None
+        for mistake in mistakes:
+            *above, key = (step for step in mistake["loc"] if step not in TAGS)
+            table = raw
+            for step in above:
+                table = table[step]
+            del table[key]
+        try:
+            return kind.model_validate(raw)
+        except ValidationError:
+            return None
+
+    def _say(self, path: tuple[str | int, ...], said: str) -> None:
+        self.complaints.add("", said, self._line(path))
+
+    def _line(self, path: tuple[str | int, ...]) -> int | None:
+        """Line of a key, whether its table has a header of its own, [bar.section], or stands in a line."""
+        for length in range(len(path), 0, -1):
+            header = ".".join(map(str, path[:length]))
+            if (line := self.lines.of(header, *path[length:])) is not None:
+                return line
+        return None
 
 
 def complaint(error: Any) -> str:
     """One of pydantic's complaints as place, what was found, what is allowed."""
-    place = ".".join(
-        str(step) for step in error["loc"] if step not in ("i_section", "rectangle", "round", "tube")
-    )
+    place = ".".join(str(step) for step in error["loc"] if step not in TAGS)
     kind = error["type"]
     if kind == "missing":
         return f"{place} is missing"
@@ -203,6 +138,8 @@ def complaint(error: Any) -> str:
     if kind == "union_tag_invalid":
         return f"{place}.kind is {error['ctx']['tag']!r}, allowed are: {error['ctx']['expected_tags']}"
     wanted = message[0].lower() + message[1:]
+    if kind == "string_pattern_mismatch":
+        wanted = "a name of letters, digits, - and _ that begins with a letter or a digit"
     if kind == "value_error":
         return f"{place}: {wanted}" if place else wanted
     wanted = wanted.removeprefix("input should be ")

@@ -133,6 +133,13 @@ class Buckling(Record):
     """Extrapolated to a mesh without error."""
     band: float | None = None
     """Relative discretisation error of `load_N`."""
+    mac: float | None = None
+    """How alike the shapes of the solid and of its formula are, 0 to 1; of a mode that has no formula, of `nearest`."""
+    nearest: str | None = None
+    """The formula whose shape is nearest, where none is near enough to be that of the mode."""
+    nearest_N: float | None = None
+    mesh_mac: float | None = None
+    """How alike the shapes on two meshes are, 0 to 1; where they are not, there is no `band`."""
 
 
 class Parallelogram(Record):

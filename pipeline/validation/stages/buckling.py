@@ -5,16 +5,19 @@ from pathlib import Path
 import meshio
 import numpy as np
 
+from fem.axis_shape import AxisShape, axis_shape
 from fem.buckling import Mode, buckling
 from fem.convergence import limit_of_two
-from fem.euler import bending_of, critical_compression, torsional_load
+from fem.euler import bending_of
 from fem.linear import LinearModel
 from fem.linkage import single_bar
+from fem.mode_formulas import FormulaMode, bending_modes, torsion_modes
 from fem.space import Space
 from meshes.files import replacing
 from meshes.solid import SolidMesh
 from pipeline.progress import Stage
 from pipeline.validation.result import Buckling, Convergence
+from pipeline.validation.stages.mode_matching import Match, with_formulas, with_shapes
 from pipeline.validation.stages.specimen import Specimen
 
 ALL_BUT_X = ("y", "z", "rx", "ry", "rz")
@@ -25,14 +28,14 @@ HELD: dict[str, tuple[str, ...]] = {
     "pinned": ALL_BUT_X,
 }
 MODES = 6
-# Half waves of warping for the torsional formula: a free tip warps and turns, all others neither.
-WARPING_WAVES = {"free": 0.5, "guided": 2.0, "clamped": 2.0, "pinned": 2.0}
-
+# On the second mesh, where the order of modes may be another one.
+MORE_MODES = MODES + 2
 
 # Entry of K_b whose order of convergence a mode in each plane has: that of its bending, or of the twist.
 ORDER_OF = {"xy": "K66", "xz": "K55", "torsion": "K44"}
 # Where the mesh study found no order.
 SLOWEST = 1.0
+TORSION = "(GJ + (n π/L)² EIw) / r₀²"
 
 
 def mode_files() -> tuple[str, ...]:
@@ -42,58 +45,78 @@ def mode_files() -> tuple[str, ...]:
 
 def buckle_bar(s: Specimen, study: Convergence, folder: Path, stage: Stage) -> list[Buckling]:
     """Modes of all supports with their mesh errors and formulas; the shapes go to `folder`, a file for each support."""
-    stiffness = s.model.stiffness
-    body = s.segments[len(s.segments) // 2]
-    planes = {
-        "xy": bending_of(stiffness, s.bar.length, "xy", body.GAy),
-        "xz": bending_of(stiffness, s.bar.length, "xz", body.GAz),
-    }
-    polar = (s.constants.Iy + s.constants.Iz) / s.constants.area
     other = s.detail.companion
     space = Space.of(s.mesh(other))
     records = []
     for supports in HELD:
         stage.say(f"{supports} tip")
-        modes = modes_of(s, s.space, supports)
+        modes = modes_of(s, s.space, supports, MODES)
         write_modes(s.space.mesh, modes, folder / f"{supports}.vtu")
-        beside = by_plane(modes_of(s, space, supports))
-        seen = {"xy": 0, "xz": 0, "torsion": 0}
+        beside = modes_of(s, space, supports, MORE_MODES)
+        formulas = formulas_of(s, supports)
+        shapes = shapes_of(s, s.space.mesh, modes)
+        by_formula = with_formulas(shapes, formulas)
+        by_mesh = with_shapes(shapes, shapes_of(s, space.mesh, beside))
         for number, mode in enumerate(modes, 1):
-            seen[mode.plane] += 1
             record = solid_record(supports, number, mode)
-            if len(beside[mode.plane]) >= seen[mode.plane]:
-                twin = beside[mode.plane][seen[mode.plane] - 1].load
-                record = with_band(record, twin, (s.detail.working, other), study)
-            if mode.plane != "torsion":
-                # A bar pinned about y is clamped sideways.
-                effective = "clamped" if (supports, mode.plane) == ("pinned", "xy") else supports
-                load = critical_compression(planes[mode.plane], effective, seen[mode.plane])
-                name = f"{effective}, mode {seen[mode.plane]} in {mode.plane}, Euler with shear and soft ends"
-                record = with_formula(record, load, name)
-            records.append(record)
-        torsion = torsional_load(body, WARPING_WAVES[supports], polar)
-        records.append(torsion_record(supports, torsion))
+            record = with_band(record, by_mesh[number - 1], beside, (s.detail.working, other), study)
+            records.append(with_formula(record, by_formula[number - 1], formulas))
+        torsion = next(f for f in formulas if f.plane == "torsion")
+        records.append(torsion_record(supports, torsion.load))
     return records
 
 
-def modes_of(s: Specimen, space: Space, supports: str) -> tuple[Mode, ...]:
+def modes_of(s: Specimen, space: Space, supports: str, count: int) -> tuple[Mode, ...]:
     """The lowest modes of the bar under named supports, on the working mesh or another one."""
     if supports != "pinned" and space is s.space:
-        return buckling(s.model, HELD[supports], MODES)
+        return buckling(s.model, HELD[supports], count)
     model = LinearModel(single_bar(space, s.bar.length, supports == "pinned"), s.material)
-    return buckling(model, HELD[supports], MODES)
+    return buckling(model, HELD[supports], count)
 
 
-def by_plane(modes: tuple[Mode, ...]) -> dict[str, list[Mode]]:
-    """The modes of each plane, lowest first."""
-    return {plane: [m for m in modes if m.plane == plane] for plane in ORDER_OF}
+def shapes_of(s: Specimen, mesh: SolidMesh, modes: tuple[Mode, ...]) -> list[AxisShape]:
+    """Axis and twist of each mode."""
+    radius = float(np.sqrt(polar_radius_squared(s)))
+    return [axis_shape(mesh, mode.displacements[0], radius) for mode in modes]
 
 
-def with_band(record: Buckling, twin: float, levels: tuple[int, int], study: Convergence) -> Buckling:
-    """The record with its limit and error band, from the same mode on a second mesh and the study's order."""
+def polar_radius_squared(s: Specimen) -> float:
+    """r₀² = (Iy + Iz) / A of the section between the lugs, mm²."""
+    return (s.constants.Iy + s.constants.Iz) / s.constants.area
+
+
+def formulas_of(s: Specimen, supports: str) -> list[FormulaMode]:
+    """As many modes by formula in each plane, and in torsion, as the solid has in all."""
+    body, length = s.segments[len(s.segments) // 2], s.bar.length
+    found = []
+    for plane, shear in (("xy", body.GAy), ("xz", body.GAz)):
+        # A bar pinned about y is clamped sideways.
+        effective = "clamped" if (supports, plane) == ("pinned", "xy") else supports
+        found += bending_modes(bending_of(s.model.stiffness, length, plane, shear), plane, effective, MODES)
+    return [*found, *torsion_modes(body, length, supports, polar_radius_squared(s), MODES)]
+
+
+def named(formula: FormulaMode) -> str:
+    """A formula and its mode in words."""
+    if formula.plane == "torsion":
+        return f"torsion, mode {formula.number}, {TORSION}"
+    return f"{formula.supports}, mode {formula.number} in {formula.plane}, Euler with shear and soft ends"
+
+
+def with_band(
+    record: Buckling, match: Match, beside: tuple[Mode, ...], levels: tuple[int, int], study: Convergence
+) -> Buckling:
+    """The record with its limit and error band, from the mode of the same shape on a second mesh and the study's order.
+
+    Without such a mode there is neither.
+    """
+    if match.partner is None:
+        return record.model_copy(update={"mesh_mac": match.mac})
     order = study.orders[ORDER_OF[record.plane]] or SLOWEST
-    found = limit_of_two((1 / levels[0], 1 / levels[1]), (record.load_N, twin), order)
-    return record.model_copy(update={"limit_N": found.limit, "band": found.band(record.load_N)})
+    loads = (record.load_N, beside[match.partner].load)
+    found = limit_of_two((1 / levels[0], 1 / levels[1]), loads, order)
+    update = {"limit_N": found.limit, "band": found.band(record.load_N), "mesh_mac": match.mac}
+    return record.model_copy(update=update)
 
 
 def torsion_record(supports: str, load: float) -> Buckling:
@@ -105,7 +128,7 @@ def torsion_record(supports: str, load: float) -> Buckling:
         plane="torsion",
         mode=1,
         load_N=load,
-        formula="(GJ + (n π/L)² EIw) / r₀²",
+        formula=TORSION,
     )
 
 
@@ -116,9 +139,19 @@ def solid_record(supports: str, number: int, mode: Mode) -> Buckling:
     )
 
 
-def with_formula(record: Buckling, load: float, name: str) -> Buckling:
-    """The record with a formula's load beside it."""
-    update = {"formula_N": load, "formula": name, "deviation": record.load_N / load - 1.0}
+def with_formula(record: Buckling, match: Match, formulas: list[FormulaMode]) -> Buckling:
+    """The record with the load of the formula of the same shape beside it; without one, which is nearest."""
+    if match.partner is None:
+        nearest = formulas[match.nearest]
+        update = {"nearest": named(nearest), "nearest_N": nearest.load, "mac": match.mac}
+        return record.model_copy(update=update)
+    formula = formulas[match.partner]
+    update = {
+        "formula_N": formula.load,
+        "formula": named(formula),
+        "deviation": record.load_N / formula.load - 1.0,
+        "mac": match.mac,
+    }
     return record.model_copy(update=update)
 
 

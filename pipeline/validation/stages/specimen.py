@@ -17,13 +17,14 @@ from meshes.bar import Bar, Lug
 from meshes.resolution import Resolution
 from meshes.section import ISection, Rectangle
 from meshes.solid import Floats, SolidMesh
-from meshes.store import cached_mesh, require_workable
+from meshes.store import cached_mesh
+from meshes.workable import require_workable
 from pipeline.errors import InputError
 from pipeline.progress import Stage
 from pipeline.validation.case import Case
 from pipeline.validation.detail import Detail
 from pipeline.validation.entries import compared
-from pipeline.validation.geometry import bar_of
+from pipeline.validation.geometry import bar_of, overlapping
 from pipeline.validation.reference_bar import Family, find_bar
 from pipeline.validation.result import Fit
 from pipeline.validation.workshop import Workshop
@@ -94,15 +95,15 @@ class FoundBar(BaseModel):
     fit: Fit
 
 
-def checked_sizes(s: Specimen, width: float) -> Specimen:
+def checked_sizes(s: Specimen, case: Case) -> Specimen:
     """The specimen; InputError if its finest mesh cannot be or its bars overlap, before anything is solved."""
     try:
         require_workable(s.bar, Resolution(s.size, max(s.detail.study)))
     except ValueError as error:
         raise InputError(f"mesh: {error}") from error
     tall = max(s.bar.section.size[1], s.bar.lug.height if s.bar.lug else 0.0)
-    if width <= tall:
-        raise InputError(f"linkage.width_mm is {width:g}, allowed is above the bars' height, {tall:g} mm")
+    if said := overlapping(case.linkage.width_mm, case.linkage.angles_deg, tall):
+        raise InputError(said)
     return s
 
 
@@ -112,7 +113,7 @@ def specimen(case: Case, detail: Detail, workshop: Workshop) -> tuple[Specimen, 
     length = case.linkage.length_mm
     if case.bar.family is None:
         given = Specimen(bar_of(case.bar, length), material, case.mesh.size_mm, detail, workshop)
-        return checked_sizes(given, case.linkage.width_mm), None
+        return checked_sizes(given, case), None
     inputs = [case.model_dump(mode="json"), detail.name]
     found = workshop.reuse(
         "reference bar", inputs, FoundBar, lambda stage: search(case, material, detail, workshop, stage)
@@ -120,7 +121,7 @@ def specimen(case: Case, detail: Detail, workshop: Workshop) -> tuple[Specimen, 
     section = ISection(found.flange_width, found.flange_thickness, found.height, found.web)
     bar = Bar(section, length, Lug(*found.lug))
     s = Specimen(bar, material, case.mesh.size_mm, detail, workshop)
-    return checked_sizes(s, case.linkage.width_mm), found.fit
+    return checked_sizes(s, case), found.fit
 
 
 def search(case: Case, material: Isotropic, detail: Detail, workshop: Workshop, stage: Stage) -> FoundBar:

@@ -1,0 +1,167 @@
+"""The tables of a validation case: their keys, and the values that each of them allows."""
+
+from math import isfinite
+from typing import Annotated, Literal
+
+from pydantic import BaseModel, ConfigDict, Field, ValidationInfo, field_validator, model_validator
+
+Number = Annotated[float, Field(strict=True, allow_inf_nan=False)]
+Length = Annotated[Number, Field(gt=0.0)]
+Angle = Annotated[Number, Field(ge=-60.0, le=60.0)]
+Matrix = tuple[tuple[Number, ...], ...]
+
+
+class Part(BaseModel):
+    """A table of the case file; unknown keys are refused."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True)
+
+
+class Material(Part):
+    """Isotropic material; without a yield stress no load is marked as beyond it."""
+
+    E_MPa: Annotated[Number, Field(gt=0.0)]
+    nu: Annotated[Number, Field(gt=-1.0, lt=0.5)]
+    yield_MPa: Annotated[Number, Field(gt=0.0)] | None = None
+    source: str = ""
+
+    @field_validator("yield_MPa")
+    @classmethod
+    def in_the_same_unit(cls, value: float | None, info: ValidationInfo) -> float | None:
+        modulus = info.data.get("E_MPa")
+        if value is not None and modulus is not None and value >= modulus:
+            raise ValueError(
+                f"{value:g} was found, allowed is less than E_MPa = {modulus:g}; both are in MPa"
+            )
+        return value
+
+
+class LinkageSize(Part):
+    """Length between the pins, distance of the bars, and the angles to look at."""
+
+    length_mm: Length
+    width_mm: Length
+    angles_deg: tuple[Angle, ...] = (0.0,)
+
+    @field_validator("angles_deg")
+    @classmethod
+    def each_once(cls, value: tuple[float, ...]) -> tuple[float, ...]:
+        if not value or len(set(value)) != len(value):
+            raise ValueError("allowed is a list of one or more angles, each once")
+        return value
+
+
+class ISectionSize(Part):
+    """I-section: flanges along y, height along z."""
+
+    kind: Literal["i_section"]
+    flange_width_mm: Length
+    flange_thickness_mm: Length
+    height_mm: Length
+    web_mm: Length
+
+
+class RectangleSize(Part):
+    """Solid rectangle: width along y, height along z."""
+
+    kind: Literal["rectangle"]
+    width_mm: Length
+    height_mm: Length
+
+
+class RoundSize(Part):
+    """Solid round."""
+
+    kind: Literal["round"]
+    diameter_mm: Length
+
+
+class TubeSize(Part):
+    """Round tube."""
+
+    kind: Literal["tube"]
+    outer_diameter_mm: Length
+    wall_mm: Length
+
+
+class LugSize(Part):
+    """Block in place of the section at both ends."""
+
+    length_mm: Length
+    width_mm: Length
+    height_mm: Length
+
+
+SectionSize = Annotated[ISectionSize | RectangleSize | RoundSize | TubeSize, Field(discriminator="kind")]
+
+
+class BarChoice(Part):
+    """Either dimensions, or the family of which the one that meets the paper's matrix is to be found."""
+
+    section: SectionSize | None = None
+    lug: LugSize | None = None
+    family: Literal["i_section"] | None = None
+    lug_length_mm: Length | None = None
+    meets: Literal["paper"] | None = None
+
+    @model_validator(mode="after")
+    def one_way(self) -> "BarChoice":
+        if (self.section is None) == (self.family is None):
+            raise ValueError("allowed is one of the two: section (dimensions), or family with meets")
+        if self.family is not None and (
+            self.meets is None or self.lug_length_mm is None or self.lug is not None
+        ):
+            raise ValueError(
+                'a family needs meets = "paper" and lug_length_mm, and takes no lug: its size is found'
+            )
+        if self.family is None and (self.meets is not None or self.lug_length_mm is not None):
+            raise ValueError("meets and lug_length_mm belong to a family, not to a section")
+        return self
+
+
+class Paper(Part):
+    """Published matrices to stand beside the computed ones."""
+
+    source: str
+    bar_stiffness: Matrix
+    half_linkage_stiffness: Matrix | None = None
+    linkage_angle_deg: Number | None = None
+
+    @field_validator("bar_stiffness", "half_linkage_stiffness")
+    @classmethod
+    def six_by_six(cls, value: Matrix | None) -> Matrix | None:
+        if value is None:
+            return None
+        if len(value) != 6 or any(len(row) != 6 for row in value):
+            raise ValueError("allowed is a matrix of 6 rows with 6 numbers")
+        if not all(isfinite(x) for row in value for x in row):
+            raise ValueError("allowed are finite numbers")
+        if any(value[i][j] != value[j][i] for i in range(6) for j in range(i)):
+            raise ValueError("allowed is a symmetric matrix")
+        return value
+
+
+class MeshSize(Part):
+    """Coarse element size; the levels of detail refine it."""
+
+    size_mm: Length = 8.0
+
+
+class Case(Part):
+    """Everything a validation run needs to know."""
+
+    schema_version: Annotated[int, Field(alias="schema", strict=True, ge=1, le=1)]
+    name: Annotated[str, Field(pattern=r"^[A-Za-z0-9][A-Za-z0-9_-]*$")]
+    title: str
+    source: str = ""
+    material: Material
+    linkage: LinkageSize
+    bar: BarChoice
+    paper: Paper | None = None
+    mesh: MeshSize = MeshSize()
+
+    @model_validator(mode="after")
+    def matrix_to_meet(self) -> "Case":
+        if self.bar.meets == "paper" and self.paper is None:
+            raise ValueError("bar.meets is 'paper', but there is no [paper] table with bar_stiffness")
+        return self
