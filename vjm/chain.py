@@ -6,7 +6,7 @@ tied, one coordinate moving several of them. Frames, units and the rotation vect
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from enum import Enum
 from functools import cached_property
 from typing import Literal
@@ -68,6 +68,14 @@ class Joint:
 
 
 Element = Fixed | Joint
+
+
+def tied_apart(elements: tuple[Element, ...], name: str) -> tuple[Element, ...]:
+    """The elements with the name before all their ties, so that they share no coordinate with others of a chain."""
+    return tuple(
+        replace(e, tie=f"{name}:{e.tie}") if isinstance(e, Joint) and e.tie is not None else e
+        for e in elements
+    )
 
 
 @dataclass(frozen=True, eq=False)

@@ -9,8 +9,6 @@ from pydantic import field_validator, model_validator
 
 from pipeline.campaign.model import Rig, Vector
 from pipeline.campaign.tables import Celsius, Number, Table, Text, Weight
-from pipeline.errors import InputError
-from vjm.manipulator.effects import bench
 from vjm.manipulator.posture import postures
 
 
@@ -37,14 +35,10 @@ class ManipulatorTable(Table):
         return self
 
     def rig(self, folder: Path | None) -> Rig:
-        """The frozen object. InputError with every complaint about the file, or without a parallelogram in it."""
+        """The frozen object. InputError with every complaint about the file."""
         # The reader of such files builds on this package: it is looked up when it is needed.
         described = import_module("pipeline.manipulator.description").read(self.path(folder))
         manipulator = described.manipulator
-        try:
-            bench(manipulator)
-        except ValueError as error:
-            raise InputError(f"{self.file}: a campaign cannot be on it: {error}") from None
         return Rig(
             "manipulator",
             manipulator.length,

@@ -139,7 +139,9 @@ def _credible(cases: Program, prediction: Prediction) -> Prediction:
 
 
 def _tangent(cases: Program) -> Prediction:
-    """Springs with refined bars; where they have no equilibrium, a constant stiffness."""
+    """Springs with refined bars; where they have no equilibrium, a constant stiffness, as for a whole manipulator."""
+    if cases.campaign.rig.manipulator is not None:
+        return predict_linear(cases)
     refined = predict(Model().with_effects([BarGeometricNonlinearity()]), cases, slopes=False)
     if not refined.lost.any():
         return refined

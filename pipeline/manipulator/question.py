@@ -21,9 +21,15 @@ REST = (
     "K_rot_max",
     "critical_N",
     "leg",
+    "K_tran_mean",
+    "K_rot_mean",
+    "reason",
 )
 """Columns of every sweep. state: one of `FOUND` .. `LOST`. critical_N: smallest force on the platform, of any
-direction, that makes a leg buckle; leg: its number."""
+direction, that makes a leg buckle; inf: none buckles; NaN: it cannot be found; leg: its number, -1 if it is NaN.
+K_tran_mean, K_rot_mean: load over the displacement along it, averaged over all directions, which is the harmonic mean
+of the three principal stiffnesses. reason: why numbers of the point are missing, the place of a sentence in the list
+`reasons` of sweep.json; 0: none is missing."""
 LOADED = (
     "critical_factor",
     "shift_mm",
@@ -33,7 +39,8 @@ LOADED = (
     "K_rot_loaded_min",
     "K_rot_loaded_max",
 )
-"""Columns under a wrench. critical_factor: of the wrench that makes a leg buckle, inf: none. shift, turn: of the
+"""Columns under a wrench. critical_factor: of the wrench that makes a leg buckle, inf: none, NaN: it
+cannot be found. shift, turn: of the
 platform. The stiffness is that of the loaded state."""
 CHANGED = ("K_tran_error", "K_rot_error", "offset_mm")
 """Columns of an effect: relative change of K_tran_min and K_rot_min without load, and how far it moves the unloaded
@@ -42,7 +49,7 @@ GIVING = ("displacement_error",)
 """Column of an effect under a wrench: relative change of the displacement along the wrench (of its work)."""
 FOUND, UNREACHED, SINGULAR, LOST = 0.0, 1.0, 2.0, 3.0
 """A stiffness is found; the posture is not reached; it has no stiffness; at rest it has, but no stable equilibrium is
-found under the wrench or with the effect. Columns that have no number are zero."""
+found under the wrench or with the effect. Columns of these others that have no number are zero."""
 
 
 @dataclass(frozen=True, eq=False)

@@ -19,6 +19,7 @@ from pipeline.manipulator.description import Description
 from pipeline.manipulator.grid import Grid
 from pipeline.manipulator.mapping import CriticalMap, chunk_of, coarse, critical_map, nodes_of
 from pipeline.manipulator.question import Array, Question
+from pipeline.manipulator.reasons import reasons_of
 
 CHUNK = 2000
 """Points of a chunk: about 20 MB of work space."""
@@ -28,8 +29,8 @@ _AHEAD, _NODES = 2, 5
 
 @dataclass(frozen=True, eq=False)
 class Sweep:
-    """A finished sweep: its folder, grid and columns, how many chunks were computed now and how many there, and how
-    many postures were computed now."""
+    """A finished sweep: its folder, grid and columns, how many chunks were computed now and how many there, how many
+    postures were computed now, and the sentences that its column `reason` has the numbers of."""
 
     folder: Path
     grid: Grid
@@ -37,6 +38,7 @@ class Sweep:
     computed: int
     found: int
     postures: int
+    reasons: tuple[str, ...]
 
     @property
     def values(self) -> Array:
@@ -76,7 +78,8 @@ def sweep(
             progress(total - len(missing) + done, total)
     _join(folder, grid, total, len(asked.columns))
     postures = sum(min(chunk, grid.size - k * chunk) for k in missing)
-    return Sweep(folder, grid, asked.columns, len(missing), total - len(missing), postures)
+    reasons = reasons_of(description.manipulator)
+    return Sweep(folder, grid, asked.columns, len(missing), total - len(missing), postures, reasons)
 
 
 def _bounded(
@@ -108,6 +111,7 @@ def _claim(folder: Path, description: Description, grid: Grid, chunk: int, quest
         "grid": asdict(grid),
         "chunk": chunk,
         "columns": question.columns,
+        "reasons": reasons_of(description.manipulator),
         **question.said,
     }
     text = json.dumps(head, indent=1) + "\n"
@@ -123,18 +127,19 @@ def _claim(folder: Path, description: Description, grid: Grid, chunk: int, quest
 def _critical(
     description: Description, grid: Grid, folder: Path, executor: Executor, ahead: int
 ) -> CriticalMap:
-    """The legs' critical forces on coarse nodes, kept beside the chunks."""
+    """The legs' critical forces on coarse nodes, with why there is none, kept beside the chunks."""
     nodes, file = coarse(grid), folder / CRITICAL
     if not file.exists():
         calls = (
             (nodes_of, (description.manipulator, nodes, k, min(k + _NODES, nodes.size)))
             for k in range(0, nodes.size, _NODES)
         )
-        force = np.zeros((nodes.size, len(description.manipulator.legs)))
+        found = np.zeros((nodes.size, len(description.manipulator.legs), 2))
         for start, part in _bounded(executor, calls, ahead):
-            force[start : start + len(part)] = part
-        _write(file, force)
-    return critical_map(nodes, np.load(file))
+            found[start : start + len(part)] = part
+        _write(file, found)
+    force, reason = np.moveaxis(np.load(file), -1, 0)
+    return critical_map(description.manipulator, nodes, force, reason)
 
 
 def _file(folder: Path, number: int) -> Path:

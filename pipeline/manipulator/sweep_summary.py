@@ -1,6 +1,7 @@
 """What a sweep found, in a few lines; the file is gone through in blocks, so that any size fits."""
 
-from collections.abc import Iterator
+from collections import Counter
+from collections.abc import Iterator, Sequence
 
 import numpy as np
 
@@ -8,9 +9,12 @@ from pipeline.manipulator.question import FOUND, LOST, SINGULAR, UNREACHED, Arra
 from pipeline.manipulator.sweep import Sweep
 
 _BLOCK = 100_000
+_SAID = 6
 TITLES = {
     "K_tran_min": ("lowest K_tran", "N/mm"),
     "K_rot_min": ("lowest K_rot", "N·mm/rad"),
+    "K_tran_mean": ("K_tran, mean over all directions", "N/mm"),
+    "K_rot_mean": ("K_rot, mean over all directions", "N·mm/rad"),
     "critical_N": ("force that makes a leg buckle", "N"),
     "critical_factor": ("factor of the wrench that makes a leg buckle", ""),
     "shift_mm": ("displacement under the wrench", "mm"),
@@ -23,23 +27,41 @@ TITLES = {
 
 
 def summary(done: Sweep, seconds: float) -> list[str]:
-    """Sentences: how many postures, how fast, and the range of each quantity."""
+    """Sentences: how many postures, how fast, the range of each quantity, and why numbers are missing."""
     low, high = np.full(len(done.columns), np.inf), np.full(len(done.columns), -np.inf)
-    states = np.zeros(4, dtype=int)
+    states, missing = np.zeros(4, dtype=int), Counter[int]()
     for block in blocks(done):
         found = block[block[:, 3] == FOUND]
         states += [np.sum(block[:, 3] == code) for code in range(4)]
+        missing.update(block[:, done.columns.index("reason")].astype(int).tolist())
         if len(found):
-            low, high = np.minimum(low, found.min(0)), np.maximum(high, found.max(0))
-    lines = [_counted(states)]
+            # Unlike minimum and maximum these pass over a number that is missing.
+            low, high = np.fmin(low, np.fmin.reduce(found)), np.fmax(high, np.fmax.reduce(found))
+    lines = [_counted(states), *_missing(missing, done.reasons)]
     if states[int(FOUND)]:
         for name, (title, unit) in TITLES.items():
             if name in done.columns:
                 k = done.columns.index(name)
-                lines.append(f"{title}: {low[k]:.4g} to {high[k]:.4g} {unit}".rstrip())
+                lines.append(f"{title}: {_range(low[k], high[k], unit)}")
     if done.postures:
         lines.append(f"{done.postures} postures in {seconds:.1f} s, {done.postures / seconds:.0f} a second")
     return [*lines, f"sweep: {done.folder}"]
+
+
+def _range(low: float, high: float, unit: str) -> str:
+    """From lowest to highest; one number where they are the same, words where there is none."""
+    if high == -np.inf:
+        return "at no posture"
+    if low == np.inf:
+        return "none, however large"
+    return f"{low:.4g} to {high:.4g} {unit}".rstrip() if low != high else f"{low:.6g} {unit}".rstrip()
+
+
+def _missing(missing: Counter[int], reasons: Sequence[str]) -> list[str]:
+    """Why numbers are missing, the commonest reason first."""
+    said = [(reasons[number], count) for number, count in missing.most_common() if number]
+    lines = [f"at {count} of {missing.total()} postures: {reason}" for reason, count in said[:_SAID]]
+    return lines if len(said) <= _SAID else [*lines, f"and {len(said) - _SAID} reasons more, each at fewer"]
 
 
 def blocks(done: Sweep) -> Iterator[Array]:

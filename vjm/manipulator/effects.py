@@ -1,4 +1,4 @@
-"""Physical effects on a whole manipulator: each parallelogram has them as it would on the bench.
+"""Physical effects on a whole manipulator: each parallelogram, if there is one, has them as it would on the bench.
 
 What an effect does to bars and hinges it does to every parallelogram of every leg; what happens between the base and
 the ground, or at the sensors, happens once, at the base frame and at the platform point.
@@ -6,7 +6,7 @@ the ground, or at the sensors, happens once, at the base frame and at the platfo
 
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -20,8 +20,8 @@ from vjm.mechanisms.parallelogram import Parallelogram as Bench
 def with_effect(manipulator: Manipulator, effect: Effect, values: Values) -> Manipulator:
     """The manipulator with the effect; itself where all values are null.
 
-    values: by parameter name, complete. Drives and inverse kinematics still go by the drawing. ValueError for a
-    manipulator without a parallelogram, and for an effect that it cannot have.
+    values: by parameter name, complete. Drives and inverse kinematics still go by the drawing. ValueError for an
+    effect that it cannot have, as that of bars where there is no parallelogram.
     """
     rig = bench(manipulator)
     if effect.absent(values):
@@ -63,11 +63,11 @@ def like_bench(manipulator: Manipulator, rig: Bench) -> Manipulator:
 def bench(manipulator: Manipulator) -> Bench:
     """The first parallelogram as a rig of the bench at q = 0, with what stands around it; effects act on that.
 
-    ValueError for a manipulator without a parallelogram.
+    Without a parallelogram it is a `Surroundings`.
     """
     parts = linkages(manipulator)
     if not parts:
-        raise ValueError(f"effects need a parallelogram, {manipulator.name} has none")
+        return _surroundings(manipulator)
     part, built = parts[0], parts[0].as_built
     return Bench(
         part.length,
@@ -83,6 +83,36 @@ def bench(manipulator: Manipulator) -> Bench:
         sensors=manipulator.sensors,
         fibre_y=part.fibre_y,
         fibre_z=part.fibre_z,
+    )
+
+
+@dataclass(frozen=True, eq=False)
+class Surroundings(Bench):
+    """What stands around a manipulator without a parallelogram: its mount, its gravity, its sensors.
+
+    name: of the manipulator. The bars are there for the form only: no effect can change them. ValueError for one that
+    would.
+    """
+
+    name: str = "the manipulator"
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        changed = self.bar is not None or self.hinges or self.alterations or self.wider
+        if changed or np.any(self.line_load):
+            raise ValueError(f"effects of bars and hinges need a parallelogram, {self.name} has none")
+
+
+def _surroundings(manipulator: Manipulator) -> Surroundings:
+    length = manipulator.length
+    return Surroundings(
+        length,
+        length,
+        np.diag(np.repeat([1.0, length**2], 3)),
+        mount=manipulator.mount,
+        gravity=manipulator.gravity,
+        sensors=manipulator.sensors,
+        name=manipulator.name,
     )
 
 

@@ -13,7 +13,8 @@ import numpy as np
 
 from vjm.frames import POSE_NAMES, Array
 from vjm.manipulator.buckling import linear_factor, linear_path
-from vjm.manipulator.lagrangian import system
+from vjm.manipulator.freedom import undetermined
+from vjm.manipulator.lagrangian import System, gradient_and_hessian, system
 from vjm.manipulator.parts import ElasticLink, Frame, Leg, Manipulator, Parallelogram, Passive
 from vjm.manipulator.posture import Postures
 from vjm.manipulator.rest import RestStiffness
@@ -86,20 +87,61 @@ def segmented(leg: Leg, segments: int = SEGMENTS) -> Leg:
     return replace(leg, parts=tuple(parts))
 
 
+@dataclass(frozen=True, eq=False)
+class CriticalForces:
+    """Compression at which each leg buckles.
+
+    force: (B, legs) N, positive; inf: the leg does not buckle to first order; nan: it cannot be found. reason:
+    (B, legs) of strings, what the leg "is" or "has" that there is none; empty where there is one.
+    """
+
+    force: Array
+    reason: np.ndarray
+
+
+UNSOLVED = "has equations of buckling that cannot be solved here"
+"""Where a leg is neither rigid nor loose (`vjm.manipulator.freedom`) and its buckling problem is singular still."""
+
+
 def critical_forces(
     manipulator: Manipulator, at: Postures, direction: Array, segments: int = SEGMENTS
-) -> Array:
-    """(B, legs) compression, N positive, at which each leg buckles at postures (B,) with the platform held.
+) -> CriticalForces:
+    """The compression at which each leg buckles at postures (B,) with the platform held.
 
-    direction: (B, legs, 3) of `Shares`. inf: does not buckle to first order; nan where the posture is not reached.
+    direction: (B, legs, 3) of `Shares`. A leg that is rigid in some direction, or that moves while its ends are held,
+    has none, nor has a posture that is not reached.
     """
-    out = np.full((len(at.pose), len(manipulator.legs)), np.nan)
+    shape = (len(at.pose), len(manipulator.legs))
+    force, reason = np.full(shape, np.nan), np.full(shape, "", dtype=object)
     for number, leg in enumerate(manipulator.legs):
         alone = Manipulator(leg.name, (segmented(leg, segments),), manipulator.length)
-        for member in np.flatnonzero(at.reached):
+        for member in range(len(at.pose)):
+            if not at.reached[member]:
+                reason[member, number] = str(at.reason[member])
+                continue
             one = at.take(slice(member, member + 1))
             of = system(alone, Postures(one.pose, (one.coordinates[number],), one.reached, one.reason))
             push = np.concatenate([-direction[member, number], np.zeros(3)])
-            force = linear_path(of, push, np.ones(6, dtype=bool))[0, of.multiplier(0)][:3] @ push[:3]
-            out[member, number] = float(force) * linear_factor(of, push, POSE_NAMES)
-    return out
+            force[member, number], reason[member, number] = _critical_force(of, push)
+    return CriticalForces(force, reason)
+
+
+def _critical_force(of: System, push: Array) -> tuple[float, str]:
+    """Compression at which a leg buckles when its end is moved along `push`, or nan and what is wrong with the leg."""
+    why = _undetermined(of)
+    if why:
+        return np.nan, why
+    try:
+        force = linear_path(of, push, np.ones(6, dtype=bool))[0, of.multiplier(0)][:3] @ push[:3]
+        return float(force) * linear_factor(of, push, POSE_NAMES), ""
+    except np.linalg.LinAlgError:
+        return np.nan, UNSOLVED
+
+
+def _undetermined(of: System) -> str:
+    """What is wrong with the system of one leg at one posture while its platform is held; "" if nothing is."""
+    _, hessian = gradient_and_hessian(of, of.at_rest())
+    matrix = hessian[0] * of.scale[:, None] * (of.scale / of.energy)
+    closing = np.flatnonzero(of.multipliers)
+    moving = np.setdiff1d(np.flatnonzero(~of.multipliers), np.arange(of.size)[of.platform])
+    return undetermined(matrix[np.ix_(closing, moving)], matrix[moving, moving] == 0.0)

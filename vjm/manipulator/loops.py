@@ -13,7 +13,7 @@ from itertools import pairwise
 import numpy as np
 
 from vjm.bars import BarModel
-from vjm.chain import Chain, Element, Fixed, Role
+from vjm.chain import Chain, Element, Fixed, Role, tied_apart
 from vjm.frames import Array
 from vjm.laws import Spring
 from vjm.link import Link
@@ -127,7 +127,8 @@ class _Builder:
 
     def _limb(self, model: BarModel, link: Link, elements: list[Element], first: int) -> None:
         limb = model.limb(link)
-        elements += limb.elements
+        # Two bars of a leg name their ties alike.
+        elements += tied_apart(limb.elements, str(first))
         self.blocks.append((first + np.arange(limb.rest.size), limb.stiffness))
         self.springs += limb.numbered_from(first)
         self.rest |= {first + k: float(v) for k, v in enumerate(limb.rest) if v}
@@ -145,13 +146,13 @@ class _Builder:
             hinges=built.hinges,
             line_load=built.line_load,
         ).chain()
-        elements += bar.chain.elements
+        elements += tied_apart(bar.chain.elements, str(first))
         self.blocks.append((first + bar.virtual, bar.stiffness))
         self.springs += [replace(s, coordinates=tuple(first + c for c in s.coordinates)) for s in bar.springs]
         self.rest |= {first + k: float(v) for k, v in enumerate(bar.rest) if v}
         self.inputs += [(d.name, first, d.slope) for d in bar.drives if not d.posture]
         for load in bar.loads:
-            path = Chain((*place.before, *load.path.elements))
+            path = Chain((*place.before, *tied_apart(load.path.elements, str(first))))
             numbers = np.concatenate([np.arange(place.first), first + load.coordinates])
             marks = tuple(replace(m, elements=len(place.before) + m.elements) for m in load.marks)
             self.loads.append(DeadLoads(path, numbers, marks, load.forces))

@@ -20,6 +20,8 @@ from vjm.manipulator.parts import Actuator, ElasticLink, Frame, Leg, Manipulator
 TOLERANCE = 1e-11
 """Gap of a leg that counts as closed: over the manipulator's length, and rad."""
 ITERATIONS = 60
+UNREACHED = "leg {} does not reach this pose"
+BEYOND = "the actuator of leg {} is beyond its limits"
 # Relative to the largest stiffness of a step: coordinates that move nothing stay where they are.
 _DAMPING = 1e-13
 _LONGEST = 0.3
@@ -63,12 +65,12 @@ def postures(manipulator: Manipulator, poses: ArrayLike) -> Postures:
     coordinates = []
     for leg in manipulator.legs:
         x, gap = _closed(leg, flat, manipulator.length)
-        reason[(reason == "") & ~(gap <= TOLERANCE)] = f"leg {leg.name} does not reach this pose"
+        reason[(reason == "") & ~(gap <= TOLERANCE)] = UNREACHED.format(leg.name)
         for k in leg.actuators:
             actuator = leg.moving[k]
             assert isinstance(actuator, Actuator)
             beyond = (x[:, k] < actuator.limits[0]) | (x[:, k] > actuator.limits[1])
-            reason[(reason == "") & beyond] = f"the actuator of leg {leg.name} is beyond its limits"
+            reason[(reason == "") & beyond] = BEYOND.format(leg.name)
         coordinates.append(x.reshape(*batch, x.shape[-1]))
     said = np.reshape(reason, batch)
     return Postures(pose, tuple(coordinates), np.asarray(said == ""), said)

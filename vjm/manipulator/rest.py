@@ -14,6 +14,7 @@ import numpy as np
 from vjm.bars import X, Y, spring_joints
 from vjm.chain import Chain, Element, Fixed, Joint, Role
 from vjm.frames import Array, move_stiffness, rotation_y
+from vjm.manipulator.freedom import undetermined
 from vjm.manipulator.parts import (
     MOVING,
     Actuator,
@@ -29,7 +30,8 @@ from vjm.manipulator.parts import (
 from vjm.manipulator.posture import Postures
 from vjm.stiffness import eliminate
 
-SINGULAR = "the stiffness is singular here: joints move without load, or a direction is rigid"
+SINGULAR = "has no stiffness that can be computed here"
+"""Where a leg is neither rigid nor loose (`vjm.manipulator.freedom`) and its equations are singular still."""
 _FREE = 2
 _KEPT = [0, 1, 3, 4, 5]
 # Asymmetry of a 6x6 in units of its diagonal: rounding of a regular elimination stays five digits below.
@@ -74,7 +76,8 @@ def stiffness_at_rest(manipulator: Manipulator, at: Postures) -> RestStiffness:
         x = at.coordinates[number].reshape(reason.size, -1)[good]
         matrix, regular = leg_stiffness(leg, x)
         by_leg[good, number] = matrix
-        reason[good[~regular & (reason[good] == "")]] = f"leg {leg.name}: {SINGULAR}"
+        for k in np.flatnonzero(~regular & (reason[good] == "")):
+            reason[good[k]] = f"leg {leg.name} {why_singular(leg, x[k], manipulator.length)}"
     by_leg[reason != ""] = 0.0
     said = np.reshape(reason, batch)
     return RestStiffness(by_leg.reshape(*batch, *by_leg.shape[1:]), np.asarray(said == ""), said)
@@ -100,6 +103,17 @@ def leg_stiffness(leg: Leg, coordinates: Array) -> tuple[Array, np.ndarray]:
     gap = np.max(np.abs(out - np.swapaxes(out, -1, -2)) / np.maximum(unit, 1e-300), axis=(-2, -1))
     regular &= gap < _ASYMMETRY
     return 0.5 * (out + np.swapaxes(out, -1, -2)), regular
+
+
+def why_singular(leg: Leg, coordinates: Array, length: float) -> str:
+    """What is wrong with a leg that has no stiffness at its coordinates (m,); length: a size of it, mm."""
+    plan = _plan(leg)
+    x = np.zeros(plan.chain.size)
+    x[plan.posture] = coordinates
+    shifts = np.array([joint.kind == "translation" for joint in plan.chain.joints])
+    jacobian = plan.chain.jacobian(x) / np.repeat([length, 1.0], 3)[:, None] * np.where(shifts, length, 1.0)
+    given = np.concatenate([plan.virtual, plan.passive])
+    return undetermined(jacobian[:, given], np.isin(given, plan.passive)) or SINGULAR
 
 
 def _eliminated(theta: Array, q: Array, spring: Array) -> tuple[Array, np.ndarray]:

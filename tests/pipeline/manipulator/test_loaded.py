@@ -12,6 +12,7 @@ from pipeline.manipulator.description import read
 from pipeline.manipulator.mapping import CriticalMap, critical_at, mapped
 from pipeline.manipulator.question import CHANGED, FOUND, GIVING, LOADED, LOST, REST, Question
 from pipeline.manipulator.question_options import question_of
+from pipeline.manipulator.reasons import NO_EQUILIBRIUM, reasons_of
 from pipeline.manipulator.table import vjm_stiffness
 from vjm.manipulator.buckling import critical_load
 from vjm.manipulator.lagrangian import system
@@ -106,13 +107,15 @@ def test_what_has_no_stable_equilibrium_says_so(orthoglide: Manipulator) -> None
     plain, question = Question(), Question(np.array([2e4, 0.0, 0.0, 0.0, 0.0, 0.0]))
     values, rest = asked(orthoglide, question), asked(orthoglide, plain)
     assert np.all(values[:, 3] == LOST)
-    np.testing.assert_array_equal(values[:, 4 : len(REST)], rest[:, 4:])
+    last = REST.index("reason")
+    np.testing.assert_array_equal(values[:, 4:last], rest[:, 4:last])
+    assert {reasons_of(orthoglide)[int(k)] for k in values[:, last]} == {NO_EQUILIBRIUM}
     assert not values[:, len(REST) + 1 :].any()
 
 
 def test_the_wrench_that_makes_a_leg_buckle(orthoglide: Manipulator) -> None:
     """Pushed along leg x in the isotropic posture, the leg carries all of it; pulled, it does not buckle."""
-    force = critical_at(orthoglide, POINTS[:1])[0]
+    force = critical_at(orthoglide, POINTS[:1])[0][0]
     critical = CriticalMap(CRITICAL.axes, force.reshape(1, 1, 1, 3))
     for sign, expected in ((-1.0, force[0] / 500.0), (1.0, np.inf)):
         question = Question(np.array([sign * 500.0, 0.0, 0.0, 0.0, 0.0, 0.0]))
@@ -128,7 +131,7 @@ def test_the_critical_factor_is_that_of_the_whole(orthoglide: Manipulator) -> No
     """Legs one by one between held ends, against the path of the whole manipulator under that wrench: as for a push
     along a leg, what the map leaves out is a few per cent."""
     wrench, point = np.array([-300.0, -200.0, 100.0, 0.0, 0.0, 0.0]), POINTS[2:]
-    critical = CriticalMap(CRITICAL.axes, critical_at(orthoglide, point).reshape(1, 1, 1, 3))
+    critical = CriticalMap(CRITICAL.axes, critical_at(orthoglide, point)[0].reshape(1, 1, 1, 3))
     question = Question(wrench)
     (factor,) = column(mapped(orthoglide, question, critical, point), question, "critical_factor")
     bent = replace(orthoglide, legs=tuple(segmented(leg) for leg in orthoglide.legs))

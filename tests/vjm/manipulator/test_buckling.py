@@ -85,7 +85,7 @@ def test_a_leg_between_held_ends_stands_for_the_whole(number: int) -> None:
     whole = orthoglide(pair())
     at = postures(whole, POINTS[number : number + 1])
     share = shares(whole, at, stiffness_at_rest(whole, at))
-    force = critical_forces(whole, at, share.direction) / np.linalg.norm(share.force, axis=-1)
+    force = critical_forces(whole, at, share.direction).force / np.linalg.norm(share.force, axis=-1)
     leg = int(np.argmin(force[0]))
     direction = -share.force[0, leg] / np.linalg.norm(share.force[0, leg])
     bent = Manipulator("bent", tuple(segmented(each) for each in whole.legs), LENGTH)

@@ -157,8 +157,21 @@ def test_what_cannot_be_is_refused() -> None:
     lonely = Manipulator("spring", (Leg("spring", (ElasticLink(0.0, paper.BAR_STIFFNESS),)),), LENGTH)
     with pytest.raises(ValueError, match="need a parallelogram, spring has none"):
         with_effect(lonely, EFFECTS["modulus_error"], {"scale": 0.8})
+    with pytest.raises(ValueError, match="need a parallelogram, spring has none"):
+        with_effect(lonely, EFFECTS["joint_friction"], EFFECTS["joint_friction"].typicals)
     with pytest.raises(ValueError, match="outermost fibres"):
         with_effect(orthoglide(pair()), EFFECTS["material_yield"], {"strain": 0.001})
     soft = with_effect(orthoglide(pair()), EFFECTS["modulus_error"], {"scale": 0.8})
     with pytest.raises(ValueError, match="not as drawn"):
         stiffness_at_rest(soft, postures(soft, POINTS))
+
+
+def test_effects_around_a_machine_need_no_parallelogram() -> None:
+    """A base on springs is in series with the machine, here one 6x6 whose platform point is the base origin."""
+    lonely = Manipulator("spring", (Leg("spring", (ElasticLink(0.0, paper.BAR_STIFFNESS),)),), LENGTH)
+    give = dict.fromkeys(EFFECTS["base_compliance"].nulls, 0.0) | {"x_mm_per_N": 1e-4, "rz_rad_per_Nmm": 1e-9}
+    soft = with_effect(lonely, EFFECTS["base_compliance"], give)
+    at = postures(lonely, np.zeros((1, 3)))
+    k = read_stiffness(equilibrium(system(soft, at), np.zeros(6)))[0]
+    added = np.linalg.inv(k) - np.linalg.inv(paper.BAR_STIFFNESS)
+    np.testing.assert_allclose(added, np.diag([1e-4, 0.0, 0.0, 0.0, 0.0, 1e-9]), atol=1e-12)

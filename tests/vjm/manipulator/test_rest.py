@@ -24,12 +24,14 @@ from tests.vjm.manipulator.example import (
 )
 from tests.vjm.strategies import bar_stiffness, fixed_seed
 from vjm import paper
+from vjm.frames import POSE_NAMES
 from vjm.manipulator.equilibrium import equilibrium, loaded_stiffness, unstable_directions
+from vjm.manipulator.freedom import LOOSE, RIGID
 from vjm.manipulator.lagrangian import system
 from vjm.manipulator.measures import principal, rotational, translational
-from vjm.manipulator.parts import ElasticLink, Frame, Manipulator, Part
+from vjm.manipulator.parts import Actuator, ElasticLink, Frame, Leg, Manipulator, Part, Passive
 from vjm.manipulator.posture import postures
-from vjm.manipulator.rest import SINGULAR, stiffness_at_rest
+from vjm.manipulator.rest import stiffness_at_rest
 
 K = paper.BAR_STIFFNESS
 points = st.tuples(*[st.floats(-90.0, 90.0)] * 3).map(np.array)
@@ -120,4 +122,39 @@ def test_unreached_and_rigid_members_say_so_and_spoil_no_other() -> None:
     idle = (ABOUT_Z, *pair())
     loose = orthoglide(idle)
     said = stiffness_at_rest(loose, postures(loose, [[0.0, 0.0, 0.0]])).reason
-    assert said.tolist() == [f"leg x: {SINGULAR}"]
+    assert said.tolist() == [f"leg x {LOOSE}"]
+
+
+def test_two_refined_links_of_a_leg_are_two() -> None:
+    """Segments change nothing at rest, however many bars of a leg have them."""
+    arm = Manipulator("arm", (Leg("arm", _two_links(0)),), LENGTH)
+    fine = Manipulator("arm", (Leg("arm", _two_links(3)),), LENGTH)
+    at = postures(arm, np.array([[LENGTH + FOOT, 0.0, 0.0]]))
+    expected = stiffness_at_rest(arm, at).total[0]
+    assert relative(loaded_stiffness(equilibrium(system(fine, at), np.zeros(6)))[0], expected) < 1e-8
+
+
+def _two_links(segments: int) -> tuple[Part, ...]:
+    return ElasticLink(LENGTH, K, segments), ElasticLink(FOOT, 2.0 * K, segments)
+
+
+def test_two_refined_parallelograms_of_a_leg_are_two() -> None:
+    """Second bars too have coordinates of their own."""
+    across = Frame(rotation=np.array([[1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0]]))
+    k = []
+    for segments in (0, 2):
+        linkage = pair(segments=segments)[1]
+        whole = Manipulator("two", (Leg("two", (linkage, across, linkage)),), LENGTH)
+        at = postures(whole, np.array([[2.0 * LENGTH, 0.0, 0.0, np.pi / 2, 0.0, 0.0]]))
+        k.append(loaded_stiffness(equilibrium(system(whole, at), at.pose, held=POSE_NAMES))[0])
+    assert relative(k[1], k[0]) < 1e-8
+
+
+def test_a_leg_that_is_rigid_or_loose_says_which() -> None:
+    """Balls at both ends let a link turn about itself; a drive and rigid parts resist in most directions rigidly."""
+    spin = Passive("rotation", (1.0, 0.0, 0.0))
+    loose = Manipulator("m", (Leg("a", (spin, ElasticLink(LENGTH, K), spin)),), LENGTH)
+    rigid = Manipulator("m", (Leg("a", (Actuator("translation", (0.0, 0.0, 1.0), 9.0),)),), LENGTH)
+    for whole, point, why in ((loose, LENGTH, LOOSE), (rigid, 0.0, RIGID)):
+        said = stiffness_at_rest(whole, postures(whole, [[point, 0.0, 0.0]])).reason
+        assert said.tolist() == [f"leg a {why}"]
