@@ -46,7 +46,7 @@ def predict_frame(program: Program, tangent: Prediction) -> Prediction:
     buckled = np.concatenate([r.negative for r in found]) > 0
     said = [reason for r in found for reason in r.reason]
     lost = ~converged | buckled
-    reasons = {
+    reasons: dict[int, str] = {
         int(k): Reason.UNSTABLE if converged[k] else _SAID.get(said[k], Reason.NOT_CONVERGED)
         for k in np.flatnonzero(lost)
     }

@@ -60,7 +60,7 @@ class Prediction:
     sign of the stop and zero where none is, and its derivatives by the inputs; infinite where there is no play.
     slides: (R, K, 9) strain of each play, mm, half its width, and derivatives of the strain by the inputs; the width is
     infinite where there is no play.
-    lost: (R,) rows without a stable equilibrium. reasons: of the lost rows, as `vjm.reasons.Reason` has them. states: of
+    lost: (R,) rows without a stable equilibrium. reasons: of the lost rows, as in `vjm.reasons`. states: of
     each group, to start from again.
     """
 
