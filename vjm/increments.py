@@ -9,6 +9,7 @@ import numpy as np
 from vjm.frames import Array
 from vjm.newton import CONVERGED, RUNNING, SMALL_STEP, Iterate, newton, unsolved
 from vjm.problem import Problem
+from vjm.reasons import Reason
 
 FIRST_STEP, LARGEST_STEP, LEAST_STEP = 1.0 / 16.0, 1.0 / 4.0, 1.0 / 128.0
 # Numbers of a chunk's matrices; a few MB, so that they stay in a cache and memory does not grow with the batch.
@@ -16,7 +17,7 @@ _NUMBERS = 400_000
 _SOON = 8
 # Beyond a quarter of the first step, or this many iterations, there may be other solutions as near.
 _FAR, _MANY = 0.25, 6
-LOST_STABILITY = "no stable equilibrium further on"
+LOST_STABILITY = str(Reason.UNSTABLE)
 UNSURE = "unstable, or found after wandering"
 
 

@@ -94,7 +94,13 @@ def rest(mechanism: Mechanism, drives: Array, unloaded: bool = False) -> tuple[A
     if unloaded:
         drives = np.where(place.posture, drives, 0.0)
     pairs = zip(mechanism.chains, place.rest_slopes, strict=True)
-    return tuple(chain.rest + drives @ slope for chain, slope in pairs)
+    return tuple(chain.rest + drives @ slope + _curved(place, chain, drives) for chain, slope in pairs)
+
+
+def _curved(place: Layout, chain: ElasticChain, drives: Array) -> Array | float:
+    """(..., n) what inputs (..., D) add to the rest values beyond their slopes."""
+    curves = [(drive.curve, place.drives.index(drive.name)) for drive in chain.drives if drive.curve]
+    return sum((curve(drives[..., number]) for curve, number in curves), start=0.0)
 
 
 def at_rest(mechanism: Mechanism, drives: Array) -> Array:

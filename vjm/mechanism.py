@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import pairwise
@@ -24,12 +25,14 @@ class Drive:
     A nominal angle, an actuator's position (actuated coordinates stand at their rest values), a temperature.
     name: the same in all chains that follow it. slope: (n,) rest values per unit of the input.
     posture: whether gauges and sensors are zeroed with it in place, as with a nominal angle.
+    curve: change (..., n) of the rest values beyond the slope, at departures (...) from the default; none if straight.
     """
 
     name: str
     default: float
     slope: Array
     posture: bool = False
+    curve: Callable[[Array], Array] | None = None
 
 
 @dataclass(frozen=True, eq=False)

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from vjm.frames import Array
+from vjm.reasons import Reason
 
 Step = Callable[[np.ndarray], tuple[Array, np.ndarray, np.ndarray]]
 System = Callable[[Array, np.ndarray], tuple[Array, Step]]
@@ -16,8 +17,10 @@ and what gives Newton's step (B, N), in units of the scale, with a mask (B,) of 
 told the numbers of the members that this step finishes and counts their unstable directions, -1: not counted.
 """
 
-CONVERGED, RUNNING = "converged", "not converged within the allowed iterations"
-DIVERGED, SINGULAR = "diverged: the residual grew beyond bounds", "stopped at a singular matrix"
+CONVERGED = "converged"
+RUNNING = f"{Reason.NOT_CONVERGED} within the allowed iterations"
+DIVERGED = f"{Reason.NOT_CONVERGED}: the residual grew beyond bounds"
+SINGULAR = f"{Reason.NOT_CONVERGED}: it met a singular matrix"
 DIVERGED_ABOVE = 1e4
 LARGEST_STEP = 0.5
 # Of the length, or rad: what a solution is improved by when it was nearly known is not a way that it went.

@@ -18,8 +18,9 @@ from vjm import lagrangian
 from vjm.equilibrium import Equilibrium
 from vjm.frames import Array
 from vjm.problem import Held, held_mask
+from vjm.reasons import Reason
 
-UNSTABLE = "unstable equilibrium past a critical load"
+UNSTABLE = f"{Reason.UNSTABLE}, past a critical load"
 
 
 @dataclass(frozen=True, eq=False)

@@ -62,7 +62,7 @@ class JointClearance:
 
 @dataclass(frozen=True)
 class JointFriction:
-    """Coulomb torque in each hinge with an elastic start (`laws.friction`), relaxed in the nominal unloaded state."""
+    """Coulomb torque in each hinge with an elastic start (`laws.friction`), relaxed in the unloaded linkage."""
 
     torque_Nmm: float = 0.0
     presliding_rad: float = 1e-3
@@ -70,7 +70,7 @@ class JointFriction:
 
 @dataclass(frozen=True)
 class JointTorsionalStiffness:
-    """Return spring in each hinge, relaxed in the nominal unloaded state."""
+    """Return spring in each hinge, relaxed in the unloaded linkage."""
 
     stiffness_Nmm_per_rad: float = 0.0
 

@@ -6,7 +6,7 @@ import numpy as np
 
 from fem.frame.batch import Bools, Ints, put, take
 from fem.frame.control import DISPLACEMENT, FORCE, Targets, displacement, measured, reading
-from fem.frame.model import Model, State, Unloaded, at_rest
+from fem.frame.model import PLATFORM, Model, State, Unloaded, at_rest
 from fem.frame.newton import CONVERGED, REASONS, Outcome, equilibrium
 from fem.frame.reference import bowed_axis, reference
 from meshes.solid import Floats
@@ -54,7 +54,8 @@ def unloaded_bars(model: Model, temperature: Floats) -> Unloaded:
 def settled(model: Model, mechanism: Bools) -> Outcome:
     """The unloaded linkage as mounted, at its reference temperature, without dead load, hinge spring or friction.
 
-    mechanism (B, 6): platform coordinates in which the linkage is a mechanism; they stay as mounted.
+    mechanism (B, 6): platform coordinates in which the linkage is a mechanism; there it stands where its last bar as
+    built, at the angle as drawn, brings the platform.
     """
     joints = replace(
         model.joints,
@@ -67,10 +68,25 @@ def settled(model: Model, mechanism: Bools) -> Outcome:
     x, triads = bowed_axis(model.bars, nominal)
     start = at_rest(model, x, triads)
     kind = np.where(mechanism, DISPLACEMENT, FORCE)
-    value = np.where(mechanism, displacement(model, start), 0.0)
+    value = np.where(mechanism, displacement(model, _as_long_as_built(model, start)), 0.0)
     unloaded = unloaded_bars(model, model.reference_temperature)
     zero = np.zeros(model.gauges.station.shape)
     return equilibrium(free, unloaded, start, Targets(kind, value), np.zeros(len(value)), zero)
+
+
+def _as_long_as_built(model: Model, start: State) -> State:
+    """The state as mounted with the platform at the end of the last bar's own length."""
+    bodies = start.X.copy()
+    bodies[:, PLATFORM] *= (model.length[:, -1] / np.linalg.norm(model.nominal, axis=1))[:, None]
+    return replace(start, X=bodies)
+
+
+def relaxed(model: Model, state: State) -> tuple[Model, State]:
+    """The linkage with return springs and friction of its hinges at rest in this state of it."""
+    turns = np.zeros_like(state.slider)
+    if "hinge" in model.joints.slots:
+        turns = state.q[..., model.joints.slots.index("hinge")]
+    return replace(model, joints=replace(model.joints, relaxed=turns)), replace(state, slider=turns)
 
 
 @dataclass(frozen=True, eq=False)
@@ -85,7 +101,7 @@ class _Here:
 
 
 def run(model: Model, histories: Histories, mechanism: Bools) -> Records:
-    """Follow every history from its settled, unloaded state."""
+    """Follow every history from its settled, unloaded state, in which the hinges carry nothing."""
     first = settled(model, mechanism)
     count, steps = histories.temperature.shape
     zero = first.gauge
@@ -93,8 +109,7 @@ def run(model: Model, histories: Histories, mechanism: Bools) -> Records:
     failed = first.code != CONVERGED
     reasons = np.array([f"unloaded state: {REASONS[int(c)]}" if c else "" for c in first.code], object)
     still = np.zeros(count)
-    slider = np.zeros_like(first.state.slider)
-    state = replace(first.state, slider=slider)
+    model, state = relaxed(model, first.state)
     here = _Here(state, first.gauge, model.reference_temperature.copy(), still, first.negative)
     for step in range(steps):
         going = np.flatnonzero(~failed & (step < histories.steps))

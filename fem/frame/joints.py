@@ -19,7 +19,8 @@ class Joints:
     place (..., 3) mm and frame (..., 3, 3): where the chain starts in its body. bodies: for each bar, the body at its
     base and tip. slots: the coordinates kept (keys of `chain.SLOTS`); active (..., S): those that a joint has.
     compliance (..., S): mm/N or rad/(N mm), of radial and tilt. return_spring N mm/rad, torque N mm and presliding
-    rad of the hinges; play mm and contact mm/N^(2/3) along the bar.
+    rad of the hinges; relaxed rad: turn from as drawn at which a return spring carries nothing (the sliders of friction
+    begin there too); play mm and contact mm/N^(2/3) along the bar.
     """
 
     place: Floats
@@ -29,6 +30,7 @@ class Joints:
     return_spring: Floats
     torque: Floats
     presliding: Floats
+    relaxed: Floats
     play: Floats
     contact: Floats
     bodies: tuple[tuple[int, int], ...]
@@ -46,7 +48,7 @@ def joint_forces(joints: Joints, q: Floats, slider: Floats) -> tuple[Floats, Flo
             force[..., j], stiffness[..., j] = contact(here, joints.contact)
         elif slot == "hinge":
             torque, tangent, slider = friction(here, slider, joints.torque, joints.presliding)
-            force[..., j] = joints.return_spring * here + torque
+            force[..., j] = joints.return_spring * (here - joints.relaxed) + torque
             stiffness[..., j] = joints.return_spring + tangent
         else:
             force[..., j], stiffness[..., j] = spring(here, joints.compliance[..., j])

@@ -151,6 +151,7 @@ def _joints(setups: Sequence[Setup], mount: Floats) -> Joints:
         return_spring=_rows(e, "joint_torsional_stiffness", "stiffness_Nmm_per_rad")[:, None] * per_end,
         torque=friction[..., 0] * per_end,
         presliding=friction[..., 1] * per_end,
+        relaxed=0.0 * per_end,
         play=play,
         contact=contact,
         bodies=((0, 1),) * bars,

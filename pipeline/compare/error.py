@@ -19,10 +19,6 @@ from pipeline.noise import Check, chi_square, lag_one
 
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
-REASONS = {
-    "unstable": "the model has no stable equilibrium there",
-    "a step before it failed": "a step before it has none",
-}
 FEWEST = 3
 
 
@@ -154,7 +150,7 @@ class Discrepancy:
             if not gone.size:
                 continue
             said = self.prediction.reasons[int(rows[gone[0]])]
-            reason, step = REASONS.get(said, said), int(test.data.steps[gone[0]])
+            reason, step = str(said), int(test.data.steps[gone[0]])
             to_the_end = gone.size == rows.size - gone[0]
             where = (
                 f"from step {step} on"

@@ -6,12 +6,18 @@ import numpy as np
 
 from fem.frame import bench
 from fem.frame.errors import Errors
+from fem.frame.history import AFTER_FAILURE
+from fem.frame.newton import REASONS, SINGULAR
 from fem.frame.rig import Gauge as FrameGauge
 from pipeline.campaign.names import DISPLACEMENT, SUPPORT
 from pipeline.inference.manipulator_linear import by_frame, predict_constant
 from pipeline.inference.prediction import Prediction, no_slides, no_stops, zeroed
 from pipeline.inference.program import INPUTS, Program
 from pipeline.virtual.bench import frame_rig
+from vjm.reasons import Reason
+
+_SAID = {AFTER_FAILURE: Reason.ENDED, REASONS[SINGULAR]: Reason.NOT_HELD}
+"""What the frame says, in the words of all models; the rest is its solver's affair."""
 
 
 def predict_frame(program: Program, tangent: Prediction) -> Prediction:
@@ -40,7 +46,10 @@ def predict_frame(program: Program, tangent: Prediction) -> Prediction:
     buckled = np.concatenate([r.negative for r in found]) > 0
     said = [reason for r in found for reason in r.reason]
     lost = ~converged | buckled
-    reasons = {int(k): "unstable" if converged[k] else said[k] for k in np.flatnonzero(lost)}
+    reasons: dict[int, str] = {
+        int(k): Reason.UNSTABLE if converged[k] else _SAID.get(said[k], Reason.NOT_CONVERGED)
+        for k in np.flatnonzero(lost)
+    }
     plain = Prediction(
         np.where(lost[:, None], 0.0, values),
         tangent.by_inputs,

@@ -12,9 +12,9 @@ from pipeline.inference.program import Group
 from vjm.effects.base import Rig
 from vjm.equilibrium import Equilibrium, equilibrium, nearby
 from vjm.mechanism import initial_memory
+from vjm.reasons import Reason
 
 Array = NDArray[np.float64]
-ENDED = "an earlier step of the test has no equilibrium, so what the laws remember is not known"
 ROUNDS = 8
 """Times that all steps are solved at once; what does not fit together then goes step by step."""
 PATIENCE = 16
@@ -160,6 +160,6 @@ def _ended(state: Equilibrium) -> Equilibrium:
     return replace(
         state,
         converged=np.zeros_like(state.converged),
-        reason=np.full(state.reason.shape, ENDED, dtype=object),
+        reason=np.full(state.reason.shape, Reason.ENDED, dtype=object),
         unstable=np.full_like(state.unstable, -1),
     )

@@ -10,9 +10,8 @@ from pipeline.inference.prediction import Prediction, no_slides, no_stops, zeroe
 from pipeline.inference.program import INPUTS, Group, Program
 from vjm.equilibrium import equilibrium
 from vjm.lagrangian import layout
+from vjm.reasons import Reason
 from vjm.sensitivity import by_targets
-
-NOT_HELD = "without load nothing holds the linkage with this control, so a constant stiffness has no answer"
 
 
 def predict_linear(program: Program) -> Prediction:
@@ -55,5 +54,5 @@ def _group(program: Program, group: Group) -> tuple[np.ndarray, np.ndarray, np.n
     readings = state.readings[:, None] + np.einsum("tci,tsi->tsc", tangent.readings, change)
     readings[..., :6] -= nominal[:, None]
     held = state.converged & tangent.regular
-    why = np.where(held, "", NOT_HELD).astype(object)
+    why = np.where(held, "", Reason.NOT_HELD).astype(object)
     return readings, tangent.readings, why

@@ -17,6 +17,7 @@ from pipeline.inference.model import Model
 from pipeline.inference.program import INPUTS, Group
 from pipeline.inference.rigs import manipulator_of
 from vjm.effects.thermal_expansion import DRIVE
+from vjm.manipulator.assembled import relaxed, settled
 from vjm.manipulator.equilibrium import Loaded, equilibrium, unstable_directions
 from vjm.manipulator.lagrangian import System, system
 from vjm.manipulator.loops import looped
@@ -141,31 +142,38 @@ def _solve(whole: Manipulator, group: Group, rise: Array, start: States | None) 
     """Tests of one control together: all steps at once, or one after the other where laws remember."""
     pieces: list[_Piece] = []
     remembers = any(looped(leg).initial_memory.size for leg in whole.legs)
+    turns = settled(whole, _posture(group))
     for channels in np.unique(group.channels, axis=0):
         tests = np.flatnonzero(np.all(group.channels == channels, axis=1))
         held = tuple(name for name, channel in zip(COORDINATES, channels, strict=True) if channel < 6)
         steps = np.arange(rise.shape[1])
         if remembers:
-            pieces += _history(whole, group, rise, tests, held, start)
+            pieces += _history(whole, turns, group, rise, tests, held, start)
         else:
             every = np.repeat(tests, steps.size), np.tile(steps, tests.size)
             for first in range(0, every[0].size, TOGETHER):
                 place = every[0][first : first + TOGETHER], every[1][first : first + TOGETHER]
-                pieces.append(_piece(_system(whole, group, rise[place]), group, place, held, start))
+                of = _system(whole, turns, group, rise[place])
+                pieces.append(_piece(of, group, place, held, start))
     return _Solved((rise.shape[0], rise.shape[1]), pieces)
 
 
-def _system(whole: Manipulator, group: Group, rise: Array) -> System:
-    """One posture for all; rise: (M,)."""
+def _posture(group: Group) -> Postures:
+    """The one posture (1,) of a group."""
     assert group.rig.manipulator is not None
-    at = postures(group.rig.manipulator, group.nominal[0, 0])
+    return postures(group.rig.manipulator, group.nominal[0, :1])
+
+
+def _system(whole: Manipulator, turns: tuple[Array, ...], group: Group, rise: Array) -> System:
+    """One posture for all; rise: (M,). turns: of its hinges where they are relaxed, per leg (1, N)."""
+    at = _posture(group)
     many = Postures(
         np.tile(at.pose, (rise.size, 1)),
         tuple(np.tile(x, (rise.size, 1)) for x in at.coordinates),
-        np.full(rise.size, at.reached),
-        np.full(rise.size, at.reason, dtype=object),
+        np.full(rise.size, at.reached[0]),
+        np.full(rise.size, at.reason[0], dtype=object),
     )
-    return system(whole, many, {DRIVE: rise})
+    return relaxed(system(whole, many, {DRIVE: rise}), turns)
 
 
 def _piece(
@@ -191,6 +199,7 @@ def _begin(of: System, unknowns: Array) -> Loaded:
 
 def _history(
     whole: Manipulator,
+    turns: tuple[Array, ...],
     group: Group,
     rise: Array,
     tests: np.ndarray,
@@ -201,7 +210,7 @@ def _history(
     out: list[_Piece] = []
     for step in range(rise.shape[1]):
         place = tests, np.full(tests.size, step)
-        of = _system(whole, group, rise[place])
+        of = _system(whole, turns, group, rise[place])
         before = out[-1].loaded if out else None
         if before is not None:
             of = replace(of, memory=before.system.after(before.unknowns).memory)

@@ -23,6 +23,8 @@ from vjm.equilibrium import Equilibrium, drive_values, equilibrium
 from vjm.history import by_history
 from vjm.lagrangian import layout
 from vjm.mechanism import initial_memory
+from vjm.newton import CONVERGED
+from vjm.reasons import Reason
 from vjm.sensitivity import (
     TARGETS,
     AnyDirection,
@@ -59,7 +61,8 @@ class Prediction:
     sign of the stop and zero where none is, and its derivatives by the inputs; infinite where there is no play.
     slides: (R, K, 9) strain of each play, mm, half its width, and derivatives of the strain by the inputs; the width is
     infinite where there is no play.
-    lost: (R,) rows without a stable equilibrium. reasons: of the lost rows. states: of each group, to start from again.
+    lost: (R,) rows without a stable equilibrium. reasons: of the lost rows, as in `vjm.reasons`. states: of
+    each group, to start from again.
     """
 
     values: Array
@@ -128,7 +131,7 @@ def predict(
         lost = ~part.state.converged | (part.state.unstable > 0)
         out.lost[place] = lost[real]
         for row, reason in zip(place[lost[real]], part.state.reason[real][lost[real]], strict=True):
-            out.reasons[int(row)] = "unstable" if reason == "converged" else str(reason)
+            out.reasons[int(row)] = Reason.UNSTABLE if reason == CONVERGED else Reason.of(reason)
         states.append(part.state)
     return replace(zeroed(_finite(out), program), states=tuple(states))
 

@@ -5,6 +5,7 @@ from dataclasses import replace
 import numpy as np
 
 from pipeline.manipulator.question import Array, Question
+from vjm.manipulator.assembled import relaxed, settled
 from vjm.manipulator.equilibrium import Loaded, equilibrium, read_stiffness, unstable_directions
 from vjm.manipulator.lagrangian import System, system
 from vjm.manipulator.measures import principal, rotational, translational
@@ -41,7 +42,8 @@ def _block(drawn: Manipulator, question: Question, at: Postures) -> tuple[Array,
     good = plain.good
     other = None
     if question.changed is not None:
-        other = _States(system(question.changed, at, question.inputs), question.wrench)
+        of = relaxed(system(question.changed, at, question.inputs), settled(question.changed, at))
+        other = _States(of, question.wrench)
         good = good & other.good
     if plain.under is not None:
         columns += [*plain.moved(), *plain.stiffness(plain.under)]

@@ -9,7 +9,7 @@ from vjm.friction import Jenkins
 
 
 class JointFriction(Effect):
-    """A Jenkins element about each hinge axis: a spring in series with a slider."""
+    """A Jenkins element about each hinge axis: a spring in series with a slider, relaxed in the unloaded linkage."""
 
     name = "joint_friction"
     title = "friction in the hinges"

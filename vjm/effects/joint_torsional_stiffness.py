@@ -11,11 +11,11 @@ from vjm.laws import Linear
 
 
 class JointTorsionalStiffness(Effect):
-    """A linear spring about each hinge axis, relaxed at the nominal angle."""
+    """A linear spring about each hinge axis, relaxed in the unloaded linkage."""
 
     name = "joint_torsional_stiffness"
     title = "hinges spring back"
-    equation = "M = -k (angle - nominal angle) in each hinge; along z 4 k / (L cos q)² with ry held"
+    equation = "M = -k (angle - unloaded angle) in each hinge; along z 4 k / (L cos q)² with ry held"
     signature = "the free direction z carries a force proportional to the displacement; no loop"
     limits = "linear; all four hinges alike, relaxed where the test begins"
     source = "L. L. Howell, Compliant Mechanisms, Wiley 2001, chapter 5"

@@ -6,6 +6,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from vjm.bars import BarModel, X
 from vjm.chain import Chain, Element, Fixed, Joint, Mark, Role
@@ -37,7 +38,9 @@ class Assembly:
 
     link, model: the bar. start: elements before its base hinge, end: after its tip hinge.
     hinged: whether there is a hinge at the base and at the tip. angle: nominal rotation of the bar, rad.
-    hinges: laws of the turn of each hinge from its nominal angle. line_load: (3,) N/mm, base frame.
+    hinges: laws of the turn of each hinge from where it stands in the unloaded linkage. settled: turns (..., 2) of the
+    hinges at base and tip from their nominal angles there, at nominal rotations (...); none where they stand as drawn.
+    line_load: (3,) N/mm, base frame.
     """
 
     link: Link
@@ -47,6 +50,7 @@ class Assembly:
     hinged: tuple[bool, bool] = (True, True)
     angle: float = 0.0
     hinges: tuple[Law, ...] = ()
+    settled: Callable[[Array], Array] | None = None
     line_load: Array = field(default_factory=lambda: np.zeros(3))
 
     def chain(self) -> ElasticChain:
@@ -67,14 +71,24 @@ class Assembly:
             if there:
                 nominal[k] = sign
                 springs += [Spring((k,), law) for law in self.hinges]
-        rest += self.angle * nominal
+        rest += self.angle * nominal + self._turned(chain.size, 0.0)
         drives = [Drive("q", self.angle, nominal, posture=True)] if any(self.hinged) else []
+        if self.settled is not None:
+            here = self._turned(chain.size, 0.0)
+            drives = [replace(drives[0], curve=lambda change: self._turned(chain.size, change) - here)]
         for name, rate in self.link.elongation:
             slope = np.zeros(chain.size)
             slope[bar] = rate * limb.stretch
             drives.append(Drive(name, 0.0, slope))
         loads = (self._loads(limb.stations, chain),) if np.any(self.line_load) else ()
         return ElasticChain(chain, stiffness, rest, tuple(springs), loads, tuple(drives))
+
+    def _turned(self, size: int, change: ArrayLike) -> Array:
+        """(..., size) turns of the hinges in the unloaded linkage from as drawn, at departures (...) from the angle."""
+        out = np.zeros((*np.shape(change), size))
+        if self.settled is not None:
+            out[..., [0, -1]] = self.settled(self.angle + np.asarray(change))
+        return out
 
     def gauge(self, number: int, chain: ElasticChain, place: GaugeAt) -> Gauge:
         """Gauge on the bar, whose chain has this number."""

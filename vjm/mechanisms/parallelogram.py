@@ -6,8 +6,9 @@ manipulators", New Trends in Mechanism Science (EUCOMES 2010), Springer.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, field, replace
-from functools import cached_property
+from functools import cached_property, partial
 from typing import get_args
 
 import numpy as np
@@ -21,6 +22,7 @@ from vjm.laws import Law
 from vjm.link import Link
 from vjm.lumped import Lumped, SpringAt
 from vjm.mechanism import ElasticChain
+from vjm.mechanisms.assembled import FourBar
 from vjm.mechanisms.assembly import Alteration, Assembly, GaugeAt, as_built, mounted
 from vjm.refined import SEGMENTS, Refined
 from vjm.sensors import Sensor
@@ -37,7 +39,8 @@ class Parallelogram:
     spring_at: where along the bar K_b is lumped. Eq. 1 says the tip. The unloaded stiffness does not depend
     on it, the critical loads do (`vjm.closed_forms`).
     bar: another model of the bars than K_b lumped at that place, such as `vjm.refined.Refined`.
-    hinges: laws of the turn of each of the four hinges from its nominal angle; none in a perfect hinge.
+    hinges: laws of the turn of each of the four hinges, none in a perfect one. They are relaxed where the linkage
+    stands without load (`vjm.mechanisms.assembled`): at the nominal angle, but for bars of different lengths.
     alterations: what the bars are instead of what is drawn, applied in turn. wider: mm added to both widths.
     mount: (3,) rotation vector, rad, of the whole linkage against the base frame. line_load: (3,) N/mm along
     the bars, base frame. gravity: (3,) unit vector of weights given without a direction. sensors, gauge_at:
@@ -112,6 +115,15 @@ class Parallelogram:
     def _gauge(self, place: GaugeAt) -> Gauge:
         return self._assemblies[place.bar - 1].gauge(place.bar - 1, self.chains[place.bar - 1], place)
 
+    @property
+    def _settled(self) -> tuple[Callable[[Array], Array] | None, ...]:
+        """Of each bar, how far its hinges are turned in the unloaded linkage."""
+        first, second = (link.length for link in self.links)
+        if first == second:
+            return None, None
+        loop = FourBar((first, second), self.width + self.wider)
+        return partial(loop.hinges, 0), partial(loop.hinges, 1)
+
     @cached_property
     def _assemblies(self) -> tuple[Assembly, ...]:
         model = Lumped(self.spring_at) if self.bar is None else self.bar
@@ -124,7 +136,8 @@ class Parallelogram:
                 end=(Fixed(np.array([0.0, 0.0, -offset])),),
                 angle=self.q,
                 hinges=self.hinges,
+                settled=settled,
                 line_load=self.line_load,
             )
-            for link, offset in zip(self.links, (-half, half), strict=True)
+            for link, offset, settled in zip(self.links, (-half, half), self._settled, strict=True)
         )

@@ -9,6 +9,7 @@ from pipeline.compare.error import Discrepancy
 from pipeline.inference.prediction import Prediction, no_slides, no_stops
 from pipeline.inference.program import INPUTS, Program, program
 from tests.pipeline.bench import bench
+from vjm.reasons import Reason
 
 RNG = np.random.default_rng(8)
 
@@ -89,12 +90,12 @@ def test_lost_rows_are_told_and_count() -> None:
     plain = planted(cases, np.zeros(cases.measured.shape))
     lost = np.zeros(len(cases.test), dtype=bool)
     lost[9:12] = lost[14] = True
-    reasons = dict.fromkeys([9, 10, 11], "unstable") | {14: "stopped"}
+    reasons = dict.fromkeys([9, 10, 11], Reason.UNSTABLE) | {14: "stopped"}
     found = Discrepancy(cases, replace(plain, lost=lost, reasons=reasons))
     first, second = found.lost()
     assert (first.rows, first.of, first.step) == (3, 12, 9)
     assert first.sentence == "axial_held_q+0: no prediction from step 9 on: " + first.reason
-    assert "no stable equilibrium" in first.reason
+    assert first.reason == Reason.UNSTABLE
     assert "in 1 of 12 rows, first step 2" in second.sentence and second.reason == "stopped"
     # A quarter of the readings at 30 sigma, the rest at zero.
     assert found.tests()[0].rms == pytest.approx(15.0, rel=1e-9)

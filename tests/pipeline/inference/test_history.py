@@ -10,7 +10,6 @@ import pytest
 
 from pipeline.diagnose.signatures import probed
 from pipeline.inference import history
-from pipeline.inference.history import ENDED
 from pipeline.inference.model import Model
 from pipeline.inference.prediction import predict
 from pipeline.inference.program import Group, program
@@ -19,6 +18,7 @@ from vjm.effects import catalogue
 from vjm.effects.base import Rig
 from vjm.equilibrium import Equilibrium, load_path
 from vjm.lagrangian import layout
+from vjm.reasons import Reason
 
 CASES = program(bench("joint_friction.torque_Nmm", 200.0, ("swing_q+0", "axial_held_q+0", "axial_held_q+15")))
 SWING = program(bench("joint_friction.torque_Nmm", 200.0, ("swing_q+0",)))
@@ -37,8 +37,8 @@ def test_a_test_ends_where_a_step_is_lost() -> None:
     ended = (CASES.test == test) & (np.arange(len(CASES.test)) >= row)
     assert not before.lost.any()
     np.testing.assert_array_equal(after.lost, ended)
-    assert {after.reasons[k] for k in np.flatnonzero(ended)[1:]} == {ENDED}
-    assert after.reasons[row] != ENDED
+    assert {after.reasons[k] for k in np.flatnonzero(ended)[1:]} == {Reason.ENDED}
+    assert after.reasons[row] != Reason.ENDED
     np.testing.assert_allclose(after.values[~ended], before.values[~ended], rtol=1e-9, atol=1e-9)
 
 

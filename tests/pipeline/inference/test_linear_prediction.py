@@ -7,7 +7,7 @@ import pytest
 
 from pipeline.campaign import Gauge, Noise, Rig, Test
 from pipeline.inference.frame_prediction import predict_frame
-from pipeline.inference.linear_prediction import NOT_HELD, predict_linear
+from pipeline.inference.linear_prediction import predict_linear
 from pipeline.inference.program import program
 from pipeline.inference.residual import residual
 from pipeline.simulate import bench_rig
@@ -16,6 +16,7 @@ from pipeline.virtual.plan import SENSORS, PlannedTest
 from tests.pipeline.bench import bench
 from vjm import paper
 from vjm.frames import rotate_stiffness, rotation_y
+from vjm.reasons import Reason
 from vjm.stiffness import closed_form
 
 RNG = np.random.default_rng(5)
@@ -81,7 +82,7 @@ def test_what_nothing_holds_is_lost_with_a_reason() -> None:
     noise = Noise(SENSORS.displacement, SENSORS.wrench, np.zeros(0), 0.1)
     cases = program(measure("pull", bench_rig(), planned, noise, {}, 1))
     found = predict_linear(cases)
-    assert found.lost.all() and set(found.reasons.values()) == {NOT_HELD}
+    assert found.lost.all() and set(found.reasons.values()) == {Reason.NOT_HELD}
 
 
 def test_the_frame_as_drawn_is_within_the_noise_and_loses_what_buckles() -> None:
@@ -101,7 +102,7 @@ def test_the_frame_as_drawn_is_within_the_noise_and_loses_what_buckles() -> None
     lost = predict_frame(beyond, predict_linear(beyond))
     # 36.5 kN is the lowest critical load of the held linkage.
     assert lost.lost.tolist() == [False] * 9 + [True] * 3
-    assert lost.reasons == dict.fromkeys([9, 10, 11], "unstable")
+    assert lost.reasons == dict.fromkeys([9, 10, 11], Reason.UNSTABLE)
 
 
 def test_a_test_zeroed_at_its_first_row_starts_at_zero() -> None:
