@@ -14,7 +14,7 @@ from meshes.files import replacing
 from pipeline.errors import InputError
 from pipeline.record import Record
 
-Verdict = Literal["within_noise", "identified", "ambiguous", "unknown"]
+Verdict = Literal["within_noise", "identified", "ambiguous", "unknown", "nothing_tested"]
 LEVEL = 0.01
 """A p-value below which what is left is not taken for noise."""
 
@@ -23,6 +23,7 @@ class Value(Record):
     """A parameter. std: standard error; low95, high95: interval; None where the data set no end.
 
     interval: how it was found, "wald", "profile", "undetermined", or "fixed" for what the fit left alone.
+    at_bound: the fit ended at the bound of the parameter, where the physics has no end (as at zero).
     """
 
     value: float
@@ -32,6 +33,7 @@ class Value(Record):
     interval: Literal["wald", "profile", "undetermined", "fixed"]
     unit: str
     meaning: str
+    at_bound: bool = False
 
 
 class ModelError(Record):
@@ -98,6 +100,8 @@ class Answer(Record):
 
     error: of the models on the way, the last is the answer's. undetermined: sets of parameters about which the data
     say nothing, or of which they see only combinations. confusable: effects whose parameters go together.
+    at_bound: parameters whose fit ended at their bound. out_by_plausibility: sets that fit as well but need an
+    implausible size.
     """
 
     campaign: str
@@ -112,6 +116,8 @@ class Answer(Record):
     correlations: tuple[Correlation, ...] = ()
     undetermined: tuple[tuple[str, ...], ...] = ()
     confusable: tuple[tuple[str, ...], ...] = ()
+    at_bound: tuple[str, ...] = ()
+    out_by_plausibility: tuple[tuple[str, ...], ...] = ()
     next_test: dict[str, Any] | None = None
     sentences: tuple[str, ...] = ()
     evaluations: int = 0
