@@ -114,9 +114,8 @@ class Answer(Record):
 
     error: of the models on the way, the last is the answer's. undetermined: sets of parameters about which the data
     say nothing, or of which they see only combinations. confusable: effects whose parameters go together. at_bound:
-    numbers that end at a bound of what they may be. out_by_plausibility: sets that fit as well and are out only because
-    their sizes would be implausible. zeros: of sensors that seem not to be zeroed. not_done: optional parts that failed,
-    and why.
+    numbers that end at a bound of what they may be. out_by_plausibility: sets that fit as well, out only because their
+    sizes would be implausible. zeros: of sensors that seem not to be zeroed. not_done: optional parts that failed.
     """
 
     campaign: str

@@ -5,7 +5,7 @@ from __future__ import annotations
 import logging
 from collections.abc import Callable
 from dataclasses import dataclass, field
-from typing import TypeVar
+from typing import Any, TypeVar, cast
 
 from numpy.linalg import LinAlgError
 
@@ -19,7 +19,7 @@ class Attempts:
 
     failed: list[str] = field(default_factory=list)
 
-    def get(self, what: str, work: Callable[[], Out], otherwise: Out) -> Out:
+    def get(self, what: str, work: Callable[[], Out], otherwise: Any) -> Out:
         """What the work returns, or `otherwise` where it fails. what: begins the sentence, such as "the next test"."""
         try:
             return work()
@@ -27,7 +27,7 @@ class Attempts:
         except Exception as error:
             LOG.info("%s failed", what, exc_info=True)
             self.failed.append(f"{what} could not be worked out: {plain(error)}")
-            return otherwise
+            return cast(Out, otherwise)
 
 
 def plain(error: Exception) -> str:

@@ -12,17 +12,20 @@ from rich.table import Table
 from rich.text import Text
 
 from pipeline.campaign.names import unknown_name
-from pipeline.compare.table import screen
 from pipeline.errors import InputError
 from pipeline.inference.suitable import known_effects
+from pipeline.terminal import cell, terminal
 from vjm.effects.base import Effect, Parameter
+
+NAME, UNIT = 27, 12
+"""Cells of a name and of a unit; longer ones go on below, and what a parameter means below its name."""
 
 
 def effects(name: str | None = None, effects_from: Iterable[Path] = ()) -> None:
     """Print all effects, or one. InputError for a name that is not in the catalogue."""
     known = known_effects(effects_from).effects
     shown = table(known) if name is None else page(effect_named(name, known))
-    screen().print(shown)
+    terminal().print(shown)
 
 
 def effect_named(name: str, known: Mapping[str, Effect]) -> Effect:
@@ -36,10 +39,10 @@ def table(known: Mapping[str, Effect]) -> Table:
     """Name, title and parameters with units of all effects."""
     out = Table(box=None, padding=(0, 0, 0, 2), pad_edge=False, header_style="bold")
     for head in ("effect", "what it is", "parameters"):
-        out.add_column(head)
+        out.add_column(head, no_wrap=head == "effect", overflow="fold")
     for effect in known.values():
         parameters = ", ".join(map(_with_unit, effect.parameters)) or "there or not"
-        out.add_row(*map(Text, (effect.name, effect.title, parameters)))
+        out.add_row(cell(effect.name, NAME), Text(effect.title), Text(parameters))
     return out
 
 
@@ -74,10 +77,10 @@ def _parameters(parameters: tuple[Parameter, ...]) -> Table:
     out.add_column("parameter", no_wrap=True)
     for head in ("unit", "absent", "typical", "lowest", "highest"):
         out.add_column(head, no_wrap=True, justify="left" if head == "unit" else "right")
-    out.add_column("meaning")
     for p in parameters:
         numbers = (f"{value:.6g}" for value in (p.null, p.null + p.typical, p.low, p.high))
-        out.add_row(*map(Text, (p.name, p.unit, *numbers, p.meaning)))
+        named = Text("\n").join([cell(p.name, NAME), cell(p.meaning, NAME, "dim")])
+        out.add_row(named, cell(p.unit, UNIT), *map(Text, numbers))
     return out
 
 

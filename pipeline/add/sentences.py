@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from pipeline.answer import LEVEL, Answer, ModelError
+from reports.quantities import short, sigma
 
 CLEARLY = 1.0 - LEVEL
 
@@ -14,9 +15,9 @@ def verdict_sentence(answer: Answer, nothing: str = "") -> str:
     if answer.verdict == "nothing_tested":
         return nothing or "nothing_tested: no reading is left to test the model by."
     before, after = answer.error[0], answer.error[-1]
-    fall = f"error {before.fit:.3g} -> {after.fit:.3g} sigma (whitened RMS, 1 is noise)"
+    fall = f"error {sigma(before.fit)} -> {sigma(after.fit)} sigma (whitened RMS, 1 is noise)"
     if after.holdout is not None and before.holdout is not None:
-        fall += f", held-out tests {before.holdout:.3g} -> {after.holdout:.3g}"
+        fall += f", held-out tests {sigma(before.holdout)} -> {sigma(after.holdout)}"
     if answer.verdict == "within_noise":
         return f"within_noise: what is left looks like noise; {fall}."
     return f"{answer.verdict}: {_not_noise(after)}; {fall}."
@@ -60,7 +61,7 @@ def _details(answer: Answer) -> Iterator[str]:
         word = "fell" if gain >= 0.0 else "rose"
         cost = {0: "without a further number", 1: "for one further number"}
         yield (
-            f"Chi-square {word} by {abs(gain):.4g} to {after.chi_square:.4g} on {after.degrees} degrees of "
+            f"Chi-square {word} by {short(abs(gain), 4)} to {short(after.chi_square, 4)} on {after.degrees} degrees of "
             f"freedom, {cost.get(numbers, f'for {numbers} further numbers')}{_with(answer)}."
         )
     if after.chi_square_p is not None and after.chi_square_p > CLEARLY:
@@ -72,6 +73,7 @@ def _details(answer: Answer) -> Iterator[str]:
         )
     for name in _absent(answer):
         yield f"{name} is not larger than zero by these tests: its interval begins where the effect is absent."
+    yield from limits(answer)
     for group in answer.undetermined:
         if len(group) == 1:
             yield f"{group[0]} is not determined by these tests: they say nothing about it."
@@ -79,6 +81,14 @@ def _details(answer: Answer) -> Iterator[str]:
             yield f"Only combinations of {_list(group)} are determined by these tests, none of them alone."
     for pair in answer.correlations:
         yield f"{pair.first} and {pair.second} are hardly told apart: correlation {pair.value:+.3f}."
+
+
+def limits(answer: Answer) -> Iterator[str]:
+    """Parameters whose fit ended at their bound, and sets that only an implausible size makes fit."""
+    for name in answer.at_bound:
+        yield f"{name} ends at its bound: what the effect explains there, it explains with a size that is not allowed."
+    for names in answer.out_by_plausibility:
+        yield f"{' + '.join(names)} would fit as well, but only with an implausible size."
 
 
 def _absent(answer: Answer) -> Iterator[str]:

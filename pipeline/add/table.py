@@ -1,9 +1,9 @@
-"""What adding effects changed, on a terminal of 100 columns."""
+"""What adding effects changed, on a terminal of 80 columns."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable
-from math import floor, log10
+from math import log10
 
 from rich.console import Console
 from rich.markup import escape
@@ -11,8 +11,21 @@ from rich.table import Table
 from rich.text import Text
 
 from pipeline.answer import LEVEL, Answer, TestChange, TestNoise, Value
+from pipeline.terminal import cell, folded, lean, terminal
+from reports.quantities import (
+    AT_BOUND,
+    FIXED,
+    NOT_DETERMINED,
+    estimate,
+    interval_text,
+    p_is,
+    sigma,
+    value_text,
+)
 
-WIDTH, BAR = 100, 24
+BAR = 21
+NAME, UNIT = 27, 12
+"""Cells of a test's or a parameter's name and of a unit; longer ones go on below."""
 EIGHTHS = " ▏▎▍▌▋▊▉█"
 WIDE = 20.0
 """From so many sigmas on, bars are logarithmic: beside hundreds of sigmas ten would not be seen."""
@@ -25,13 +38,11 @@ def show(
 
     saved: where the model went. following: commands that come next.
     """
-    out = console or Console(highlight=False)
-    if out.width > WIDTH or not out.is_terminal:
-        out.width = WIDTH
+    out = terminal(console)
     if not quiet:
-        out.print(error_table(answer))
+        out.print(error_table(answer), "")
     if answer.parameters:
-        out.print(parameter_table(answer))
+        out.print(parameter_table(answer), "")
     said = answer.sentences[:1] if quiet else answer.sentences
     for sentence in said:
         out.print(escape(sentence))
@@ -44,13 +55,10 @@ def show(
 def error_table(answer: Answer) -> Table:
     """Error of every test before and after, held-out tests apart, with bars on one scale."""
     before, after = answer.error[0], answer.error[-1]
-    table = Table(title=f"{escape(answer.campaign)}: error in sigmas, 1 is noise", title_justify="left")
-    table.add_column("test", no_wrap=True, max_width=30)
-    for name in ("rows", "before", "after"):
-        table.add_column(name, justify="right", no_wrap=True)
+    table = lean("test", "rows", "before", "after", title=f"{answer.campaign}: error in sigmas, 1 is noise")
     top = max([1.0, *(each.rms or 0.0 for t in answer.tests for each in (t.before, t.after))])
-    table.add_column("left of it" if top < WIDE else "left of it, log scale", no_wrap=True, width=BAR)
-    table.add_column("noise?", no_wrap=True)
+    table.add_column(scale(top), no_wrap=True, width=BAR)
+    table.add_column("noise?", overflow="fold")
     # So many tests are looked at: together they are held to one level.
     level = LEVEL / max(2 * len(answer.tests), 1)
     for role in ("fit", "holdout"):
@@ -62,7 +70,9 @@ def error_table(answer: Answer) -> Table:
         was, now = (before.fit, after.fit) if role == "fit" else (before.holdout, after.holdout)
         name = "all fitted tests" if role == "fit" else "held-out tests, never used"
         rows = str(sum(t.rows for t in mine))
-        table.add_row(f"[bold]{name}", rows, _number(was), f"[bold]{_number(now)}", bar(was, now, top), "")
+        table.add_row(
+            cell(name, NAME, "bold"), rows, sigma(was), f"[bold]{sigma(now)}", bar(was, now, top), ""
+        )
         table.add_section()
     return table
 
@@ -70,10 +80,10 @@ def error_table(answer: Answer) -> Table:
 def _row(test: TestChange, top: float, level: float) -> tuple[str | Text, ...]:
     was, now = test.before.rms, test.after.rms
     return (
-        escape(test.test),
+        cell(test.test, NAME),
         str(test.rows),
-        _number(was),
-        _number(now),
+        sigma(was),
+        sigma(now),
         bar(was, now, top),
         _judged(test.after, level),
     )
@@ -85,7 +95,12 @@ def _judged(it: TestNoise, level: float) -> str:
     p = [value for value in (it.chi_square_p, it.lag_one_p) if value is not None]
     if not p:
         return "[dim]–"
-    return "[green]yes" if min(p) >= level else f"[yellow]p {min(p):.0e}" if min(p) > 1e-99 else "[yellow]p 0"
+    return "[green]yes" if min(p) >= level else f"[yellow]{p_is(min(p))}"
+
+
+def scale(top: float) -> str:
+    """Head of a column of bars that go to `top` sigmas."""
+    return "left of it" if top < WIDE else "left of it, log scale"
 
 
 def bar(before: float | None, after: float | None, top: float, width: int = BAR) -> Text:
@@ -94,6 +109,7 @@ def bar(before: float | None, after: float | None, top: float, width: int = BAR)
         return Text("")
     if top >= WIDE:
         before, after, top = (max(log10(10.0 * max(it, 0.1)), 0.0) for it in (before, after, top))
+    top = max(top, 1e-9)
     solid = 8.0 * width * min(after / top, 1.0)
     whole, part = divmod(round(solid), 8)
     text = "█" * whole + (EIGHTHS[part] if part else "")
@@ -102,46 +118,29 @@ def bar(before: float | None, after: float | None, top: float, width: int = BAR)
 
 
 def parameter_table(answer: Answer) -> Table:
-    """Value, 95 % interval, unit and meaning of every parameter."""
-    table = Table(title="parameters", title_justify="left")
-    table.add_column("parameter", overflow="fold", ratio=3)
-    table.add_column("value", justify="right", no_wrap=True)
-    table.add_column("95 %", justify="right", no_wrap=True)
-    table.add_column("unit", no_wrap=True)
-    table.add_column("meaning", ratio=3)
+    """Value, 95 % interval and unit of every parameter, its meaning below its name."""
+    table = lean("parameter", "value", "95 %", title="parameters")
+    table.add_column("unit", overflow="fold")
     last = ""
     for name, it in answer.parameters.items():
         effect, _, parameter = name.partition(".")
         if effect != last:
-            table.add_row(f"[bold]{escape(effect)}", "", "", "", "")
+            table.add_row(cell(effect, NAME + 2, "bold"))
         last = effect
-        meaning = Text(it.meaning)
-        table.add_row(f"  {escape(parameter)}", _value(it), _interval(it), escape(it.unit), meaning)
+        meaning = Text(folded(it.meaning, NAME), style="dim")
+        named = Text("\n").join([cell(parameter, NAME), *([meaning] if it.meaning else [])])
+        named = Text("\n").join([Text("  ") + line for line in named.split("\n")])
+        unit = cell("" if it.unit == "1" else it.unit, UNIT)
+        table.add_row(named, _value(it), _interval(it), unit)
     return table
 
 
-def _value(it: Value) -> str:
-    """To the second digit of the standard error."""
-    if it.interval == "undetermined":
-        return "[dim]–"
-    return f"{it.value:.{_digits(it)}g}"
+def _value(it: Value) -> Text:
+    """Beside it, on the next line, that it is at its bound."""
+    known = estimate(it.model_dump())
+    return Text(value_text(known)) + Text(f"\n{AT_BOUND}" if it.at_bound else "", style="yellow")
 
 
-def _digits(it: Value) -> int:
-    if it.std is None or it.std == 0.0 or it.value == 0.0:
-        return 4
-    return int(min(max(floor(log10(abs(it.value))) - floor(log10(it.std)) + 2, 2), 8))
-
-
-def _interval(it: Value) -> str:
-    if it.interval == "fixed":
-        return "fixed"
-    if it.interval == "undetermined":
-        return "[dim]not determined"
-    digits = _digits(it)
-    low, high = ("" if end is None else f"{end:.{digits}g}" for end in (it.low95, it.high95))
-    return f"{low} .. {high}"
-
-
-def _number(value: float | None) -> str:
-    return "–" if value is None else f"{value:.2f}" if value < 100.0 else f"{value:.0f}"
+def _interval(it: Value) -> Text:
+    said = interval_text(estimate(it.model_dump()))
+    return Text(said, style="dim" if said in (NOT_DETERMINED, FIXED) else "")

@@ -34,6 +34,8 @@ class Lost(Record):
 class TestError(Record):
     """One test. rms: whitened, rows that are lost counting as `residual.LOST` sigmas; None: nothing is compared."""
 
+    __test__ = False
+
     test: str
     q_deg: float
     role: str

@@ -4,15 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
+from rich.cells import cell_len
 from rich.console import Console, Group, RenderableType
 from rich.table import Table
 from rich.text import Text
 
-from pipeline.compare.record import Comparison, ModelError
+from pipeline.compare.record import ChannelError, Comparison, ModelError
+from pipeline.terminal import WIDTH, blocks, cell, terminal
+from reports.quantities import NONE, number, p_value, sigma
 
-WIDTH = 100
-CHANNELS = 12
-"""Columns of channels beside each other; more follow below."""
+NAME, HEAD = 30, 10
+"""Cells of a test's and of a channel's name; longer ones go on below."""
 SENTENCES, LOST, REMARKS = 12, 4, 4
 """Lines of each kind at most."""
 HEADS = {"lin": "LIN", "vjm": "VJM", "saved": "saved", "fea": "FEA"}
@@ -24,17 +26,12 @@ NOISE, CLEAR = 1.5, 3.0
 
 def show(result: Comparison, console: Console | None = None) -> None:
     """Print a comparison."""
-    (console or screen()).print(page(result))
+    out = terminal(console)
+    out.print(page(result, out.width))
 
 
-def screen() -> Console:
-    """A terminal of at most `WIDTH` columns; what is no terminal has as many."""
-    here = Console(highlight=False)
-    return Console(highlight=False, width=min(here.width, WIDTH) if here.is_terminal else WIDTH)
-
-
-def page(result: Comparison) -> RenderableType:
-    """A comparison, at most `WIDTH` columns wide."""
+def page(result: Comparison, width: int = WIDTH) -> RenderableType:
+    """A comparison, so many columns wide; channels that do not fit beside the others follow below."""
     shown = result.model_of(result.shown)
     parts: list[RenderableType] = [
         Text(
@@ -46,7 +43,11 @@ def page(result: Comparison) -> RenderableType:
         *_lost(result),
     ]
     if shown.failed is None:
-        parts += [Text(), Text(f"{shown.title}: error of each channel, in its sigmas"), *_channels(shown)]
+        parts += [
+            Text(),
+            Text(f"{shown.title}: error of each channel, in its sigmas"),
+            *_channels(shown, width),
+        ]
         parts += [Text(), Text(f"How {shown.title} fails in the fitted tests:"), *_failures(shown)]
     return Group(*parts)
 
@@ -59,23 +60,14 @@ def sentence(result: Comparison) -> str:
     if shown.fit is None:
         return f"{result.campaign}: {shown.title}: not measured yet"
     said = "within the noise" if shown.within_noise else "not within the noise"
-    held = "" if shown.holdout is None else f", held-out tests {number(shown.holdout)}"
-    return f"{result.campaign}: {shown.title}: {number(shown.fit)} sigma{held}: {said}"
-
-
-def number(value: float | None) -> str:
-    """Three digits, in few characters."""
-    if value is None:
-        return "-"
-    if value >= 1e4:
-        return f"{value:.0e}".replace("e+0", "e")
-    return f"{value:.2f}" if value < 9.995 else f"{value:.1f}" if value < 99.95 else f"{value:.0f}"
+    held = "" if shown.holdout is None else f", held-out tests {sigma(shown.holdout)}"
+    return f"{result.campaign}: {shown.title}: {sigma(shown.fit)} sigma{held}: {said}"
 
 
 def coloured(value: float | None) -> Text:
     """A number of sigmas: green as noise, yellow, red as a misfit."""
     style = "dim" if value is None else "green" if value <= NOISE else "yellow" if value <= CLEAR else "red"
-    return Text(number(value), style=style)
+    return Text(sigma(value), style=style)
 
 
 def _models(result: Comparison) -> Table:
@@ -86,22 +78,18 @@ def _models(result: Comparison) -> Table:
         name = row.test if row.role == "fit" else f"{row.test} (held out)"
         by_model = [{t.test: t for t in m.tests}.get(row.test) for m in result.models]
         table.add_row(
-            _short(name),
+            cell(name, NAME),
             *(
-                Text("-") if t is None else coloured(t.rms) + Text("*" if t.lost else "", style="red")
+                Text(NONE) if t is None else coloured(t.rms) + Text("*" if t.lost else "", style="red")
                 for t in by_model
             ),
         )
     table.add_section()
     table.add_row("all fitted tests", *(coloured(m.fit) for m in result.models), style="bold")
     table.add_row("all held-out tests", *(coloured(m.holdout) for m in result.models), style="bold")
-    table.add_row("as large by noise", *(_probability(m.chi_square_p) for m in result.models))
-    table.add_row("as smooth by noise", *(_probability(m.lag_one_p) for m in result.models))
+    table.add_row("as large by noise", *(p_value(m.chi_square_p) for m in result.models))
+    table.add_row("as smooth by noise", *(p_value(m.lag_one_p) for m in result.models))
     return table
-
-
-def _probability(value: float | None) -> str:
-    return "-" if value is None else "< 1e-6" if value < 1e-6 else f"{value:.2g}"
 
 
 def _lost(result: Comparison) -> list[RenderableType]:
@@ -117,28 +105,49 @@ def _lost(result: Comparison) -> list[RenderableType]:
     return out
 
 
-def _channels(model: ModelError) -> Iterable[RenderableType]:
-    """Tests against channels, and the channels in their units below."""
+def _channels(model: ModelError, width: int) -> Iterable[RenderableType]:
+    """Tests against channels, and the channels in their units below, in blocks that are no wider than the page."""
     names = list(dict.fromkeys([*model.channels, *model.holdout_channels]))
-    for first in range(0, len(names), CHANNELS):
-        some = names[first : first + CHANNELS]
-        table = _table("", *some)
-        for test in model.tests:
-            name = test.test if test.role == "fit" else f"{test.test} (held out)"
-            errors = [test.channels.get(channel) for channel in some]
-            table.add_row(_short(name), *(coloured(None if e is None else e.sigmas) for e in errors))
-        table.add_section()
-        for title, errors_by in (("fitted", model.channels), ("held out", model.holdout_channels)):
-            table.add_row(
-                f"{title}, in units",
-                *(
-                    number(errors_by[c].rms * _UNITS[errors_by[c].unit][0] if c in errors_by else None)
-                    for c in some
-                ),
-            )
-        every = model.holdout_channels | model.channels
-        table.add_row("unit", *(_UNITS[every[c].unit][1] for c in some), style="dim")
+    columns = [_column(name, model) for name in names]
+    rows = _rows(model)
+    first = min(max(_width(name) for name in rows), NAME)
+    for part in blocks([max(5, *map(_width, column)) + 1 for column in columns], width - first):
+        if part.start:
+            yield Text()
+        table = _table("", *(names[k] for k in part))
+        for at, name in enumerate(rows):
+            if at == len(model.tests):
+                table.add_section()
+            table.add_row(cell(name, NAME), *(columns[k][at + 1] for k in part))
         yield table
+
+
+def _rows(model: ModelError) -> list[str]:
+    tests = [test.test if test.role == "fit" else f"{test.test} (held out)" for test in model.tests]
+    return [*tests, "fitted, in units", "held out, in units", "unit"]
+
+
+def _column(channel: str, model: ModelError) -> list[Text]:
+    """Head and cells of a channel."""
+    errors = [test.channels.get(channel) for test in model.tests]
+    fitted, held = model.channels.get(channel), model.holdout_channels.get(channel)
+    known = fitted or held
+    return [
+        cell(channel, HEAD),
+        *(coloured(None if e is None else e.sigmas) for e in errors),
+        Text(_in_unit(fitted)),
+        Text(_in_unit(held)),
+        Text("" if known is None else _UNITS[known.unit][1], style="dim"),
+    ]
+
+
+def _in_unit(error: ChannelError | None) -> str:
+    return number(None if error is None else error.rms * _UNITS[error.unit][0])
+
+
+def _width(text: str | Text) -> int:
+    plain = text.plain if isinstance(text, Text) else text
+    return max(map(cell_len, plain.split("\n")))
 
 
 def _failures(model: ModelError) -> list[RenderableType]:
@@ -147,20 +156,17 @@ def _failures(model: ModelError) -> list[RenderableType]:
     told = [finding.sentence for finding in model.findings if finding.sentence]
     if told:
         return _lines("  ", told, SENTENCES)
-    return [Text("  nothing beyond what noise gives in as many looks")]
+    if model.within_noise:
+        return [Text("  nothing beyond what noise gives in as many looks")]
+    return [Text(f"  no single shape stands out, yet {sigma(model.fit)} sigma are more than noise")]
 
 
 def _table(corner: str, *heads: str) -> Table:
     table = Table(box=None, padding=(0, 0, 0, 1), header_style="bold", pad_edge=False)
     table.add_column(corner, no_wrap=True)
     for head in heads:
-        table.add_column(Text(head[:8]), justify="right", no_wrap=True, min_width=5)
+        table.add_column(cell(head, HEAD), justify="right", no_wrap=True, min_width=5)
     return table
-
-
-def _short(name: str) -> Text:
-    """An id as it is: brackets in it are no markup."""
-    return Text(name if len(name) <= 28 else name[:25] + "...")
 
 
 def _lines(start: str, sentences: Iterable[str], most: int) -> list[RenderableType]:

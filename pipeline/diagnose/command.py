@@ -9,9 +9,9 @@ from pipeline.add.command import starting_model
 from pipeline.answer import Answer
 from pipeline.campaign import read
 from pipeline.command import usable
-from pipeline.diagnose.diagnosis import answer_of, diagnose
+from pipeline.diagnose.diagnosis import diagnose
 from pipeline.diagnose.table import show
-from pipeline.diagnose.words import sentences
+from pipeline.diagnose.words import answered
 from pipeline.inference.suitable import known_effects
 from pipeline.progress import Progress
 
@@ -37,7 +37,7 @@ def diagnose_campaign(
         found = diagnose(campaign, began, known.effects, stage.say)
         stage.note = f"{len(found.shelf.fits)} models fitted"
     with progress.stage("intervals"):
-        answer = answer_of(found, sentences(found)).model_copy(update={"seed": seed})
+        answer = answered(found).model_copy(update={"seed": seed})
     if json is not None:
         answer.write(json)
     if out is not None:

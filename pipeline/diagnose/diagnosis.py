@@ -44,7 +44,7 @@ FEW = 3
 
 @dataclass(frozen=True, eq=False)
 class Diagnosis:
-    """What was found. ruling: the verdict and what it rests on. untested: why nothing can be tested, "" if something can.
+    """What was found. ruling: the verdict and what it rests on. untested: why nothing can be tested, or "".
 
     refused: effects that the rig or the campaign cannot have, and why. failed: optional parts that failed, and why.
     """
@@ -211,7 +211,7 @@ def answer_of(it: Diagnosis, sentences: tuple[str, ...] = (), found: Fit | None 
         if it.ruling.zero is None or it.ruling.zero.zero is None
         else (zero_record(it.ruling.zero.zero),),
         not_done=(*it.failed, *attempts.failed),
-        sentences=(*sentences, *(f"{said}." for said in attempts.failed)),
+        sentences=sentences,
         evaluations=shelf.evaluations + land.evaluations,
         seconds=it.seconds,
         commit=commit(),

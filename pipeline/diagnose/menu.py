@@ -130,8 +130,10 @@ def planned(
     rig: Rig,
     warmer: float = 0.0,
 ) -> Test:
-    """A test in which every sensor of the campaign reads, with zeros for what is to come; values (S, 6) of what `control`
-    prescribes, which a clamp may hold without a sensor."""
+    """A test in which every sensor of the campaign reads, with zeros for what is to come.
+
+    values: (S, 6) of what `control` prescribes, which a clamp may hold without a sensor.
+    """
     there = np.where(sensors(campaign), 0.0, np.nan)
     forced = np.array([by == FORCE for by in control])
     steps = len(values)

@@ -29,7 +29,7 @@ EQUAL = 1.0 - 1e-6
 
 @dataclass(frozen=True, eq=False)
 class Ruling:
-    """A verdict. sets: the simplest first; one where the verdict is certain. fit: of the first, its numbers that nothing
+    """A verdict. sets: the simplest first; one where the verdict is certain. fit: of the first, numbers that nothing
     determines at null. instead: faults of sensors that explain as much; zero: one that comes before all physics.
 
     at_bound: numbers of the first set that end at their bound. out: sets that only an implausible size excludes.
@@ -55,9 +55,8 @@ def ruled(found: Found, judgement: Judgement, attempts: Attempts) -> Ruling:
     zero = attempts.get("whether a sensor was not zeroed", lambda: zero_first(found), None)
     bounded = at_bound(here.model)
     out = tuple(_implausible(found))
-    if zero is not None and zero.zero is not None and zero.zero.unloaded and not zero.without:
-        if shelf.fit(zero.without).degrees <= 1:
-            return Ruling("nothing_tested", (zero.without,), shelf.fit(zero.without), (), zero)
+    if zero is not None and _nothing_but(zero, shelf):
+        return Ruling("nothing_tested", (zero.without,), shelf.fit(zero.without), (), zero)
     if not judgement.noise:
         if zero is not None and not zero.without:
             # What a sensor's zero hides is named when that is settled.
@@ -85,6 +84,12 @@ def ruled(found: Found, judgement: Judgement, attempts: Attempts) -> Ruling:
     because = _not_named(settled, shelf, bounded)
     verdict: Verdict = "unknown" if because else "identified"
     return Ruling(verdict, (best,), settled, (), None, alike, bounded, out, because)
+
+
+def _nothing_but(zero: Instead, shelf: Shelf) -> bool:
+    """Whether all that was read is one constant of a channel of which the model expects nothing."""
+    alone = zero.zero is not None and zero.zero.unloaded and not zero.without
+    return alone and shelf.fit(zero.without).degrees <= 1
 
 
 def _not_named(settled: Fit, shelf: Shelf, bounded: tuple[str, ...]) -> str:

@@ -16,7 +16,7 @@ from pipeline.diagnose.zeros import Zero, zeros
 from pipeline.inference.fit import Fit
 
 MOST = 2.5
-"""A sensor's zero comes before all physics where it leaves less than the best set of effects, divided by this, or noise.
+"""A sensor's zero comes before all physics where it leaves less than the best set of effects by this, or noise.
 Discrete mistakes take far more than that off a misfit, an effect that looks a little like one takes less."""
 NOISE = 1e-3
 """Chance that noise leaves so much: what is as large as that is noise."""

@@ -122,8 +122,8 @@ class Shelf:
     def _no_worse(self, names: Names, found: Fit) -> Fit:
         """The fit, or a better one from where a set that it contains stands: a larger set never leaves more.
 
-        Of sets that differ by effects with numbers; what is there or not may make things worse. Where no step from there
-        is better either, the further effects are at their null: there the two are one.
+        Of sets that differ by effects with numbers; what is there or not may make things worse. Where no step from
+        there is better either, the further effects are at their null: there the two are one.
         """
         inside = [n for n in self.fits if n < names and all(self.candidates[e].parameters for e in names - n)]
         if not inside:

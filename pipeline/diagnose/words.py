@@ -6,38 +6,54 @@ from collections.abc import Callable, Iterator
 
 import numpy as np
 
+from pipeline.add.sentences import limits
 from pipeline.adequacy.judgement import judge
 from pipeline.adequacy.untested import in_units
+from pipeline.answer import Answer
 from pipeline.attempt import Attempts
 from pipeline.campaign.names import COORDINATES
 from pipeline.diagnose.description import descriptions
-from pipeline.diagnose.diagnosis import Diagnosis, in_words
+from pipeline.diagnose.diagnosis import Diagnosis, answer_of, in_words
 from pipeline.diagnose.evidence import RAW
 from pipeline.diagnose.exclusion import needed, worse
 from pipeline.diagnose.menu import Choice, menu
 from pipeline.diagnose.merit import badness
 from pipeline.diagnose.seen_at import only_place
 from pipeline.inference.driving import column_name
+from pipeline.inference.fit import Fit
+from reports.quantities import estimate, p_is, percent, phrase, short, sigma
 from vjm.effects.base import Effect
 
 CARRIES = 0.7
 """Part of the misfit that may be left of a test, for the others to foretell it."""
 
 
-def sentences(it: Diagnosis) -> tuple[str, ...]:
-    """All that is worth saying, the verdict first. A part that fails is said, and takes no other with it."""
+def answered(it: Diagnosis, found: Fit | None = None) -> Answer:
+    """The diagnosis as a record with its sentences. found: whose numbers it has, default those of the first set."""
+    answer = answer_of(it, found=found)
+    own = answer if found is None or found is it.fit else answer_of(it)
+    return answer.model_copy(update={"sentences": sentences(it, own)})
+
+
+def sentences(it: Diagnosis, answer: Answer | None = None) -> tuple[str, ...]:
+    """All that is worth saying, the verdict first. A part that fails is said, and takes no other with it.
+
+    answer: of the diagnosis, so that its intervals are found once.
+    """
     attempts = Attempts()
+    record = answer or answer_of(it)
     first = attempts.get("the verdict in words", lambda: tuple(_verdict(it)), (f"{it.verdict}.",))
     parts: dict[str, Callable[[], tuple[str, ...]]] = {"what is known in units": lambda: in_units(it.fit)}
     if it.verdict != "nothing_tested":
         parts |= {
-            "the evidence in words": lambda: tuple(_evidence(it)),
+            "the evidence in words": lambda: tuple(_evidence(it, record)),
+            "the limits in words": lambda: tuple(limits(record)),
             "what is left in words": lambda: tuple(_left(it)),
             "the rivals in words": lambda: tuple(_rivals(it)),
             "the next test in words": lambda: tuple(_next(it)),
         }
     told = [said for name, part in parts.items() for said in attempts.get(name, part, ())]
-    failed = [f"{said}." for said in (*it.failed, *attempts.failed)]
+    failed = [f"{said}." for said in (*record.not_done, *attempts.failed)]
     return (*first, *told, *failed, *(f"{r}." for r in it.campaign.remarks))
 
 
@@ -51,9 +67,9 @@ def _verdict(it: Diagnosis) -> Iterator[str]:
         yield f"nothing_tested: {asked}With that zero unknown no reading is left to test a model by."
         return
     rms, before = it.fit.rms, it.shelf.fit(frozenset()).rms
-    fall = f"the error falls from {before:.3g} to {rms:.3g} sigma (1 is noise)"
+    fall = f"the error falls from {sigma(before)} to {sigma(rms)} sigma (1 is noise)"
     if it.verdict == "within_noise":
-        yield f"within_noise: the model explains the measurements, {rms:.3g} sigma are left (1 is noise)."
+        yield f"within_noise: the model explains the measurements, {sigma(rms)} sigma are left (1 is noise)."
     elif it.verdict == "identified":
         yield f"identified: {_and(it.sets[0])}; {fall}."
     elif it.verdict == "ambiguous":
@@ -66,25 +82,25 @@ def _verdict(it: Diagnosis) -> Iterator[str]:
         rest = "what is left is no noise and nothing known explains it"
         yield f"unknown: {asked}{_and(it.sets[0])} help, {fall}, but {rest}."
     else:
-        yield f"unknown: {asked}the misfit of {rms:.3g} sigma is no noise, and nothing known explains it."
+        yield f"unknown: {asked}the misfit of {sigma(rms)} sigma is no noise, and nothing known explains it."
 
 
-def _evidence(it: Diagnosis) -> Iterator[str]:
+def _evidence(it: Diagnosis, answer: Answer) -> Iterator[str]:
     """Each effect: what it is, how much it explains, how it looks."""
     for name in it.sets[0]:
         effect = it.shelf.candidates[name]
         size = next((a.size for a in it.alike if a.effect == name), None)
-        shows = "" if size is None else f" It shows by {size:.3g} sigma in these tests together."
+        shows = "" if size is None else f" It shows by {sigma(size)} sigma in these tests together."
         share = it.agreement.get(name)
         again = (
             ""
             if share is None
-            else f" With one test left out it is chosen again in {100 * share:.0f} % of cases."
+            else f" With one test left out it is chosen again in {percent(share)} of cases."
         )
         what = f"{name}: {effect.title}, {effect.equation}. In data: {effect.signature}."
         if name == it.found.beyond:
             what += " The tests that were fitted do not show it, those held out need it."
-        yield f"{what}{shows}{again}{_values(it, effect)}{_where(it, name)}"
+        yield f"{what}{shows}{again}{_values(answer, effect)}{_where(it, name)}"
 
 
 def _where(it: Diagnosis, name: str) -> str:
@@ -98,13 +114,13 @@ def _where(it: Diagnosis, name: str) -> str:
     )
 
 
-def _values(it: Diagnosis, effect: Effect) -> str:
-    found = it.fit
-    said = []
-    for free, value, std in zip(found.model.free, found.model.values, found.std, strict=True):
-        if free.effect == effect.name:
-            unit = "" if free.parameter.unit == "1" else f" {free.parameter.unit}"
-            said.append(f"{free.parameter.name} = {value:.4g} ± {std:.2g}{unit}")
+def _values(answer: Answer, effect: Effect) -> str:
+    mine = {p.name: answer.parameters.get(f"{effect.name}.{p.name}") for p in effect.parameters}
+    said = [
+        phrase(name, estimate(value.model_dump()), value.unit)
+        for name, value in mine.items()
+        if value is not None and value.interval != "fixed"
+    ]
     return f" Fitted: {', '.join(said)}." if said else ""
 
 
@@ -112,7 +128,7 @@ def _left(it: Diagnosis) -> Iterator[str]:
     """What the checks say of the rest."""
     failed = [check for check in it.judgement.checks if not check.passed]
     for check in failed:
-        yield f"Not noise ({check.name}, p = {check.p_value:.1g}): {check.words}."
+        yield f"Not noise ({check.name}, {p_is(check.p_value)}): {check.words}."
     if it.judgement.scatter > 1.0:
         size = next(check.words for check in it.judgement.checks if check.name == "size")
         yield f"By its order along the load paths the rest is noise, but {size}."
@@ -128,7 +144,7 @@ def _why_not(it: Diagnosis) -> Iterator[str]:
     for names in [n for n in near if n and n != frozenset(it.sets[0])][:3]:
         found = shelf.fit(names)
         worst = min(judge(found).checks, key=lambda check: check.p_value)
-        yield f"{_and(shelf.order(names))} leaves {found.rms:.3g} sigma: {worst.words}."
+        yield f"{_and(shelf.order(names))} leaves {sigma(found.rms)} sigma: {worst.words}."
 
 
 def _described(it: Diagnosis) -> Iterator[str]:
@@ -136,13 +152,13 @@ def _described(it: Diagnosis) -> Iterator[str]:
         channel = column_name(each.channel, it.campaign.gauges)
         inputs = ", ".join(each.inputs) or "nothing that was prescribed"
         carries = (
-            f"known from the other tests it would be {each.elsewhere:.3g}"
+            f"known from the other tests it would be {sigma(each.elsewhere)}"
             if each.elsewhere < CARRIES * each.rms
             else "which the other tests do not foretell"
         )
         yield (
-            f"A description, not physics (Gaussian process): the rest of {channel}, {each.rms:.3g} sigma, varies with "
-            f"{inputs}; {carries}."
+            f"A description, not physics (Gaussian process): the rest of {channel}, {sigma(each.rms)} sigma, "
+            f"varies with {inputs}; {carries}."
         )
 
 
@@ -151,36 +167,29 @@ def _rivals(it: Diagnosis) -> Iterator[str]:
     for fault in it.instead:
         if not fault.effect:
             yield (
-                f"A sensor that was not zeroed comes before all physics: {fault.words} That takes {fault.explains:.3g} "
+                f"Look first whether the sensor was zeroed: {fault.words} That takes {short(fault.explains)} "
                 f"off chi-square beside {_and(shelf.order(fault.without))}; say so in campaign.toml and diagnose again."
             )
             continue
         yield (
-            f"Instead of {fault.effect} a sensor may be at fault: {fault.words}. That takes {fault.explains:.3g} off "
-            f"chi-square with one number, {fault.effect} {fault.of:.3g}: check that sensor, or measure again with "
-            "another."
+            f"Instead of {fault.effect} a sensor may be at fault: {_ended(fault.words)} That takes "
+            f"{short(fault.explains)} off chi-square with one number, {fault.effect} {short(fault.of)}: "
+            "check that sensor, or measure again with another."
         )
     if len(it.sets) > 1:
         least = min(map(frozenset, it.sets), key=lambda names: badness(shelf, names))
         for names in it.sets:
             more = worse(shelf, frozenset(names), least)
             limit = max(needed(shelf, frozenset(names), least), RAW)
-            so = f"{limit:.3g} would exclude it"
+            so = f"{short(limit)} would exclude it"
             if more > limit:
                 so = "alone that might exclude it, but not with others as near or with numbers that only fit noise"
-            yield f"{_and(names)}: chi-square {more:.1f} above the best; {so}."
-    for names in it.ruling.out:
-        yield (
-            f"{_and(shelf.order(names))} fits as well, but needs a size that is far beyond the usual: out by "
-            "plausibility alone."
-        )
-    for name in it.ruling.at_bound:
-        yield f"{name} ends at the bound of what it may be: it excludes nothing and names nothing."
+            yield f"{_and(names)}: chi-square {short(more)} above the best; {so}."
     for a in it.alike:
         if a.correlation > 0.9 and a.effect in it.sets[0] and a.size < a.needed:
             yield (
                 f"{a.rival} looks like {a.effect} here (correlation {a.correlation:.3f}): to tell them apart takes "
-                f"{a.needed:.3g} sigma, there are {a.size:.3g}."
+                f"{sigma(a.needed)} sigma, there are {sigma(a.size)}."
             )
 
 
@@ -198,8 +207,12 @@ def _next(it: Diagnosis) -> Iterator[str]:
     for other in others:
         yield f"Only together with: {in_words(other)}. {_how(other)}"
     for a, b in it.next_test.apart:
-        sigma = np.sqrt(it.next_test.parted[(a, b)])
-        yield f"That tells {_and(it.sets[a])} from {_and(it.sets[b])}: they would differ by {sigma:.3g} sigma."
+        apart = float(np.sqrt(it.next_test.parted[(a, b)]))
+        yield f"That tells {_and(it.sets[a])} from {_and(it.sets[b])}: they would differ by {sigma(apart)} sigma."
+
+
+def _ended(words: str) -> str:
+    return words if words.endswith("?") else f"{words}."
 
 
 def _how(choice: Choice) -> str:

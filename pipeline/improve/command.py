@@ -5,15 +5,14 @@ from __future__ import annotations
 from collections.abc import Sequence
 from pathlib import Path
 
-from rich.console import Console
 from rich.live import Live
 
 from pipeline.add.command import starting_model
 from pipeline.answer import Answer
 from pipeline.campaign import Campaign, read
 from pipeline.command import usable
-from pipeline.diagnose.diagnosis import Diagnosis, answer_of, diagnose
-from pipeline.diagnose.words import sentences
+from pipeline.diagnose.diagnosis import Diagnosis, diagnose
+from pipeline.diagnose.words import answered
 from pipeline.improve.steps import Step, steps
 from pipeline.improve.table import closing, following, waterfall
 from pipeline.inference.model import Model
@@ -21,6 +20,7 @@ from pipeline.inference.model_file import NAME, ModelFile, Uncertainty, write_mo
 from pipeline.inference.suitable import Known, known_effects
 from pipeline.progress import Progress
 from pipeline.provenance import commit, versions
+from pipeline.terminal import terminal
 
 
 def improve_campaign(
@@ -52,7 +52,7 @@ def improve_campaign(
         stage.note = f"{len(found.shelf.fits)} models fitted"
     done = _watched(found, quiet)
     last = done[-1].fit
-    answer = answer_of(found, sentences(found), last)
+    answer = answered(found, last)
     answer = answer.model_copy(
         update={
             "verdict": "within_noise" if answer.verdict == "identified" else answer.verdict,
@@ -82,11 +82,11 @@ def improve_campaign(
 def _watched(found: Diagnosis, quiet: bool) -> list[Step]:
     """All steps, shown as they come."""
     done: list[Step] = []
-    console = Console(highlight=False)
+    console = terminal()
     if quiet or not console.is_terminal:
         done = list(steps(found))
         if not quiet:
-            console.print(waterfall(found.campaign.name, done))
+            console.print(waterfall(found.campaign.name, done), "")
         return done
     with Live(waterfall(found.campaign.name, done), console=console) as live:
         for step in steps(found):

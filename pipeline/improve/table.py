@@ -1,43 +1,39 @@
-"""The waterfall of an improvement, and what is said at its end, on a terminal of 100 columns."""
+"""The waterfall of an improvement, and what is said at its end, on a terminal of 80 columns."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from pathlib import Path
 
-from rich.console import Console
 from rich.markup import escape
 from rich.table import Table
 
-from pipeline.add.table import WIDTH, bar, parameter_table
+from pipeline.add.table import BAR, bar, parameter_table, scale
 from pipeline.answer import Answer, Verdict
 from pipeline.diagnose.diagnosis import Diagnosis
+from pipeline.diagnose.table import STEP
 from pipeline.improve.steps import Step
+from pipeline.terminal import cell, lean, terminal
+from reports.quantities import sigma
 
 
 def waterfall(campaign: str, done: Sequence[Step]) -> Table:
     """One row a step: the error that is left in the fitted tests and in those held out."""
     top = max((step.error.fit for step in done), default=1.0)
-    title = f"{escape(campaign)}: error in sigmas, 1 is noise"
-    table = Table(title=title, title_justify="left")
-    table.add_column("step")
-    table.add_column("fitted", justify="right")
-    table.add_column("held out", justify="right")
-    table.add_column("left of it" if top < 20.0 else "left of it, log scale", no_wrap=True)
+    table = lean("step", "fitted", "held out", title=f"{campaign}: error in sigmas, 1 is noise")
+    table.add_column(scale(top), no_wrap=True, width=BAR)
     for number, step in enumerate(done):
         words = f"+ {step.added}" if number else " + ".join(step.error.effects) or "plain virtual springs"
-        held = "–" if step.error.holdout is None else f"{step.error.holdout:.3g}"
-        table.add_row(escape(words), f"{step.error.fit:.3g}", held, bar(step.error.fit, step.error.fit, top))
+        left = step.error.fit
+        table.add_row(cell(words, STEP), sigma(left), sigma(step.error.holdout), bar(left, left, top))
     return table
 
 
 def closing(answer: Answer, found: Diagnosis, saved: str, following: Iterable[str], quiet: bool) -> None:
     """Verdict, parameters, what is worth saying, where the model is and what can be done next."""
-    out = Console(highlight=False)
-    if out.width > WIDTH or not out.is_terminal:
-        out.width = WIDTH
+    out = terminal()
     if answer.parameters:
-        out.print(parameter_table(answer))
+        out.print(parameter_table(answer), "")
     for sentence in answer.sentences[:1] if quiet else answer.sentences:
         out.print(escape(sentence))
     if answer.added:

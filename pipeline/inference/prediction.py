@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import cache
-from typing import cast
+from typing import Any, cast
 
 import numpy as np
 from numpy.typing import NDArray
@@ -142,7 +142,7 @@ def _finite(found: Prediction) -> Prediction:
     good = np.all([np.isfinite(part.reshape(len(part), -1)).all(axis=1) for part in parts], axis=0)
     if good.all():
         return found
-    arrays = {
+    arrays: dict[str, Any] = {
         name: np.where(good.reshape(-1, *[1] * (getattr(found, name).ndim - 1)), getattr(found, name), blank)
         for name, blank in (
             ("values", 0.0),

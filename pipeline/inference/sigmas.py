@@ -93,8 +93,10 @@ def _prescribed(campaign: Campaign, channel: int) -> bool:
 
 
 def _chosen(readings: Array) -> bool:
-    """Whether readings (N,) are steps that somebody chose: whole multiples of the smallest, and not many of them. What a
-    display rounds lies on multiples too, of a step that is far smaller than those of the load."""
+    """Whether readings (N,) are steps that somebody chose: whole multiples of the smallest, and not many of them.
+
+    What a display rounds lies on multiples too, of a step that is far smaller than those of the load.
+    """
     values = np.unique(readings)
     steps = _steps_of(values)
     if not steps.size:

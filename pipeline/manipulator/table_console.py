@@ -1,32 +1,30 @@
-"""Table 1 on a terminal of 100 columns."""
+"""Table 1 on a terminal of 80 columns."""
 
 from rich.console import Console
 from rich.markup import escape
 from rich.table import Table
 
 from pipeline.manipulator.table_record import UNITS, Cell, Table1, Unknown
-
-WIDTH = 100
+from pipeline.terminal import lean, terminal
+from reports.quantities import AT_BOUND, percent, short
 
 
 def show(result: Table1, quiet: bool = False, console: Console | None = None) -> None:
     """Print the cells beside the paper's; unless quiet, also what was fitted, the readings and the findings."""
-    out = console or Console(highlight=False)
-    if out.width > WIDTH or not out.is_terminal:
-        out.width = WIDTH
-    out.print(_cells(result))
+    out = terminal(console)
+    out.print(_cells(result), "")
     out.print(counts(result))
     if quiet:
         return
-    out.print(_unknowns(result))
-    out.print(_readings(result))
+    out.print("", _unknowns(result), "")
+    out.print(_readings(result), "")
     for finding in result.findings:
         answer = "yes" if finding.holds else "no"
         out.print(f"{escape(finding.statement)} [bold]{answer}[/bold]: {escape(finding.found)}")
     worst = max(max(a.K_tran, a.K_rot) for a in result.agreement)
     postures = max(a.postures for a in result.agreement)
     out.print(
-        f"VJM against finite elements: within {100 * worst:.2g} % at {postures} postures, all linkages."
+        f"VJM against finite elements: within {short(100 * worst, 2)} % at {postures} postures, all linkages."
     )
 
 
@@ -35,17 +33,17 @@ def counts(result: Table1) -> str:
     worst = max(abs(c.deviation) for c in result.cells if c.deviation is not None and not c.fitted)
     return (
         f"{len(result.unknowns)} numbers fitted to {result.fitted} cells, {result.predicted} cells predicted, "
-        f"worst {100 * worst:.0f} %."
+        f"worst {percent(worst)}."
     )
 
 
 def _cells(result: Table1) -> Table:
-    table = Table(title="Table 1, isotropic posture", title_justify="left")
+    table = lean(title="Table 1, isotropic posture")
     for name in ("linkage", "model", "quantity"):
-        table.add_column(name, no_wrap=True)
+        table.add_column(name, overflow="fold")
     for name in ("paper", "here", "deviation"):
-        table.add_column(name, justify="right", no_wrap=True)
-    table.add_column("", no_wrap=True)
+        table.add_column(name, justify="right", overflow="fold")
+    table.add_column("", overflow="fold")
     for cell in result.cells:
         table.add_row(*_cell(cell))
     return table
@@ -65,26 +63,22 @@ def _number(value: float) -> str:
 
 
 def _unknowns(result: Table1) -> Table:
-    table = Table(title="Numbers that the paper does not give", title_justify="left")
-    table.add_column("unknown")
-    table.add_column("value", justify="right", no_wrap=True)
-    table.add_column("plausible", no_wrap=True)
-    table.add_column("fixed by the cell")
+    table = lean("unknown", "value", title="Numbers that the paper does not give")
+    table.add_column("plausible", overflow="fold")
+    table.add_column("fixed by the cell", overflow="fold")
     for u in result.unknowns:
         table.add_row(escape(u.name), _value(u), f"{u.low:.0e} to {u.high:.0e}", escape(u.cell))
     return table
 
 
 def _value(u: Unknown) -> str:
-    return f"{u.value:.4g} {u.unit}" + (" at its bound" if u.at_bound else "")
+    return f"{short(u.value, 4)} {u.unit}" + (f", {AT_BOUND}" if u.at_bound else "")
 
 
 def _readings(result: Table1) -> Table:
-    table = Table(title='Readings of "2x-bar linkage", the parallelogram being 1', title_justify="left")
-    table.add_column("reading")
-    for name in ("K_tran", "turning held", "1 / K_rot"):
-        table.add_column(name, justify="right", no_wrap=True)
-    table.add_column("moves", no_wrap=True)
+    title = 'Readings of "2x-bar linkage", the parallelogram being 1'
+    table = lean("reading", "K_tran", "turning held", "1 / K_rot", title=title)
+    table.add_column("moves", overflow="fold")
     for r in result.readings:
         numbers = (r.K_tran_over_parallelogram, r.K_tran_held_over_parallelogram)
         shown = [*(f"{n:.3f}" for n in numbers), f"{r.parallelogram_over_K_rot:.3g}"]

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
+from typing import Literal
 
 import numpy as np
 
@@ -21,6 +22,7 @@ from pipeline.page.record import CandidatePage, EffectPage, Isolability, Page, S
 from pipeline.page.stages import Stages, stages
 from pipeline.page.words import SOURCES, assumptions, reading, why
 from pipeline.provenance import commit, versions
+from reports.quantities import sigma
 
 Say = Callable[[str], None]
 
@@ -62,6 +64,7 @@ def collect(it: Subject, commands: tuple[str, ...] = (), say: Say = lambda _: No
         error=found.error,
         parameters=answer.parameters,
         correlations=answer.correlations,
+        out_by_plausibility=answer.out_by_plausibility,
         tests=tests_of(found.before, found.after),
         candidates=_candidates(answer, it.known),
         isolability=it.isolability,
@@ -108,14 +111,14 @@ def headline(answer: Answer, found: Stages, diagnosed: bool) -> str:
         return verdict_sentence(answer.model_copy(update={"error": (found.error[0], found.error[-1])}))
     left = found.error[0].fit
     if answer.verdict == "within_noise":
-        return f"within_noise: plain virtual springs explain the measurements, {left:.3g} sigma are left (1 is noise)."
-    return (
-        f"plain virtual springs leave {left:.3g} sigma (1 is noise); what is missing has not been looked for."
-    )
+        return (
+            f"within_noise: plain virtual springs explain the measurements, {sigma(left)} sigma are left "
+            "(1 is noise)."
+        )
+    return f"plain virtual springs leave {sigma(left)} sigma (1 is noise); what is missing has not been looked for."
 
 
 def _plain_answer(it: Subject, model: Model, found: Stages) -> Answer:
-    last = found.error[-1]
     return Answer(
         campaign=it.campaign.name,
         verdict=found.verdict,
@@ -137,11 +140,19 @@ def _parameters(model: Model, uncertainty: Mapping[str, Uncertainty]) -> dict[st
                 std=None if known is None else known.std,
                 low95=None if known is None else known.low95,
                 high95=None if known is None else known.high95,
-                interval="fixed" if known is None else "profile",
+                interval=_kind(known),
                 unit=p.unit,
                 meaning=p.meaning,
             )
     return out
+
+
+def _kind(known: Uncertainty | None) -> Literal["fixed", "undetermined", "profile"]:
+    """How an interval is known from a model's file."""
+    if known is None:
+        return "fixed"
+    nothing = known.std is None and known.low95 is None and known.high95 is None
+    return "undetermined" if nothing else "profile"
 
 
 def _candidates(answer: Answer, known: Known) -> tuple[CandidatePage, ...]:

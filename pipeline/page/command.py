@@ -14,8 +14,8 @@ from pipeline.answer import Answer
 from pipeline.campaign import read
 from pipeline.campaign.reading import DESCRIPTION
 from pipeline.command import redraw, usable
-from pipeline.diagnose.diagnosis import answer_of, diagnose
-from pipeline.diagnose.words import sentences
+from pipeline.diagnose.diagnosis import diagnose
+from pipeline.diagnose.words import answered
 from pipeline.errors import InputError
 from pipeline.inference.model_file import NAME as MODEL
 from pipeline.inference.model_reading import read_model_file
@@ -121,7 +121,7 @@ def draw(out: Path, progress: Progress) -> Path:
 def diagnosed(it: Subject, stage: Stage) -> Subject:
     """With the answer of a diagnosis made now."""
     found = diagnose(it.campaign, it.model, it.known.effects, stage.say)
-    answer = answer_of(found, sentences(found))
+    answer = answered(found)
     return Subject(it.campaign, it.model, it.known, it.uncertainty, answer, isolability(found))
 
 

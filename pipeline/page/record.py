@@ -128,6 +128,7 @@ class Page(Record):
 
     effects: of the model, in order; proposed: those of them that a diagnosis adds and the campaign's model lacks.
     error: plain virtual springs and then each effect more, every stage fitted. commands: that make it again.
+    out_by_plausibility: sets that fit as well but need an implausible size.
     """
 
     campaign: str
@@ -143,6 +144,7 @@ class Page(Record):
     error: tuple[ModelError, ...]
     parameters: dict[str, Value]
     correlations: tuple[Correlation, ...]
+    out_by_plausibility: tuple[tuple[str, ...], ...] = ()
     tests: tuple[TestPage, ...]
     candidates: tuple[CandidatePage, ...]
     isolability: Isolability | None

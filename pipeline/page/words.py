@@ -7,6 +7,7 @@ from collections.abc import Iterator, Mapping
 from pipeline.answer import Answer, Candidate
 from pipeline.campaign import Campaign
 from pipeline.inference.residual import LOST
+from reports.quantities import short, sigma
 from vjm.effects.base import Effect
 
 APART = 10.0
@@ -28,23 +29,23 @@ def why(it: Candidate, answer: Answer) -> str:
     rivals = {name for names in answer.alternatives for name in names}
     if it.effect in answer.effects:
         return "chosen" if answer.verdict != "ambiguous" else "in the simplest of the sets that fit alike"
+    if any(it.effect in names for names in answer.out_by_plausibility) and it.effect not in rivals:
+        return "fits as well, but only with an implausible size"
     if it.effect in rivals:
         return "fits as well: these tests cannot tell it from what was chosen"
     if it.fit is not None and it.evidence is not None:
-        return f"fitted beside the others it leaves {it.fit:.3g} sigma, {_behind(it.evidence)}"
+        return f"fitted beside the others it leaves {sigma(it.fit)} sigma, {_behind(it.evidence)}"
     if it.screen is None:
         return "does not show in these tests, or was part of another set"
     if it.screen <= 1.02 * least:
         return "promises no more than what was chosen without it"
-    return (
-        f"explains too little: {it.screen:.3g} sigma would be left, {least:.3g} are left with what was chosen"
-    )
+    return f"explains too little: {sigma(it.screen)} sigma would be left, {sigma(least)} are left with what was chosen"
 
 
 def _behind(evidence: float) -> str:
     if evidence > APART:
-        return f"BIC {evidence:.0f} behind: excluded"
-    return f"BIC {evidence:.2g} behind: not needed" if evidence > 0.0 else "BIC as good"
+        return f"BIC {short(evidence)} behind: excluded"
+    return f"BIC {short(evidence, 2)} behind: not needed" if evidence > 0.0 else "BIC as good"
 
 
 def assumptions(campaign: Campaign, names: tuple[str, ...], known: Mapping[str, Effect]) -> Iterator[str]:

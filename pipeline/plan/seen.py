@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -41,7 +42,11 @@ class Seen:
         """Of some tests alone."""
         kept = np.isin(self.tests, tests)
         some = {name: tuple(c[kept] for c in every) for name, every in self.columns.items()}
-        parts = {"base": self.base[kept], "zeros": self.zeros[kept], "tests": self.tests[kept]}
+        parts: dict[str, Any] = {
+            "base": self.base[kept],
+            "zeros": self.zeros[kept],
+            "tests": self.tests[kept],
+        }
         return replace(self, columns=some, **parts)
 
     def and_(self, other: Seen) -> Seen:

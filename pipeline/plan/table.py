@@ -1,57 +1,59 @@
-"""A plan on a terminal of 100 columns."""
+"""A plan on a terminal of 80 columns."""
 
 from __future__ import annotations
 
-from rich.box import SIMPLE_HEAD
+from collections.abc import Iterator
+
 from rich.console import Console
 from rich.markup import escape
 from rich.table import Table
 
-from pipeline.add.table import WIDTH
 from pipeline.plan.record import Plan, Size
+from pipeline.terminal import WIDTH, blocks, cell, lean, terminal
+from reports.quantities import short
 
-ALIKE, CLOSE = 0.95, 0.8
+ALIKE = 0.95
+PARAMETER, UNIT, RIVAL, EFFECT = 21, 10, 16, 29
+"""Cells of names and units; longer ones go on below."""
 
 
-def show(plan: Plan, quiet: bool) -> None:
+def show(plan: Plan, quiet: bool, console: Console | None = None) -> None:
     """Sizes, the isolability matrix, the next test."""
-    out = Console(highlight=False)
-    if out.width > WIDTH or not out.is_terminal:
-        out.width = WIDTH
+    out = terminal(console)
     if not quiet:
-        out.print(_sizes(plan))
-        out.print(_matrix(plan))
+        for table in (_sizes(plan), *_matrix(plan, out.width)):
+            out.print(table, "")
         for name, why in plan.refused.items():
-            out.print(f"{name} cannot be looked for: {escape(why)}")
+            out.print(escape(f"{name} cannot be looked for: {why}"))
     if plan.unmeasured:
-        out.print(
-            escape(f"Not measured yet, sensors as in [noise]: {', '.join(plan.unmeasured)}."), soft_wrap=True
-        )
+        out.print(escape(f"Not measured yet, sensors as in [noise]: {', '.join(plan.unmeasured)}."))
     for sentence in following(plan):
         out.print(escape(sentence))
 
 
 def _sizes(plan: Plan) -> Table:
-    title = f"{escape(plan.campaign)}: smallest sizes that these tests show, from null"
-    table = Table(title=title, title_justify="left", box=SIMPLE_HEAD, padding=(0, 1, 0, 0))
-    table.add_column("number", no_wrap=True)
-    for name in ("typical", "detected", "told apart"):
-        table.add_column(name, justify="right", no_wrap=True, min_width=len(name))
-    table.add_column("unit", no_wrap=True, min_width=11)
-    table.add_column("hardest rival", no_wrap=True, max_width=20)
-    table.add_column("ρ", justify="right", no_wrap=True, min_width=5)
+    table = lean(
+        "parameter",
+        "typical",
+        "detected",
+        "told\napart",
+        title=f"{plan.campaign}: smallest sizes that these tests show, from null",
+    )
+    table.add_column("unit", overflow="fold")
+    table.add_column("hardest rival", overflow="fold")
+    table.add_column("ρ", justify="right", overflow="fold")
     effect = ""
     for size in plan.sizes:
         if size.effect != effect:
             effect = size.effect
-            table.add_row(f"[bold]{escape(effect)}")
+            table.add_row(cell(effect, PARAMETER, "bold"))
         table.add_row(
-            f"  {escape(size.parameter)}",
-            f"{size.typical:.2g}",
+            cell(size.parameter, PARAMETER),
+            short(size.typical, 2),
             _number(size.detected, size),
             _number(size.apart, size),
-            escape(size.unit),
-            escape(size.rival),
+            cell("" if size.unit == "1" else size.unit, UNIT),
+            cell(size.rival, RIVAL),
             f"{size.rho:.3f}",
         )
     table.caption = (
@@ -62,23 +64,22 @@ def _sizes(plan: Plan) -> Table:
 
 
 def _number(value: float | None, size: Size) -> str:
-    if value is None:
-        return "–"
-    text = f"{value:.2g}"
-    return f"[bold]{text}[/bold]" if value > size.typical else text
+    text = short(value, 2)
+    return text if value is None or value <= size.typical else f"[bold]{text}[/bold]"
 
 
-def _matrix(plan: Plan) -> Table:
+def _matrix(plan: Plan, width: int = WIDTH) -> Iterator[Table]:
+    """As many columns beside each other as fit, the others below."""
     title = "isolability: correlation of an effect (row) with another (column)"
-    table = Table(title=title, title_justify="left", box=SIMPLE_HEAD, padding=(0, 1, 0, 0))
-    table.add_column("", no_wrap=True, min_width=28)
-    for k in range(len(plan.names)):
-        table.add_column(str(k + 1), justify="right", no_wrap=True, min_width=2)
-    for k, (name, row) in enumerate(zip(plan.names, plan.alike, strict=True)):
-        cells = ["·" if j == k else _cell(value) for j, value in enumerate(row)]
-        table.add_row(f"{k + 1} {escape(name)}", *cells)
-    table.caption = "in hundredths; bold: 95 and more, hardly to be told apart; blank: below 30"
-    return table
+    parts = blocks([3] * len(plan.names), width - EFFECT)
+    for part in parts:
+        table = lean("", *(str(k + 1) for k in part), title=title if part is parts[0] else "")
+        for k, (name, row) in enumerate(zip(plan.names, plan.alike, strict=True)):
+            cells = ["·" if j == k else _cell(row[j]) for j in part]
+            table.add_row(cell(f"{k + 1} {name}", EFFECT), *cells)
+        if part is parts[-1]:
+            table.caption = "in hundredths; bold: 95 and more, hardly to be told apart; blank: below 30"
+        yield table
 
 
 def _cell(value: float) -> str:

@@ -11,6 +11,7 @@ from matplotlib.colors import to_hex
 
 from pipeline.page.record import TestPage
 from reports.campaign.linkage import lines, scale_of
+from reports.quantities import sigma
 from reports.shapes import require_egl
 from reports.style import FAINT, INK
 
@@ -38,7 +39,7 @@ class Scene:
         self._add("nominal", data, None, scale, FAINT, 1.5)
         self._add("measured", data, test.measured_pose[step], scale, colour(misfit), 4.0)
         self._add("predicted", data, test.predicted_pose[step], scale, INK, 1.2)
-        said = "no prediction" if misfit is None else f"misfit {misfit:.3g} sigma"
+        said = "no prediction" if misfit is None else f"misfit {sigma(misfit)} sigma"
         if not test.curves:
             said = "nothing measured"
         return f"step {test.steps[step]}, displacements × {scale:g}, {said}"

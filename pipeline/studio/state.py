@@ -13,6 +13,7 @@ from pipeline.studio.planning import planning
 from pipeline.studio.session import Session
 from reports.campaign.names import channel_label, measured, test_label
 from reports.formats import number
+from reports.quantities import estimate, phrase, sigma
 
 DEEP = 3
 """Folders below the present one in which campaigns are looked for."""
@@ -69,8 +70,8 @@ def campaigns(here: Path) -> list[str]:
 
 def _errors(page: Page) -> str:
     first, last = page.error[0], page.error[-1]
-    held = "" if last.holdout is None else f", held out {number(last.holdout, 3)}"
-    return f"{number(first.fit, 3)} → {number(last.fit, 3)} sigma{held}"
+    held = "" if last.holdout is None else f", held out {sigma(last.holdout)}"
+    return f"{sigma(first.fit)} → {sigma(last.fit)} sigma{held}"
 
 
 def _effect(page: Page, name: str) -> dict[str, Any]:
@@ -79,11 +80,7 @@ def _effect(page: Page, name: str) -> dict[str, Any]:
 
 
 def _value(name: str, it: Value) -> str:
-    if it.interval == "undetermined":
-        return f"{name}: not determined"
-    spread = "" if it.std is None else f" ± {number(it.std, 2)}"
-    unit = "" if it.unit == "1" else f" {it.unit}"
-    return f"{name} = {number(it.value, 4)}{spread}{unit}"
+    return phrase(name, estimate(it.model_dump()), it.unit, number)
 
 
 def _addable(session: Session, page: Page) -> list[dict[str, str]]:
@@ -99,7 +96,7 @@ def _candidates(session: Session, answer: Answer) -> list[dict[str, Any]]:
     return [
         {
             "name": it.effect,
-            "left": number(it.screen if it.fit is None else it.fit, 3),
+            "left": sigma(it.screen if it.fit is None else it.fit),
             "behind": number(it.evidence, 3),
             "why": why(it, answer),
             "chosen": it.effect in answer.effects,

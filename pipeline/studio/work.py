@@ -11,8 +11,8 @@ from pipeline.add.command import starting_model
 from pipeline.add.fitting import Added, add
 from pipeline.answer import Answer
 from pipeline.campaign import read
-from pipeline.diagnose.diagnosis import answer_of, diagnose
-from pipeline.diagnose.words import sentences
+from pipeline.diagnose.diagnosis import diagnose
+from pipeline.diagnose.words import answered
 from pipeline.inference.model_file import NAME, ModelFile, model_text
 from pipeline.inference.model_reading import read_model_file
 from pipeline.inference.suitable import known_effects, named_effects
@@ -75,7 +75,7 @@ def do(task: Task, say: Say) -> Done:
     subject = Subject(campaign, model, known, told)
     if task.kind == "diagnose":
         found = diagnose(campaign, model, known.effects, say)
-        answer = answer_of(found, sentences(found))
+        answer = answered(found)
         return Done("diagnose", answer=answer, isolability=isolability(found))
     if task.kind == "plan":
         return Done("plan", plan=plan_of(campaign, model, known.effects, say))

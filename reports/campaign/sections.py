@@ -97,6 +97,9 @@ def candidates(page: Json, pictures: Pictures) -> Iterator[Block]:
     """What was looked at, and what could be taken for what."""
     if page["candidates"]:
         yield tables.candidates(page)
+        if page.get("out_by_plausibility"):
+            yield Text("These would fit as well, but only with an implausible size:")
+            yield Bullets([" + ".join(names) for names in page["out_by_plausibility"]])
     else:
         yield Text("Not looked for: this page shows the model as it is saved. With --diagnose it looks.")
     found = page["isolability"]
@@ -131,6 +134,7 @@ def next_test(page: Json) -> Iterator[Block]:
         said = {
             "identified": "None is needed to tell the candidates apart: no rival fits as well.",
             "within_noise": "None is needed: the model explains what was measured.",
+            "nothing_tested": "Any with readings that no unknown zero takes: these tests test nothing.",
         }
         unknown = "No test of the menu is known to help." if page["diagnosed"] else "Not looked for."
         yield Text(said.get(page["verdict"], unknown))

@@ -4,12 +4,14 @@ from reports.blocks import Cell, Column, Table, table
 from reports.campaign.names import channel_label, place, stage_labels, unit_label
 from reports.formats import DASH, count, number
 from reports.load import Json
+from reports.quantities import NONE, ends_text, estimate, marks, p_value, std_text, value_text
+from reports.quantities import sigma as plain_sigma
 from reports.tables_record import pairs
 
 
 def sigma(value: float | None) -> str:
-    """An error to three digits."""
-    return number(value, 3)
+    """An error, as everywhere."""
+    return _set(plain_sigma(value))
 
 
 def summary(page: Json) -> Table:
@@ -48,7 +50,7 @@ def stages(page: Json) -> Table:
             [
                 Cell(label, lost),
                 *(Cell(sigma(stage[key])) for key in ("fit", "holdout")),
-                *(Cell(_probability(stage[key])) for key in ("chi_square_p", "lag_one_p")),
+                *(Cell(_set(p_value(stage[key]))) for key in ("chi_square_p", "lag_one_p")),
             ]
         )
     return table("Error in sigmas, 1 is noise", columns, rows)
@@ -125,16 +127,15 @@ def parameters(page: Json) -> Table:
     rows, last = [], ""
     for name, it in page["parameters"].items():
         effect, _, parameter = name.partition(".")
-        value = DASH if it["interval"] == "undetermined" else number(it["value"], 5)
-        mark = {"fixed": "no interval kept", "undetermined": "not determined"}.get(it["interval"], "")
+        known = estimate(it)
         rows.append(
             [
                 Cell("" if effect == last else effect),
-                Cell(parameter, mark),
-                Cell(value),
-                Cell(number(it["std"], 2)),
-                *(Cell(number(it[key], 5)) for key in ("low95", "high95")),
-                Cell(it["unit"]),
+                Cell(parameter, ", ".join(marks(known))),
+                Cell(_set(value_text(known, number))),
+                Cell(_set(std_text(known, number))),
+                *(Cell(_set(end)) for end in ends_text(known, number)),
+                Cell("" if it["unit"] == "1" else it["unit"]),
                 Cell(it["meaning"]),
             ]
         )
@@ -190,5 +191,6 @@ def _moves(page: Json) -> bool:
     return any(test["rig"].get("place_mm") is not None for test in page["tests"])
 
 
-def _probability(value: float | None) -> str:
-    return DASH if value is None else number(value, 2) if value >= 1e-4 else "< 0.0001"
+def _set(text: str) -> str:
+    """A text for terminals as pages have it."""
+    return DASH if text == NONE else text

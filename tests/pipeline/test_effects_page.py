@@ -6,6 +6,7 @@ import pytest
 from typer.testing import CliRunner
 
 from pipeline.cli import app
+from pipeline.terminal import WIDTH
 from vjm.effects import catalogue
 
 OWN = '''
@@ -29,7 +30,7 @@ class Drift(Effect):
 def output(*arguments: str, code: int = 0) -> str:
     ran = CliRunner().invoke(app, ["effects", *arguments])
     assert ran.exit_code == code, ran.output
-    assert max(map(len, ran.output.splitlines())) <= 100 or code
+    assert max(map(len, ran.output.splitlines())) <= WIDTH or code
     return ran.output
 
 

@@ -12,11 +12,12 @@ import pytest
 from rich.console import Console
 
 from pipeline.add.fitting import Added, add
-from pipeline.add.table import WIDTH, bar, show
+from pipeline.add.table import bar, show
 from pipeline.answer import Answer
 from pipeline.campaign import Campaign
 from pipeline.errors import InputError
 from pipeline.inference.model import Model
+from pipeline.terminal import WIDTH
 from tests.pipeline.bench import bench
 from vjm.effects import catalogue
 

@@ -14,9 +14,10 @@ from pipeline.cli import app
 from pipeline.compare.command import compare
 from pipeline.compare.models import compare_models
 from pipeline.compare.record import Comparison
-from pipeline.compare.table import WIDTH, number, page, sentence
+from pipeline.compare.table import page, sentence
 from pipeline.errors import InputError
 from pipeline.inference.model import Model
+from pipeline.terminal import WIDTH
 from tests.pipeline.bench import bench
 from tests.studio.ahead import unmeasured
 from vjm.effects import catalogue
@@ -84,13 +85,6 @@ def test_the_terminal_fits_and_shows_every_test(plain: Comparison) -> None:
     for test in FRICTION.tests:
         assert text.count(test.id) >= 2
     assert "(held out)" in text and "loop of" in text and "LIN" in text and "µm" in text
-
-
-@pytest.mark.parametrize(
-    ("value", "text"), [(0.994, "0.99"), (9.996, "10.0"), (99.96, "100"), (12345.0, "1e4"), (None, "-")]
-)
-def test_numbers_are_short(value: float | None, text: str) -> None:
-    assert number(value) == text
 
 
 def test_the_command_writes_a_result_and_leaves_the_campaign(tmp_path: Path) -> None:

@@ -95,7 +95,7 @@ def test_an_answer_brings_its_model_and_its_words() -> None:
     found = collect(Subject(bench("modulus_error.scale", 0.95), Model(), known_effects(), {}, told))
     assert found.proposed == EFFECTS and found.headline == answer.sentences[0]
     assert found.candidates[0].chosen and found.candidates[0].why == "chosen"
-    assert "explains too little: 9 sigma" in found.candidates[1].why
+    assert "explains too little: 9.00 sigma" in found.candidates[1].why
 
 
 def test_a_saved_answer_is_shown_with_the_matrix_that_the_diagnosis_had() -> None:
