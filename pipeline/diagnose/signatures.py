@@ -55,8 +55,10 @@ class Signature:
 
 
 def hidden(it: Signature, fixed: Collection[str]) -> list[str]:
-    """Names effect.parameter that a smooth effect's own others make needless: what is seen of it, at plausible sizes, is
-    spanned by the columns that show most (QR with pivots)."""
+    """Names effect.parameter that a smooth effect's own others make needless.
+
+    What is seen of it, at plausible sizes, is spanned by the columns that show most (QR with pivots).
+    """
     names = [f"{it.effect.name}.{p.name}" for p in it.effect.parameters]
     free = [name for name in names if name not in fixed]
     (columns,) = it.columns

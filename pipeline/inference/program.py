@@ -73,8 +73,8 @@ class Program:
     """All rows of a campaign, in its order; C = 12 + gauges channels.
 
     measured: (R, C), NaN where not measured. predicted: (R, C) mask of what a model predicts and the campaign
-    measured, with a sigma. channels: (R, 6) channel that each coordinate's control prescribes. input_sigma: (R, 7) noise of
-    what is prescribed, and of the temperature, K. sigma: (C,) noise of every sensor. test: (R,) its number.
+    measured, with a sigma. channels: (R, 6) channel that each coordinate's control prescribes. input_sigma: (R, 7)
+    noise of what is prescribed, and of the temperature, K. sigma: (C,) noise of every sensor. test: (R,) its number.
     """
 
     campaign: Campaign

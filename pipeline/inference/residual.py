@@ -80,7 +80,7 @@ def _inverse_root(through: Array) -> Array:
 
 
 def _through(program: Program, prediction: Prediction) -> Array:
-    """(R, C, 7) derivative by the inputs of the channels that are compared; none of a lost row, or where there is none."""
+    """(R, C, 7) derivative by the inputs of the channels that are compared; none of a lost row."""
     kept = program.predicted & ~prediction.lost[:, None]
     return np.where(kept[..., None], prediction.by_inputs, 0.0)
 
