@@ -89,6 +89,7 @@ def starting_model(
     campaign: Campaign, folder: Path, model_file: Path | None, known: Known
 ) -> tuple[Model, Known]:
     """The model to begin with, and all effects that are known then."""
+    known = known.sized(campaign)
     path = model_file or folder / NAME
     if model_file is None and not path.exists():
         return Model(), known

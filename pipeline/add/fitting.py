@@ -17,15 +17,17 @@ from pipeline.attempt import Attempts
 from pipeline.campaign import Campaign
 from pipeline.diagnose.shelf import Shelf
 from pipeline.errors import InputError
+from pipeline.inference.claims import trusted
 from pipeline.inference.fit import Fit, fit, unfitted
 from pipeline.inference.intervals import correlations, intervals, landscape, only_together, straight
 from pipeline.inference.model import Model, at_bound
 from pipeline.inference.model_file import Uncertainty
 from pipeline.inference.program import Program, program
 from pipeline.inference.sigmas import completed
-from pipeline.inference.suitable import check_suitable
+from pipeline.inference.suitable import check_suitable, scale_for, sized_model
 from pipeline.provenance import commit, versions
 from vjm.effects.base import Effect
+from vjm.effects.sized import sized
 
 Say = Callable[[str], None]
 WORSE = 1.0
@@ -63,8 +65,10 @@ def add(campaign: Campaign, model: Model, effects: Sequence[Effect], say: Say = 
     for effect in effects:
         if effect.name in model.names:
             raise InputError(f"{effect.name} is in the model already, allowed are effects that are not")
+    model, scale = sized_model(model, campaign), scale_for(campaign)
+    effects = [sized(effect, scale) for effect in effects]
     check_suitable([*(term.effect for term in model.terms), *effects], campaign)
-    whole = completed(campaign)
+    whole = trusted(completed(campaign), model)
     cases = program(whole)
     say("the model as it was")
     before = unfitted(model, cases)
@@ -89,7 +93,8 @@ def remove(campaign: Campaign, model: Model, names: Sequence[str], say: Say = la
         if name not in model.names:
             there = ", ".join(model.names) or "none"
             raise InputError(f"{name} is not in the model, allowed are its effects: {there}")
-    whole = completed(campaign)
+    model = sized_model(model, campaign)
+    whole = trusted(completed(campaign), model)
     cases = program(whole)
     say("the model as it was")
     before = unfitted(model, cases)

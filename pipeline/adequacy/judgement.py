@@ -68,7 +68,7 @@ def judge(found: Fit) -> Judgement:
     ]
     checks = [check for check in out if check is not None]
     held = _held_out(found, scatter)
-    if held is not None and not held.passed and all(check.passed for check in checks):
+    if found.model.free and held is not None and not held.passed and all(check.passed for check in checks):
         held = _held_out_anew(found, scatter, held)
     return Judgement(tuple(checks if held is None else [*checks, held]), scatter)
 

@@ -12,11 +12,14 @@ from pipeline.inference.sigmas import to_write
 HEAD = "nothing_tested"
 
 
-def untested(found: Fit) -> str | None:
-    """Why no verdict on a model is possible, a sentence that begins with the verdict; None where one is."""
-    readings, numbers = found.whitened.size, len(found.model.free)
-    zeros = readings - numbers - found.degrees
-    if found.degrees > 0:
+def untested(found: Fit, fitted: int = 0) -> str | None:
+    """Why no verdict on a model is possible, a sentence that begins with the verdict; None where one is.
+
+    fitted: numbers that were fitted to these readings before, beside those that are free now.
+    """
+    readings, free = found.whitened.size, len(found.model.free)
+    zeros, numbers = readings - free - found.degrees, free + fitted
+    if found.degrees > fitted:
         return None
     spent = [
         f"{count} {what}" + ("" if count == 1 else "s")

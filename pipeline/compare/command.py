@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from meshes.files import replacing
-from pipeline.campaign import read
+from pipeline.campaign import Campaign, read
 from pipeline.campaign.reading import DESCRIPTION, MEASUREMENTS
 from pipeline.command import usable
 from pipeline.compare.models import compare_models
@@ -40,7 +40,7 @@ def compare(
         usable(place.parent, f"the folder of {place}")
         _spares(place, folder)
     campaign = read(folder)
-    saved = _saved(folder, model, effects_from, campaign.rig.kind)
+    saved = _saved(folder, model, effects_from, campaign)
     progress = Progress(quiet)
     with progress.stage("compare") as stage:
         result = compare_models(campaign, saved, stage.say)
@@ -51,16 +51,19 @@ def compare(
         print(sentence(result))
     else:
         show(result)
-        if not result.model_of(result.shown).within_noise:
+        shown = result.model_of(result.shown)
+        if not shown.within_noise and not shown.untested:
             print(f"next: python -m pipeline diagnose {folder}")
     return result
 
 
-def _saved(folder: Path, model: Path | None, effects_from: Sequence[Path], kind: str) -> Model | None:
-    path, known = model or folder / MODEL, known_effects(effects_from)
+def _saved(
+    folder: Path, model: Path | None, effects_from: Sequence[Path], campaign: Campaign
+) -> Model | None:
+    path, known = model or folder / MODEL, known_effects(effects_from).sized(campaign)
     if model is None and not path.exists():
         return None
-    return read_model_file(path, known, kind).model
+    return read_model_file(path, known, campaign.rig.kind).model
 
 
 def _spares(place: Path, folder: Path) -> None:

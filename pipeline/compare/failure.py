@@ -18,8 +18,9 @@ from pipeline.misfit import Series, Signature, explained, flagged, misfit
 
 Array = NDArray[np.float64]
 _ANGLE = re.compile(r"[\s_.-]*(q[\s_=]*)?[+-]?\d+(\.\d+)?$")
-FEWEST = 8
-"""Readings of a channel below which its shape is not looked at."""
+FEWEST, PLAIN = 8, 2
+"""Readings of a channel below which its shape is not looked at, and from which its offset and slope are."""
+LINE = ("offset", "slope")
 TOLD = 2
 """Sentences about one channel of one group."""
 HALF = 0.5
@@ -44,7 +45,7 @@ def findings(discrepancy: Discrepancy) -> tuple[tuple[Finding, ...], int]:
     numbers themselves each stand alone.
     """
     looks = list(_looks(discrepancy))
-    numbers = [misfit(look.series).signatures for _, _, look in looks]
+    numbers = [_numbers(look.series) for _, _, look in looks]
     real = {id(s) for s in flagged(s for found in numbers for s in found)}
     out: list[Finding] = []
     for (group, channel, look), found in zip(looks, numbers, strict=True):
@@ -71,6 +72,29 @@ def groups(tests: tuple[Test, ...], gauges: tuple[Gauge, ...], role: str = "fit"
     return tuple(found)
 
 
+def too_short(discrepancy: Discrepancy) -> tuple[str, ...]:
+    """Series of the fitted tests whose shape cannot be judged, a sentence each channel."""
+    program, kept = discrepancy.program, discrepancy.kept
+    tests, gauges = program.campaign.tests, program.campaign.gauges
+    found: dict[str, list[str]] = {}
+    for group in groups(tests, gauges):
+        own = np.isin(program.test, group.numbers)
+        for channel in np.flatnonzero((kept & own[:, None]).any(axis=0)):
+            if 0 < (count := int((kept[:, channel] & own).sum())) < FEWEST:
+                name = column_name(int(channel), gauges)
+                found.setdefault(name, []).append(f"{count} in {group.name}")
+    return tuple(
+        f"{name}: too short to judge its shape ({', '.join(where)}; {FEWEST} readings are needed)"
+        for name, where in found.items()
+    )
+
+
+def _numbers(series: Series) -> tuple[Signature, ...]:
+    """What a series says; of a short one its offset and slope alone."""
+    every = misfit(series).signatures
+    return every if series.residual.size >= FEWEST else tuple(s for s in every if s.name in LINE)
+
+
 def _looks(discrepancy: Discrepancy) -> Iterator[tuple[LoadedAlike, str, Look]]:
     program, kept = discrepancy.program, discrepancy.kept
     tests, gauges = program.campaign.tests, program.campaign.gauges
@@ -84,7 +108,7 @@ def _looks(discrepancy: Discrepancy) -> Iterator[tuple[LoadedAlike, str, Look]]:
             heat[part] = np.nan if measured is None else measured
         for channel in range(kept.shape[1]):
             rows = np.flatnonzero(own & kept[:, channel])
-            if rows.size < FEWEST:
+            if rows.size < PLAIN:
                 continue
             predicted = discrepancy.prediction.values[rows, channel]
             slope = np.linalg.lstsq(np.column_stack([np.ones(rows.size), load[rows]]), predicted, rcond=None)[
@@ -124,7 +148,7 @@ def _told(look: Look, real: list[Signature]) -> dict[str, str]:
     series, names = look.series, {s.name for s in real} - {"scatter"}
     edge = min((s.significance for s in real), default=np.inf)
     while names and len(out) < TOLD:
-        left = [s for s in misfit(series).signatures if s.name in names and s.significance >= edge]
+        left = [s for s in _numbers(series) if s.name in names and s.significance >= edge]
         if not left:
             break
         rests = [series.residual - explained(series, s) for s in left]

@@ -8,22 +8,28 @@ from time import perf_counter
 
 import numpy as np
 
+from pipeline.adequacy.judgement import judge
+from pipeline.adequacy.untested import in_units, untested
+from pipeline.attempt import plain
 from pipeline.campaign import Campaign
 from pipeline.compare.error import Discrepancy
-from pipeline.compare.failure import findings, groups
+from pipeline.compare.failure import findings, groups, too_short
+from pipeline.compare.headline import headline
 from pipeline.compare.record import Comparison, ModelError
+from pipeline.inference.claims import trusted
+from pipeline.inference.fit import Fit
 from pipeline.inference.frame_prediction import predict_frame
 from pipeline.inference.inputs import linearised
 from pipeline.inference.linear_prediction import predict_linear
 from pipeline.inference.model import Model
 from pipeline.inference.prediction import Prediction, predict
 from pipeline.inference.program import Program, program
+from pipeline.inference.residual import residual
 from pipeline.inference.sigmas import completed
+from pipeline.inference.suitable import sized_model
 from pipeline.provenance import commit, versions
 from vjm.effects.bar_geometric_nonlinearity import BarGeometricNonlinearity
 
-LEVEL = 0.01
-"""A p-value below which a residual is not taken for noise."""
 REACH = 2.0
 """Lengths of a bar: no linkage has its platform farther from where it was without load."""
 FAR = "the platform would lie beyond the reach of the bars"
@@ -44,7 +50,8 @@ def compare_models(campaign: Campaign, saved: Model | None = None, say: Say = la
     missing and cannot be estimated.
     """
     start = perf_counter()
-    whole = completed(campaign)
+    saved = None if saved is None else sized_model(saved, campaign)
+    whole = trusted(completed(campaign), saved or Model())
     cases = program(whole)
     plans: dict[str, tuple[Model, Callable[[], Prediction]]] = {
         "lin": (Model(), lambda: predict_linear(cases)),
@@ -88,8 +95,7 @@ def _error(key: str, model: Model, cases: Program, solve: Callable[[], Predictio
             discrepancy = Discrepancy(cases, prediction, len(model.free))
             found = _judged(key, title, names, discrepancy)
     except (ValueError, ArithmeticError, RuntimeError) as error:
-        said = str(error) or type(error).__name__
-        return ModelError(model=key, title=title, effects=names, failed=said)
+        return ModelError(model=key, title=title, effects=names, failed=plain(error))
     return found.model_copy(update={"seconds": round(perf_counter() - start, 3)})
 
 
@@ -99,7 +105,11 @@ def _judged(key: str, title: str, names: tuple[str, ...], discrepancy: Discrepan
     flat = discrepancy.whitened[cases.fitted][cases.predicted[cases.fitted]]
     fit = float(np.sqrt(flat @ flat / discrepancy.degrees)) if discrepancy.degrees > 0 else None
     found, looks = findings(discrepancy)
-    checks = [check.p_value for check in (size, order) if check is not None]
+    # As in a diagnosis: the inputs that fit best, and the same checks.
+    as_it_is = Fit(Model(), discrepancy.prediction, residual(cases, discrepancy.prediction), 1)
+    nothing = untested(as_it_is, discrepancy.parameters)
+    checks = () if nothing else judge(as_it_is).checks
+    failed = tuple(check.words for check in checks if not check.passed)
     return ModelError(
         model=key,
         title=title,
@@ -109,13 +119,18 @@ def _judged(key: str, title: str, names: tuple[str, ...], discrepancy: Discrepan
         degrees=max(discrepancy.degrees, 0),
         chi_square_p=None if size is None else size.p_value,
         lag_one_p=None if order is None else order.p_value,
-        within_noise=bool(checks) and min(checks) > LEVEL and not discrepancy.prediction.lost.any(),
+        within_noise=not nothing and not failed,
         lost=discrepancy.lost(),
         tests=discrepancy.tests(),
         channels=discrepancy.channels(cases.fitted),
         holdout_channels=discrepancy.channels(~cases.fitted),
         findings=found,
         looks=looks,
+        headline="" if nothing else headline(discrepancy),
+        untested=nothing or "",
+        in_units=in_units(as_it_is),
+        too_short=too_short(discrepancy),
+        not_noise=failed,
     )
 
 

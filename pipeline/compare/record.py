@@ -67,7 +67,9 @@ class ModelError(Record):
 
     model: lin, vjm, saved or fea. fit, holdout: whitened root mean squares, 1 is noise; chi_square_p and lag_one_p:
     how often noise is as large, or as smooth along the load, of the tests that may be fitted; `degrees` of freedom.
-    looks: how many numbers were looked at for the findings. failed: why the model has no prediction at all.
+    looks: how many numbers were looked at for the findings. failed: why the model has no prediction at all. headline:
+    the mean misfit of the worst channel. untested: why nothing can be tested. in_units: of channels without a sigma.
+    too_short: series whose shape cannot be judged. not_noise: what speaks against noise.
     """
 
     model: str
@@ -86,6 +88,11 @@ class ModelError(Record):
     holdout_channels: dict[str, ChannelError] = Field(default_factory=dict)
     findings: tuple[Finding, ...] = ()
     looks: int = 0
+    headline: str = ""
+    untested: str = ""
+    in_units: tuple[str, ...] = ()
+    too_short: tuple[str, ...] = ()
+    not_noise: tuple[str, ...] = ()
     seconds: float = 0.0
 
 

@@ -34,6 +34,8 @@ def page(result: Comparison, width: int = WIDTH) -> RenderableType:
     """A comparison, so many columns wide; channels that do not fit beside the others follow below."""
     shown = result.model_of(result.shown)
     parts: list[RenderableType] = [
+        Text(sentence(result)),
+        *_lines("", shown.in_units, SENTENCES),
         Text(
             f"{result.campaign}: {result.tests} tests, {result.rows} load steps, {result.readings} readings to predict"
         ),
@@ -57,9 +59,10 @@ def sentence(result: Comparison) -> str:
     shown = result.model_of(result.shown)
     if shown.failed is not None:
         return f"{result.campaign}: {shown.title} has no prediction: {shown.failed}"
-    if shown.fit is None:
-        return f"{result.campaign}: {shown.title}: not measured yet"
+    if shown.untested:
+        return f"{result.campaign}: {shown.untested}"
     said = "within the noise" if shown.within_noise else "not within the noise"
+    said += f"; {shown.headline}" if shown.headline else ""
     held = "" if shown.holdout is None else f", held-out tests {sigma(shown.holdout)}"
     return f"{result.campaign}: {shown.title}: {sigma(shown.fit)} sigma{held}: {said}"
 
@@ -151,9 +154,13 @@ def _width(text: str | Text) -> int:
 
 
 def _failures(model: ModelError) -> list[RenderableType]:
+    if model.untested:
+        return [Text("  nothing can be tested")]
     if not model.channels and not model.holdout_channels:
         return [Text("  not measured yet: there is no reading that a model predicts")]
     told = [finding.sentence for finding in model.findings if finding.sentence]
+    told = told or [f"not noise: {said}" for said in model.not_noise]
+    told = [*told, *model.too_short]
     if told:
         return _lines("  ", told, SENTENCES)
     if model.within_noise:

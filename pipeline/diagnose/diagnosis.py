@@ -29,14 +29,16 @@ from pipeline.diagnose.shelf import Names, Shelf
 from pipeline.diagnose.signatures import Say
 from pipeline.diagnose.zeros import Zero
 from pipeline.errors import InputError
+from pipeline.inference.claims import trusted
 from pipeline.inference.fit import Fit, unfitted
 from pipeline.inference.intervals import correlations, intervals, landscape, only_together, straight
 from pipeline.inference.model import Model
 from pipeline.inference.program import program
 from pipeline.inference.sigmas import completed
-from pipeline.inference.suitable import check_suitable
+from pipeline.inference.suitable import check_suitable, scale_for, sized_model
 from pipeline.provenance import commit, versions
 from vjm.effects.base import Effect
+from vjm.effects.sized import all_sized
 
 FEW = 3
 """Rivals for which the next test is sought."""
@@ -107,7 +109,8 @@ def diagnose(
 ) -> Diagnosis:
     """Look for what the model lacks. InputError for a campaign that cannot be judged or a model that it cannot have."""
     begin = perf_counter()
-    whole = completed(campaign)
+    model, known = sized_model(model, campaign), all_sized(known, scale_for(campaign))
+    whole = trusted(completed(campaign), model)
     check_suitable([term.effect for term in model.terms], whole)
     candidates, refused = suitable(whole, model, known)
     cases, attempts = program(whole), Attempts()

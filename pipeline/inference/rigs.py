@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from functools import lru_cache
 
 import numpy as np
 
 from pipeline.campaign import Gauge
 from pipeline.campaign import Rig as Described
 from vjm.effects.base import Rig
+from vjm.effects.sized import Scale, scale_of
 from vjm.manipulator.effects import bench, like_bench
 from vjm.manipulator.parts import Manipulator
 from vjm.mechanisms.assembly import GaugeAt
@@ -40,6 +42,16 @@ def mechanism_of(rig: Described, gauges: tuple[Gauge, ...]) -> Rig:
     if down is None:
         return it
     return replace(it, gravity=down, line_load=rig.line_weight * down)
+
+
+@lru_cache(maxsize=64)
+def scale_of_rig(rig: Described) -> Scale:
+    """By what typical sizes of effects differ from those of the catalogue; a machine without bars has no measure."""
+    try:
+        first = mechanism_of(rig, ()).links[0]
+    except (ValueError, IndexError):
+        return Scale()
+    return scale_of(first.length, first.stiffness)
 
 
 def manipulator_of(rig: Described, changed: Rig) -> Manipulator:

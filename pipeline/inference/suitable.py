@@ -3,17 +3,30 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from pipeline.campaign import Campaign
 from pipeline.campaign.names import unknown_name
 from pipeline.errors import InputError
-from pipeline.inference.rigs import mechanism_of
+from pipeline.inference.model import Model
+from pipeline.inference.rigs import mechanism_of, scale_of_rig
 from vjm.effects import catalogue, from_file
 from vjm.effects.base import Effect
+from vjm.effects.sized import Scale, all_sized, sized
 from vjm.effects.thermal_expansion import DRIVE
 from vjm.lagrangian import layout
+
+
+def scale_for(campaign: Campaign) -> Scale:
+    """By what typical sizes of effects differ from those of the catalogue on the rig of a campaign."""
+    return scale_of_rig(campaign.rig)
+
+
+def sized_model(model: Model, campaign: Campaign) -> Model:
+    """A model whose effects have the typical sizes and bounds of a campaign's rig; its values stay."""
+    scale = scale_for(campaign)
+    return replace(model, terms=tuple(replace(t, effect=sized(t.effect, scale)) for t in model.terms))
 
 
 @dataclass(frozen=True)
@@ -22,6 +35,10 @@ class Known:
 
     effects: Mapping[str, Effect]
     files: Mapping[str, Path]
+
+    def sized(self, campaign: Campaign) -> Known:
+        """The same effects with the typical sizes and bounds of a campaign's rig."""
+        return Known(all_sized(self.effects, scale_for(campaign)), self.files)
 
     def files_of(self, names: Iterable[str]) -> tuple[Path, ...]:
         """The user's files that define any of these effects."""

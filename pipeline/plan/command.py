@@ -13,7 +13,7 @@ from pipeline.diagnose.diagnosis import in_words, suitable
 from pipeline.diagnose.signatures import Say
 from pipeline.inference.model import Model
 from pipeline.inference.sigmas import completed
-from pipeline.inference.suitable import check_suitable, known_effects
+from pipeline.inference.suitable import check_suitable, known_effects, scale_for, sized_model
 from pipeline.plan.isolability import matrix, visible
 from pipeline.plan.next import best_next
 from pipeline.plan.planned import foreseen
@@ -22,6 +22,7 @@ from pipeline.plan.seen import seen
 from pipeline.plan.table import show
 from pipeline.progress import Progress
 from vjm.effects.base import Effect
+from vjm.effects.sized import all_sized
 
 LARGE = "bar_geometric_nonlinearity"
 
@@ -29,6 +30,7 @@ LARGE = "bar_geometric_nonlinearity"
 def plan_of(campaign: Campaign, model: Model, known: Mapping[str, Effect], say: Say = lambda _: None) -> Plan:
     """What the tests of a campaign show about a model with large deflection added. InputError for effects that the
     campaign cannot have."""
+    model, known = sized_model(model, campaign), all_sized(known, scale_for(campaign))
     check_suitable([term.effect for term in model.terms], campaign)
     whole, unmeasured = foreseen(campaign)
     whole = completed(whole)

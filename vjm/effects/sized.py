@@ -1,0 +1,90 @@
+"""Sizes of effects follow the rig: what is typical on a large stiff linkage is not on a small soft one.
+
+The catalogue states typical sizes and bounds for the bench of the paper: bars of 310 mm with the K_b of its Eq. 12.
+Under another rig a length scales with its length l, a compliance along the bars with their axial stiffness, torques and
+what is per angle with their bending stiffness, a weight with that over the length. By the units alone, so that another
+unit of force or length, or a model to scale, changes no verdict. Angles, ratios, strains and 1/K are pure numbers.
+"""
+
+from __future__ import annotations
+
+import copy
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from vjm import paper
+from vjm.effects import shipped
+from vjm.effects.base import Effect, Parameter
+from vjm.frames import Array
+
+LENGTH = 310.0
+"""mm, of the bench that the catalogue is for."""
+ONE = 1e-9
+"""A rig within this part of that bench is that bench."""
+
+
+@dataclass(frozen=True)
+class Scale:
+    """Of a rig against the bench of the paper. length: of mm. axial: of N/mm along a bar. bending: of N·mm/rad."""
+
+    length: float = 1.0
+    axial: float = 1.0
+    bending: float = 1.0
+
+    @property
+    def force(self) -> float:
+        """Of N that bend a bar."""
+        return self.bending / self.length
+
+    def of(self, unit: str) -> float:
+        """Of a number in this unit; 1 where it has none of length or force."""
+        factors = {
+            "mm": self.length,
+            "mm/N": 1.0 / self.axial,
+            "mm/N^(2/3)": self.length * (self.axial * self.length) ** (-2.0 / 3.0),
+            "N": self.force,
+            "N/mm": self.force / self.length,
+            "N·mm": self.bending,
+            "Nmm": self.bending,
+            "N·mm/rad": self.bending,
+            "rad/(N·mm)": 1.0 / self.bending,
+        }
+        return factors.get(unit, 1.0)
+
+
+def scale_of(length: float, stiffness: Array) -> Scale:
+    """Of a rig with bars of this length, mm, and K_b (6, 6), N, mm, rad."""
+    own, known = (_sizes(k) for k in (stiffness, paper.BAR_STIFFNESS))
+    axial, bending = own[0] / known[0], own[1] / known[1]
+    return Scale(*(1.0 if abs(r - 1.0) < ONE else float(r) for r in (length / LENGTH, axial, bending)))
+
+
+def _sizes(stiffness: Array) -> tuple[float, float]:
+    return float(stiffness[0, 0]), float(np.sqrt(stiffness[4, 4] * stiffness[5, 5]))
+
+
+def sized(effect: Effect, scale: Scale) -> Effect:
+    """The effect with typical sizes, bounds and probes of a rig; a user's own effect stays as it is."""
+    if scale == Scale() or not shipped(effect) or not effect.parameters:
+        return effect
+    own = type(effect)
+    parameters = tuple(_sized(p, scale.of(p.unit)) for p in own.parameters)
+    probes = tuple(value * scale.of(own.parameters[0].unit) for value in own.probes)
+    it = copy.copy(effect)
+    # Attributes of the instance stand before those of its class.
+    vars(it).update(parameters=parameters, probes=probes)
+    return it
+
+
+def all_sized(effects: Mapping[str, Effect], scale: Scale) -> dict[str, Effect]:
+    """Every effect by its name."""
+    return {name: sized(effect, scale) for name, effect in effects.items()}
+
+
+def _sized(p: Parameter, factor: float) -> Parameter:
+    if factor == 1.0:
+        return p
+    values = {name: factor * getattr(p, name) for name in ("null", "typical", "low", "high")}
+    return replace(p, **values)
