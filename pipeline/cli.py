@@ -170,11 +170,12 @@ def add(
     out: Annotated[Path | None, typer.Option(help="Folder for answer.json.")] = None,
     seed: Annotated[int | None, typer.Option(help="Kept with the answer; nothing here is random.")] = None,
     quiet: Annotated[bool, typer.Option("--quiet", help="Only the verdict and the parameters.")] = False,
+    force: Annotated[bool, typer.Option("--force", help="Save a model that is no better as well.")] = False,
 ) -> None:
     """Add effects to the campaign's model, fit it, show how the error falls, save the model with the campaign."""
     from pipeline.add.command import add_effects
 
-    guarded(lambda: add_effects(campaign, effects, model, effects_from or [], json, out, seed, quiet))
+    guarded(lambda: add_effects(campaign, effects, model, effects_from or [], json, out, seed, quiet, force))
 
 
 @app.command()

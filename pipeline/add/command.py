@@ -26,11 +26,13 @@ def add_effects(
     out: Path | None = None,
     seed: int | None = None,
     quiet: bool = False,
+    force: bool = False,
 ) -> None:
     """Add effects to the model of the campaign in a folder, save it there, print what changed.
 
-    The model is that of `model_file`, else the one in the folder, else plain virtual springs. InputError for
-    bad input; nothing is written then.
+    The model is that of `model_file`, else the one in the folder, else plain virtual springs. One that is no better
+    than the model before is saved only by `force`, one of which nothing was tested never. InputError for bad input;
+    nothing is written then.
     """
     known = known_effects(effects_from)
     campaign = read(folder)
@@ -48,7 +50,9 @@ def add_effects(
         found = add(campaign, began, effects, stage.say)
         stage.note = f"{found.answer.evaluations} evaluations"
     answer = found.answer.model_copy(update={"seed": seed})
-    save(folder / NAME, found, campaign, known)
+    saved = not found.keep or (force and answer.verdict != "nothing_tested")
+    if saved:
+        save(folder / NAME, found, campaign, known)
     if json is not None:
         answer.write(json)
     if out is not None:
@@ -56,7 +60,7 @@ def add_effects(
     following = [f"python -m pipeline compare {folder}"]
     if answer.verdict != "within_noise":
         following.append(f"python -m pipeline diagnose {folder}")
-    show(answer, str(folder / NAME), following, quiet)
+    show(answer, str(folder / NAME) if saved else f"not saved, {found.keep}", following, quiet)
 
 
 def remove_effects(

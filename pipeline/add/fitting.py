@@ -117,7 +117,7 @@ def _compared(
     pairs = attempts.get("correlations of the numbers", lambda: correlations(land), [])
     together = attempts.get("what is seen only together", lambda: only_together(land), [])
     names = [each.name for each in after.model.free]
-    nothing = untested(after)
+    nothing = untested(before, numbers) or untested(after)
     judged = None if nothing else judge(after)
     errors = (error_of(before, cases, numbers), error_of(after, cases, len(after.model.free), judged))
     answer = Answer(
@@ -138,7 +138,7 @@ def _compared(
         commit=commit(),
         versions=versions(),
     )
-    keep = _keeps(before, after, nothing)
+    keep = _keeps(before, after, nothing) if new else ""
     said = sentences(answer, cases.campaign.remarks, nothing or "", in_units(after), keep)
     return Added(after.model, answer.model_copy(update={"sentences": said}), keep)
 

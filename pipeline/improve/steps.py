@@ -47,5 +47,7 @@ def _possible(it: Diagnosis, name: str, here: Names) -> bool:
 
 
 def _step(it: Diagnosis, added: str, names: Names) -> Step:
-    found = it.shelf.fit(names)
+    # Of what was identified, numbers that nothing determines are no part.
+    settled = it.verdict == "identified" and names == it.ruling.sets[0]
+    found = it.fit if settled else it.shelf.fit(names)
     return Step(added, found, error_of(found, it.shelf.whole, len(found.model.free)))

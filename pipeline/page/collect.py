@@ -181,5 +181,5 @@ def _sigmas(given: Campaign, cases: Program) -> tuple[Sigma, ...]:
             unit=unit_of(int(k)),
             given=bool(np.isfinite(told[k])),
         )
-        for k in np.flatnonzero(np.isfinite(cases.measured).any(axis=0))
+        for k in np.flatnonzero(np.isfinite(cases.measured).any(axis=0) & np.isfinite(cases.sigma))
     )

@@ -21,7 +21,7 @@ from pipeline.inference.model_file import NAME as MODEL
 from pipeline.inference.model_reading import read_model_file
 from pipeline.inference.suitable import known_effects
 from pipeline.page.collect import Subject, collect
-from pipeline.page.isolability import isolability, isolability_anew
+from pipeline.page.isolability import attempted_isolability, isolability_anew
 from pipeline.page.record import NAME, Page
 from pipeline.progress import Progress, Stage
 
@@ -122,7 +122,7 @@ def diagnosed(it: Subject, stage: Stage) -> Subject:
     """With the answer of a diagnosis made now."""
     found = diagnose(it.campaign, it.model, it.known.effects, stage.say)
     answer = answered(found)
-    return Subject(it.campaign, it.model, it.known, it.uncertainty, answer, isolability(found))
+    return Subject(it.campaign, it.model, it.known, it.uncertainty, answer, attempted_isolability(found))
 
 
 def read_answer(path: Path) -> Answer:

@@ -6,6 +6,7 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
+from pipeline.attempt import Attempts
 from pipeline.campaign import Campaign
 from pipeline.diagnose.apart import multiple_correlation
 from pipeline.diagnose.diagnosis import Diagnosis, suitable
@@ -26,6 +27,14 @@ SHOWS = 0.1
 def isolability(found: Diagnosis) -> Isolability:
     """Correlations about the model with those chosen effects that are there or not, each at its typical size."""
     return _of(found.shelf, found.sets[0])
+
+
+def attempted_isolability(found: Diagnosis) -> Isolability | None:
+    """The same, or None where nothing was tested or it cannot be worked out: a page goes without it."""
+    if found.untested:
+        return None
+    made = Attempts().get("what could be taken for what", lambda: isolability(found), None)
+    return made if made is not None and made.effects else None
 
 
 def isolability_anew(

@@ -7,11 +7,15 @@ from dataclasses import replace
 from pathlib import Path
 
 from pipeline.add.command import starting_model
+from pipeline.adequacy.untested import untested
+from pipeline.attempt import Attempts
 from pipeline.campaign import Campaign, read
 from pipeline.command import usable
 from pipeline.diagnose.diagnosis import in_words, suitable
 from pipeline.diagnose.signatures import Say
+from pipeline.inference.fit import unfitted
 from pipeline.inference.model import Model
+from pipeline.inference.program import program
 from pipeline.inference.sigmas import completed
 from pipeline.inference.suitable import check_suitable, known_effects, scale_for, sized_model
 from pipeline.plan.isolability import matrix, visible
@@ -42,9 +46,16 @@ def plan_of(campaign: Campaign, model: Model, known: Mapping[str, Effect], say: 
     found = visible(now, candidates)
     names, alike = matrix(now)
     fitted = replace(whole, tests=tuple(t for t in whole.tests if t.role == "fit"))
-    worth = best_next(fitted, model, candidates, now, lambda text: say(f"the next test: {text}"))
+    attempts = Attempts()
+    worth = attempts.get(
+        "the next test",
+        lambda: best_next(fitted, model, candidates, now, lambda text: say(f"the next test: {text}")),
+        None,
+    )
     words = None if worth is None else in_words(worth.choice)
-    return plan_record(whole.name, found, names, alike, worth, words, unmeasured, refused)
+    plan = plan_record(whole.name, found, names, alike, worth, words, unmeasured, refused)
+    nothing = "" if unmeasured else untested(unfitted(model, program(whole))) or ""
+    return plan.model_copy(update={"untested": nothing, "not_done": tuple(attempts.failed)})
 
 
 def plan_campaign(

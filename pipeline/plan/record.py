@@ -37,7 +37,8 @@ class Size(Record):
 class Plan(Record):
     """sizes: of every number. names, alike: rows and columns, and the multiple correlation of each effect (row) with
     another (column). next_test: as in a diagnosis; None if none of the menu adds anything. unmeasured: tests whose
-    readings are still to come. refused: effects that the rig or the campaign cannot have, and why."""
+    readings are still to come. refused: effects that the rig or the campaign cannot have, and why. untested: why the
+    tests so far can test nothing. not_done: optional parts that failed, and why."""
 
     campaign: str
     sizes: tuple[Size, ...]
@@ -46,6 +47,8 @@ class Plan(Record):
     next_test: dict[str, Any] | None
     unmeasured: tuple[str, ...]
     refused: dict[str, str]
+    untested: str = ""
+    not_done: tuple[str, ...] = ()
     commit: str
     versions: dict[str, str]
 

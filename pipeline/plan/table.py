@@ -25,6 +25,9 @@ def show(plan: Plan, quiet: bool, console: Console | None = None) -> None:
             out.print(table, "")
         for name, why in plan.refused.items():
             out.print(escape(f"{name} cannot be looked for: {why}"))
+    for said in (plan.untested, *(f"{each}." for each in plan.not_done)):
+        if said:
+            out.print(escape(said))
     if plan.unmeasured:
         out.print(escape(f"Not measured yet, sensors as in [noise]: {', '.join(plan.unmeasured)}."))
     for sentence in following(plan):

@@ -18,7 +18,7 @@ from pipeline.inference.model_reading import read_model_file
 from pipeline.inference.suitable import known_effects, named_effects
 from pipeline.page.collect import Subject, collect
 from pipeline.page.command import write_page
-from pipeline.page.isolability import isolability
+from pipeline.page.isolability import attempted_isolability
 from pipeline.page.record import Isolability, Page
 from pipeline.plan.command import plan_of
 from pipeline.plan.record import Plan
@@ -76,7 +76,7 @@ def do(task: Task, say: Say) -> Done:
     if task.kind == "diagnose":
         found = diagnose(campaign, model, known.effects, say)
         answer = answered(found)
-        return Done("diagnose", answer=answer, isolability=isolability(found))
+        return Done("diagnose", answer=answer, isolability=attempted_isolability(found))
     if task.kind == "plan":
         return Done("plan", plan=plan_of(campaign, model, known.effects, say))
     if task.kind == "export":
