@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Collection, Sequence
 from dataclasses import dataclass
 from time import perf_counter
 
@@ -78,9 +78,11 @@ def add(campaign: Campaign, model: Model, effects: Sequence[Effect], say: Say = 
         for count in range(len(new)):
             shelf.fit(frozenset(new[: count + 1]))
         after = shelf.fit(frozenset(new))
+        # Without the pull of plausible sizes: intervals are about the least chi-square itself.
+        after = min(after, fit(after.model, cases, after.prediction), key=lambda each: each.order)
     else:
         after = unfitted(model.with_effects(effects), cases)
-    return _compared(cases, (before, after), len(model.free), new, say, start)
+    return _compared(cases, (before, after), len(model.free), new, say, start, shelf.unseen if new else ())
 
 
 def remove(campaign: Campaign, model: Model, names: Sequence[str], say: Say = lambda _: None) -> Added:
@@ -105,15 +107,25 @@ def remove(campaign: Campaign, model: Model, names: Sequence[str], say: Say = la
 
 
 def _compared(
-    cases: Program, fits: tuple[Fit, Fit], numbers: int, new: Sequence[str], say: Say, start: float
+    cases: Program,
+    fits: tuple[Fit, Fit],
+    numbers: int,
+    new: Sequence[str],
+    say: Say,
+    start: float,
+    unseen: Collection[str] = (),
 ) -> Added:
-    """The answer about a fit, beside the one before, which had so many fitted numbers."""
+    """The answer about a fit, beside the one before, which had so many fitted numbers. unseen: numbers that stayed at
+    null because these readings do not see them."""
     before, after = fits
     say("intervals")
     attempts = Attempts()
     land = landscape(after, cases)
     ends = attempts.get("intervals", lambda: intervals(land), None) or straight(land)
-    values = values_of(after.model, ends)
+    values = {
+        name: it.model_copy(update={"interval": "undetermined"}) if name in unseen else it
+        for name, it in values_of(after.model, ends).items()
+    }
     pairs = attempts.get("correlations of the numbers", lambda: correlations(land), [])
     together = attempts.get("what is seen only together", lambda: only_together(land), [])
     names = [each.name for each in after.model.free]

@@ -10,6 +10,7 @@ from pipeline.inference.fit import Fit
 from pipeline.inference.sigmas import to_write
 
 HEAD = "nothing_tested"
+NOT_YET = "not measured yet"
 
 
 def untested(found: Fit, fitted: int = 0) -> str | None:
@@ -30,6 +31,8 @@ def untested(found: Fit, fitted: int = 0) -> str | None:
         taken = f"{_counted(readings)}, {' and '.join(spent)}: none is left to test a model by"
     else:
         taken = "no fitted test has a reading with a known sigma that a model predicts"
+        if not found.residual.program.unweighted.any():
+            taken = f"{NOT_YET}: {taken}"
     return f"{HEAD}: {taken}."
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
+from functools import cache
 from time import perf_counter
 
 import numpy as np
@@ -22,7 +23,7 @@ from pipeline.inference.frame_prediction import predict_frame
 from pipeline.inference.inputs import linearised
 from pipeline.inference.linear_prediction import predict_linear
 from pipeline.inference.model import Model
-from pipeline.inference.prediction import Prediction, predict
+from pipeline.inference.prediction import Prediction, moved_along, predict
 from pipeline.inference.program import Program, program
 from pipeline.inference.residual import residual
 from pipeline.inference.sigmas import completed
@@ -40,6 +41,10 @@ TITLES = {
     "fea": "FEA, frame elements as drawn",
 }
 Say = Callable[[str], None]
+Solve = Callable[[np.ndarray | None], Prediction]
+"""A prediction at inputs shifted by (R, 7) from the measured ones."""
+SETTLED = 3.0
+"""Sigmas below which a misfit moves the inputs by no more than their noise."""
 
 
 def compare_models(campaign: Campaign, saved: Model | None = None, say: Say = lambda _: None) -> Comparison:
@@ -53,13 +58,15 @@ def compare_models(campaign: Campaign, saved: Model | None = None, say: Say = la
     saved = None if saved is None else sized_model(saved, campaign)
     whole = trusted(completed(campaign), saved or Model())
     cases = program(whole)
-    plans: dict[str, tuple[Model, Callable[[], Prediction]]] = {
-        "lin": (Model(), lambda: predict_linear(cases)),
-        "vjm": (Model(), lambda: predict(Model(), cases, slopes=False)),
+    none = np.zeros_like(cases.input_sigma)
+    tangent = cache(lambda: _tangent(cases))
+    plans: dict[str, tuple[Model, Solve]] = {
+        "lin": (Model(), lambda shift: moved_along(predict_linear(cases), none if shift is None else shift)),
+        "vjm": (Model(), lambda shift: predict(Model(), cases, slopes=False, shift=shift)),
     }
     if saved is not None:
-        plans["saved"] = (saved, lambda: linearised(saved, cases, slopes=False)[0])
-    plans["fea"] = (Model(), lambda: predict_frame(cases, _tangent(cases)))
+        plans["saved"] = (saved, lambda shift: linearised(saved, cases, slopes=False, shift=shift)[0])
+    plans["fea"] = (Model(), lambda shift: predict_frame(cases, tangent(), shift))
     found = []
     for key, (model, solve) in plans.items():
         say(TITLES[key])
@@ -84,14 +91,25 @@ def compare_models(campaign: Campaign, saved: Model | None = None, say: Say = la
     )
 
 
-def _error(key: str, model: Model, cases: Program, solve: Callable[[], Prediction]) -> ModelError:
+def _settled(cases: Program, solve: Solve) -> Prediction:
+    """The prediction; where it leaves little, at the inputs that fit it best: the noise of the measured ones would look
+    like a fault of their sensors."""
+    first = _credible(cases, solve(None))
+    left = residual(cases, first)
+    flat = left.free(left.values)
+    if not flat.size or float(np.sqrt(np.mean(flat**2))) > SETTLED:
+        return first
+    return _credible(cases, solve(left.shift))
+
+
+def _error(key: str, model: Model, cases: Program, solve: Solve) -> ModelError:
     start = perf_counter()
     title = f"{TITLES[key]} {', '.join(model.names) or 'no effect'}" if key == "saved" else TITLES[key]
     names = model.names if key == "saved" else ()
     try:
         # Absurd numbers may overflow on their way to being lost; the rows are looked at, not the warnings.
         with np.errstate(all="ignore"):
-            prediction = _credible(cases, solve())
+            prediction = _settled(cases, solve)
             discrepancy = Discrepancy(cases, prediction, len(model.free))
             found = _judged(key, title, names, discrepancy)
     except (ValueError, ArithmeticError, RuntimeError) as error:

@@ -86,6 +86,6 @@ def zero_first(found: Found) -> Instead | None:
             left = fit.chi_square - zero.gain
             total = cost(shelf, names) - zero.gain + zero.price
             noise = left <= float(chi2.isf(NOISE, max(fit.degrees - 1, 1)))
-            if total < cost(shelf, best) and (noise or left < most / MOST):
+            if zero.gain > zero.price and total < cost(shelf, best) and (noise or left < most / MOST):
                 out.append((total, Instead("", names, zero.words, zero.gain, most, zero)))
     return min(out, key=lambda it: it[0])[1] if out else None

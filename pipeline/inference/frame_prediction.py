@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
+from numpy.typing import NDArray
 
 from fem.frame import bench
 from fem.frame.errors import Errors
@@ -11,7 +12,7 @@ from fem.frame.newton import REASONS, SINGULAR
 from fem.frame.rig import Gauge as FrameGauge
 from pipeline.campaign.names import DISPLACEMENT, SUPPORT
 from pipeline.inference.manipulator_linear import by_frame, predict_constant
-from pipeline.inference.prediction import Prediction, no_slides, no_stops, zeroed
+from pipeline.inference.prediction import Prediction, moved_along, no_slides, no_stops, zeroed
 from pipeline.inference.program import INPUTS, Program
 from pipeline.virtual.bench import frame_rig
 from vjm.reasons import Reason
@@ -20,24 +21,29 @@ _SAID = {AFTER_FAILURE: Reason.ENDED, REASONS[SINGULAR]: Reason.NOT_HELD}
 """What the frame says, in the words of all models; the rest is its solver's affair."""
 
 
-def predict_frame(program: Program, tangent: Prediction) -> Prediction:
+Array = NDArray[np.float64]
+
+
+def predict_frame(program: Program, tangent: Prediction, shift: Array | None = None) -> Prediction:
     """Readings of geometrically exact frame elements without any error of the bench.
 
-    tangent: of another model of the same rig, in whose place the frame has none of its own. ValueError for a rig
-    that the frame refuses. `states` is empty. Of a whole manipulator the frame is linear, at rest.
+    tangent: of another model of the same rig, in whose place the frame has none of its own. shift: (R, 7) added to
+    the measured inputs. ValueError for a rig that the frame refuses. `states` is
+    empty. Of a whole manipulator the frame is linear, at rest.
     """
     campaign = program.campaign
+    moved = np.zeros((len(program.test), INPUTS)) if shift is None else shift
     if campaign.rig.manipulator is not None:
-        return predict_constant(program, by_frame)
+        return moved_along(predict_constant(program, by_frame), moved)
     trials = [
         bench.Trial(
             test.q,
             tuple(DISPLACEMENT if by == SUPPORT else by for by in test.control),
-            test.inputs(campaign.gauges),
+            test.inputs(campaign.gauges) + moved[program.test == number, :6],
             None,
             None if test.rig is campaign.rig else frame_rig(test.rig),
         )
-        for test in campaign.tests
+        for number, test in enumerate(campaign.tests)
     ]
     sights = [FrameGauge(g.name, g.bar, g.station, g.vector) for g in campaign.gauges]
     found = bench.run(frame_rig(campaign.rig), Errors(), trials, sights)
@@ -54,7 +60,7 @@ def predict_frame(program: Program, tangent: Prediction) -> Prediction:
         np.where(lost[:, None], 0.0, values),
         tangent.by_inputs,
         np.zeros((*values.shape, 0)),
-        np.zeros((len(values), INPUTS)),
+        moved,
         no_stops(len(values)),
         no_slides(len(values)),
         lost,

@@ -156,6 +156,12 @@ def _finite(found: Prediction) -> Prediction:
     return replace(found, lost=found.lost | ~good, reasons=said | found.reasons, **arrays)
 
 
+def moved_along(found: Prediction, shift: Array) -> Prediction:
+    """A prediction at inputs shifted by (R, 7), along its own tangent: exact where that is constant."""
+    values = found.values + np.einsum("rci,ri->rc", found.by_inputs, shift)
+    return replace(found, values=values, shift=shift)
+
+
 def no_stops(rows: int, plays: int = PLAYS) -> Array:
     """`Prediction.stops` without plays."""
     return np.concatenate([np.full((rows, plays, 1), np.inf), np.zeros((rows, plays, INPUTS))], axis=-1)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -16,9 +16,11 @@ from pipeline.sensor_noise import FEWEST, SigmaEstimate, from_lines, from_repeat
 
 Array = NDArray[np.float64]
 Readings = Callable[[Test], Array]
-EVEN, CELLS = 1e-4, 10.0
-"""Of their number, by which multiples of a step may miss it; smallest steps within the range, for each reading, up to
-which they were chosen."""
+EVEN, CELLS = 0.02, 10.0
+"""Of a step, by which multiples may miss it; smallest steps within the range, for each reading, up to which they were
+chosen."""
+TURNS = 1.0 / 3.0
+"""Of the steps, at which a load that was chosen turns back, at most; noise does so at two of three."""
 HEAT = -1
 """Stands for the thermometer among the channels."""
 
@@ -59,7 +61,7 @@ def to_write(column: str) -> str:
 def _sigma(campaign: Campaign, channel: int) -> tuple[float, str]:
     """Estimate and how it was found. ValueError, with the reason, where there is none."""
     given = channel == HEAT or _prescribed(campaign, channel)
-    if given and _chosen(np.concatenate(list(map(_known, _columns(campaign, channel))))):
+    if given and _chosen(list(map(_known, _columns(campaign, channel)))):
         return 0.0, ": it is prescribed in steps that were chosen, so it counts as exact"
     repeats = _from_repeats(campaign, channel)
     if repeats.value and repeats.differences >= FEWEST:
@@ -68,7 +70,9 @@ def _sigma(campaign: Campaign, channel: int) -> tuple[float, str]:
     lines = from_lines(_paths_over(campaign, channel, _load))
     largest = max(float(np.abs(known).max(initial=0.0)) for known in map(_known, _columns(campaign, channel)))
     # Differences of equal readings are zero but for rounding.
-    found = [each for each in (*rough, lines) if each.value is not None and each.value > 1e-12 * largest]
+    real = [each for each in rough if each.value is not None and each.value > 1e-12 * largest]
+    rounded = not real and rough[0].differences >= FEWEST
+    found = real if rounded or lines.value is None else [*real, lines]
     if found:
         best = min(found, key=lambda each: each.value or 0.0)
         how = "scatter about straight lines over the load" if best is lines else "roughness"
@@ -92,20 +96,22 @@ def _prescribed(campaign: Campaign, channel: int) -> bool:
     )
 
 
-def _chosen(readings: Array) -> bool:
-    """Whether readings (N,) are steps that somebody chose: whole multiples of the smallest, and not many of them.
+def _chosen(columns: Sequence[Array]) -> bool:
+    """Whether readings (n,) of each test are steps that somebody chose: whole multiples of the smallest, not many of
+    them, and gone through in few turns.
 
-    What a display rounds lies on multiples too, of a step that is far smaller than those of the load.
+    What a display rounds lies on multiples too, of a step that is far smaller than those of the load, and noise turns
+    at two of three readings.
     """
-    values = np.unique(readings)
+    values = np.unique(np.concatenate(columns))
     steps = _steps_of(values)
     if not steps.size:
         return True
     counts = (values - values[0]) / steps.min()
-    return bool(
-        np.all(np.abs(counts - np.round(counts)) < EVEN * np.maximum(counts, 1.0))
-        and counts[-1] <= CELLS * values.size
-    )
+    even = bool(np.all(np.abs(counts - np.round(counts)) < EVEN) and counts[-1] <= CELLS * values.size)
+    ways = [np.sign(np.diff(column)) for column in columns]
+    turns = sum(int(np.sum(way[1:] * way[:-1] < 0.0)) for way in ways)
+    return even and turns <= TURNS * sum(way.size for way in ways)
 
 
 def _from_repeats(campaign: Campaign, channel: int) -> SigmaEstimate:

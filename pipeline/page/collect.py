@@ -101,7 +101,8 @@ def proposed(model: Model, answer: Answer, known: Known) -> Model:
 
 def headline(answer: Answer, found: Stages, diagnosed: bool) -> str:
     """The verdict in one sentence."""
-    if found.untested and not np.isfinite(found.before.program.measured).any():
+    cases = found.before.program
+    if not (cases.predicted | cases.unweighted).any():
         return "not measured yet: no reading that a model predicts; plan says what these tests can show."
     if diagnosed and answer.sentences:
         return answer.sentences[0]

@@ -12,8 +12,7 @@ from typer.testing import CliRunner
 from pipeline.campaign import Campaign, write
 from pipeline.cli import app
 from pipeline.diagnose.diagnosis import Diagnosis, answer_of, diagnose
-from pipeline.diagnose.words import sentences
-from pipeline.errors import InputError
+from pipeline.diagnose.words import answered, sentences
 from pipeline.inference.model import Model
 from tests.pipeline.diagnose.bench import AXIAL, bench, growing_gain, with_fault
 from tests.studio.ahead import unmeasured
@@ -66,9 +65,12 @@ def test_numbers_of_what_explains_little_are_worth_no_solutions() -> None:
     assert answer_of(axial()).evaluations > axial().shelf.evaluations, "what explains it is"
 
 
-def test_what_is_not_measured_yet_is_refused() -> None:
-    with pytest.raises(InputError, match="ahead: no fitted test has a reading that a model predicts"):
-        diagnose(unmeasured(), Model(), catalogue())
+def test_of_what_is_not_measured_yet_nothing_is_tested() -> None:
+    it = diagnose(unmeasured(), Model(), catalogue())
+    assert it.verdict == "nothing_tested" and it.sets == ((),)
+    assert (
+        answered(it).sentences[0].startswith("nothing_tested: not measured yet: no fitted test has a reading")
+    )
 
 
 def test_friction_is_named() -> None:

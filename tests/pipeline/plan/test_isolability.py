@@ -21,7 +21,7 @@ def two(rho: float, first: float, second: float) -> Seen:
     a = first * basis[:, 0] + 5.0 * basis[:, 2]
     b = second * (rho * basis[:, 0] + np.sqrt(1.0 - rho**2) * basis[:, 1]) - 2.0 * basis[:, 2]
     columns = {"modulus_error": (a[:, None],), "bar_stiffness_asymmetry": (b[:, None],)}
-    return Seen(columns, {}, 7.0 * basis[:, 2:], np.zeros(40, dtype=int), 1.0)
+    return Seen(columns, {}, 7.0 * basis[:, 2:], np.zeros((40, 0)), np.zeros(40, dtype=int), 1.0)
 
 
 def test_an_effect_of_the_needed_size_is_let_in_nine_times_of_ten() -> None:
