@@ -29,6 +29,11 @@ test: setup check
 proofs: $(STAMP)
 	$(ALONE) $(PYTHON) -m pytest -n 2 -m long
 
+# Every command on two thousand small random tables.
+.PHONY: fuzz
+fuzz: $(STAMP)
+	$(ALONE) $(PYTHON) -m pytest -n 2 --dist load -m long tests/fuzz
+
 # Many benches for every effect: hours; what was finished is kept, so that it may be stopped and started again.
 coverage: $(STAMP)
 	$(PYTHON) -m pipeline.coverage

@@ -177,10 +177,12 @@ def _readings(rig: Rig, q: float, control: tuple[str, ...], driven: int, path: A
 
 
 @st.composite
-def files(draw: st.DrawFn, kinds: tuple[str, ...] = ("bar", "parallelogram"), most: int = 12) -> Files:
-    """A campaign of 1 to 3 tests and 1 to `most` rows a test."""
+def files(
+    draw: st.DrawFn, kinds: tuple[str, ...] = ("bar", "parallelogram"), most: int = 12, tests_most: int = 3
+) -> Files:
+    """A campaign of 1 to `tests_most` tests and 1 to `most` rows a test."""
     rig = draw(rigs(kinds))
-    ids = draw(st.lists(st.sampled_from(IDS), min_size=1, max_size=3, unique=True))
+    ids = draw(st.lists(st.sampled_from(IDS), min_size=1, max_size=tests_most, unique=True))
     tests = [draw(tables(rig, id, most)) for id in ids]
     size = np.nanmax(np.abs(np.vstack([np.zeros((1, 12)), *(test.readings for test in tests)])), axis=0)
     sigmas = _sigmas(draw, rig, size)
