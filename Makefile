@@ -15,7 +15,7 @@ $(STAMP): pyproject.toml constraints.txt
 	$(PYTHON) -m pip install --quiet --constraint constraints.txt --editable ".[dev]"
 	@touch $(STAMP)
 
-run: $(STAMP)
+run: setup
 	$(PYTHON) -m pipeline run
 
 check: $(STAMP)

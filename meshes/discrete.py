@@ -6,7 +6,6 @@ import numpy as np
 import scipy.sparse as sp
 import skfem
 from scipy.spatial import cKDTree
-from skfem.io.meshio import INV_HEX_MAPPING
 
 from meshes.solid import Ints, SolidMesh
 
@@ -67,6 +66,9 @@ def discretise(mesh: SolidMesh) -> Discrete:
 
 def as_skfem(mesh: SolidMesh) -> skfem.Mesh:
     """The scikit-fem mesh: straight-edged for 20-node cells, curved for 27-node hexahedra and 10-node tetrahedra."""
+    # Late: it brings meshio.
+    from skfem.io.meshio import INV_HEX_MAPPING
+
     if mesh.kind == "hexahedron27":
         return skfem.MeshHex2(
             np.ascontiguousarray(mesh.points.T),

@@ -4,14 +4,10 @@ import tempfile
 from dataclasses import dataclass
 from pathlib import Path
 
-import gmsh
-import meshio
 import numpy as np
 
-from meshes.gmsh_session import session
 from meshes.section import Section
 from meshes.solid import Floats, Ints
-from meshes.sweep import add_patch, opposite_edges
 
 
 @dataclass(frozen=True)
@@ -24,6 +20,13 @@ class PlaneMesh:
 
 def mesh_section(section: Section, size: float) -> PlaneMesh:
     """Mesh a section with elements of about `size` mm, at least four across the shortest edge of a patch."""
+    # Late: gmsh needs libraries of the system that most commands do without.
+    import gmsh
+    import meshio
+
+    from meshes.gmsh_session import session
+    from meshes.sweep import add_patch, opposite_edges
+
     with session("section"), tempfile.TemporaryDirectory() as folder:
         patches = [(2, add_patch(patch, 0.0)) for patch in section.patches()]
         if len(patches) > 1:

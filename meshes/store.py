@@ -4,17 +4,12 @@ import hashlib
 import tempfile
 from pathlib import Path
 
-import gmsh
-import meshio
 import numpy as np
 
 from meshes.bar import Bar
 from meshes.files import replacing
-from meshes.gmsh_session import session
 from meshes.resolution import Resolution
 from meshes.solid import FACET_OF, SolidMesh
-from meshes.sweep import build_swept
-from meshes.tets import build_tetrahedra
 from meshes.workable import require_workable
 
 # Part of the cache key: raise it when the same input would give another mesh.
@@ -28,6 +23,13 @@ def mesh_bar(bar: Bar, resolution: Resolution, tetrahedra: bool = False) -> Soli
     Raises ValueError if the mesh size cannot work, RuntimeError if gmsh fails.
     """
     require_workable(bar, resolution)
+    # Late: gmsh needs libraries of the system that most commands do without.
+    import gmsh
+
+    from meshes.gmsh_session import session
+    from meshes.sweep import build_swept
+    from meshes.tets import build_tetrahedra
+
     with session("bar"), tempfile.TemporaryDirectory() as folder:
         try:
             (build_tetrahedra if tetrahedra or not bar.sweepable else build_swept)(bar, resolution)
@@ -42,6 +44,8 @@ def mesh_bar(bar: Bar, resolution: Resolution, tetrahedra: bool = False) -> Soli
 
 def read_mesh(path: Path) -> SolidMesh:
     """Read a mesh with the named faces base, tip and side; ValueError if a face or the body is missing."""
+    import meshio
+
     # meshio.read would end the process on a file that is no gmsh file; its reader raises.
     try:
         raw = meshio.gmsh.read(path)
@@ -62,6 +66,8 @@ def read_mesh(path: Path) -> SolidMesh:
 
 def write_mesh(mesh: SolidMesh, path: Path) -> None:
     """Write the mesh with its named faces as a gmsh file; whole or not at all."""
+    import meshio
+
     names = {name: np.array([i + 1, 2]) for i, name in enumerate(FACES)}
     names["body"] = np.array([len(FACES) + 1, 3])
     cells = [(FACET_OF[mesh.kind], mesh.faces[name]) for name in FACES] + [(mesh.kind, mesh.cells)]
@@ -74,6 +80,8 @@ def write_mesh(mesh: SolidMesh, path: Path) -> None:
 
 def cached_mesh(bar: Bar, resolution: Resolution, folder: Path, tetrahedra: bool = False) -> SolidMesh:
     """The mesh of this input, from `folder` if it has been made before; a damaged file is made again."""
+    import gmsh
+
     key = repr((MESHER, gmsh.__version__, bar, resolution, tetrahedra))
     path = folder / f"bar-{hashlib.sha256(key.encode()).hexdigest()[:20]}.msh"
     if path.exists():

@@ -10,6 +10,7 @@ from typing import Annotated, NoReturn
 import typer
 
 from pipeline.errors import InputError
+from pipeline.system import missing_libraries
 
 app = typer.Typer(
     add_completion=False,
@@ -328,7 +329,12 @@ def guarded(work: Callable[[], object]) -> None:
         sys.stdout = None
     except MemoryError:
         give_up("the memory of this machine is not enough; allowed is a larger mesh size, or --coarse", 3)
+    except ImportError as error:
+        give_up(missing_libraries() or str(error), 2)
     except (RuntimeError, ArithmeticError, ValueError, OSError) as error:
+        # gmsh without a library of the system is an OSError.
+        if type(error) is OSError and (said := missing_libraries()):
+            give_up(said, 2)
         give_up(f"{type(error).__name__}: {error}" if isinstance(error, ValueError) else str(error), 3)
     except KeyboardInterrupt:
         give_up("interrupted; what was finished is kept and will be reused", 130)

@@ -1,6 +1,9 @@
-"""Shared libraries of the system that gmsh and pyvista need: looked for before either is loaded."""
+"""Shared libraries of the system that gmsh and pyvista need: looked for before either is loaded, installed by setup."""
 
 import ctypes
+import os
+import shutil
+import subprocess
 import sys
 
 from pipeline.errors import InputError
@@ -18,15 +21,53 @@ NEEDED = {
 
 
 def require_libraries() -> None:
-    """Raise InputError that names the packages to install, all at once; other systems than Linux bring their own."""
+    """Raise InputError that names the packages to install, all at once."""
+    if said := missing_libraries():
+        raise InputError(said)
+
+
+def missing_libraries() -> str:
+    """One sentence that names the packages to install; empty where nothing is missing."""
+    packages = missing_packages()
+    if not packages:
+        return ""
+    return (
+        "system libraries are missing that gmsh and pyvista need; install them with: "
+        f"apt-get install -y {' '.join(packages)} (names of Debian and Ubuntu)"
+    )
+
+
+def missing_packages() -> list[str]:
+    """Debian's packages of what is missing; other systems than Linux bring their own."""
     if sys.platform != "linux":
-        return
-    missing = [package for library, package in NEEDED.items() if not loads(library)]
-    if missing:
-        raise InputError(
-            "system libraries are missing that gmsh and pyvista need; install them with: "
-            f"apt-get install -y {' '.join(missing)} (names of Debian and Ubuntu)"
-        )
+        return []
+    return [package for library, package in NEEDED.items() if not loads(library)]
+
+
+def install_libraries() -> None:
+    """Install what is missing, and say so, where it may without a question; else, or in vain, raise InputError."""
+    packages = missing_packages()
+    if packages and shutil.which("apt-get") and (rights := administrator()) is not None:
+        print(f"installing with apt-get what gmsh and pyvista need: {' '.join(packages)}", flush=True)
+        apt = [*rights, "env", "DEBIAN_FRONTEND=noninteractive", "apt-get"]
+        if call([*apt, "update", "-q"]):
+            call([*apt, "install", "-y", "-q", "--no-install-recommends", *packages])
+    require_libraries()
+
+
+def administrator() -> list[str] | None:
+    """What stands before a command that only the administrator may run; None where it may not be run unasked."""
+    if os.geteuid() == 0:
+        return []
+    return ["sudo", "-n"] if shutil.which("sudo") and call(["sudo", "-n", "true"]) else None
+
+
+def call(command: list[str]) -> bool:
+    """Whether a command ends well; what it says is shown only if it does not."""
+    done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False)
+    if done.returncode and command[-1] != "true":
+        print(done.stdout, file=sys.stderr, end="")
+    return not done.returncode
 
 
 def loads(library: str) -> bool:
@@ -40,6 +81,7 @@ def loads(library: str) -> bool:
 
 if __name__ == "__main__":
     try:
-        require_libraries()
+        install_libraries()
     except InputError as error:
-        raise SystemExit(f"error: {error}") from None
+        print(f"error: {error}", file=sys.stderr)
+        raise SystemExit(2) from None

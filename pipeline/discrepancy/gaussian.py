@@ -11,9 +11,6 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from sklearn.exceptions import ConvergenceWarning
-from sklearn.gaussian_process import GaussianProcessRegressor
-from sklearn.gaussian_process.kernels import RBF, ConstantKernel, WhiteKernel
 
 from pipeline.discrepancy.regressors import Samples
 
@@ -39,6 +36,8 @@ class Process:
 
     def given(self, own: Samples) -> Callable[[Array], Array]:
         """Prediction (n,) at scaled inputs (n, m) from other samples, with the numbers that were learned here."""
+        from sklearn.gaussian_process import GaussianProcessRegressor
+
         process = GaussianProcessRegressor(self.kernel, alpha=self.spread**-2.0, optimizer=None)
         process.fit(own.inputs, (own.values - self.mean) / self.spread)
         return lambda inputs: np.asarray(self.mean + self.spread * process.predict(inputs))
@@ -52,6 +51,10 @@ def learned(own: Samples, restarts: int = RESTARTS) -> Process | None:
     mean, spread = float(own.values.mean()), float(own.values.std())
     if own.values.size < 2 or not own.inputs.shape[1] or spread == 0.0:
         return None
+    from sklearn.exceptions import ConvergenceWarning
+    from sklearn.gaussian_process import GaussianProcessRegressor
+    from sklearn.gaussian_process.kernels import RBF, ConstantKernel, WhiteKernel
+
     lengths = RBF(np.ones(own.inputs.shape[1]), LENGTHS)
     kernel = ConstantKernel(1.0, HEIGHTS) * lengths + WhiteKernel(1e-2, EXCESS)
     process = GaussianProcessRegressor(

@@ -2,7 +2,6 @@
 
 from pathlib import Path
 
-import meshio
 import numpy as np
 
 from fem.axis_shape import AxisShape, axis_shape
@@ -157,6 +156,8 @@ def with_formula(record: Buckling, match: Match, formulas: list[FormulaMode]) ->
 
 def write_modes(mesh: SolidMesh, modes: tuple[Mode, ...], path: Path) -> None:
     """Mode shapes of one bar as point data mode_1 .. of a VTU file, largest displacement 1 mm."""
+    import meshio
+
     fields = {
         f"mode_{n}": mode.displacements[0].reshape(-1, 3).astype(np.float32)
         for n, mode in enumerate(modes, 1)

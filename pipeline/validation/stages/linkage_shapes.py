@@ -9,9 +9,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-import meshio
 import numpy as np
-import pyvista
 
 from fem.buckling import buckling
 from fem.elasticity import IDENTITY
@@ -61,6 +59,8 @@ def bent(model: LinearModel, held: list[str], load: float, bend: float) -> tuple
 
 def write_shape(model: LinearModel, fields: tuple[Floats, ...], path: Path) -> None:
     """Both bars in the base frame, with point data displacement (mm) and stress (von Mises, MPa), as a VTU file."""
+    import meshio
+
     points, cells, moved, stressed, first = [], [], [], [], 0
     for member, field in zip(model.linkage.members, fields, strict=True):
         mesh, u = member.space.mesh, field.reshape(-1, 3)
@@ -89,6 +89,9 @@ def in_base_frame(member: Member, points: Floats) -> Floats:
 
 def nodal_stress(mesh: SolidMesh, material: Isotropic, u: Floats) -> Floats:
     """Cauchy stress (n, 3, 3) MPa of small displacements (n, 3) at the nodes, the mean of the cells around each."""
+    import meshio
+    import pyvista
+
     grid = pyvista.from_meshio(meshio.Mesh(mesh.points, [(mesh.kind, mesh.cells)]))
     grid.point_data["u"] = u
     # Row by row: derivatives of one displacement by x, y, z.
