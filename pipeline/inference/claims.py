@@ -27,6 +27,8 @@ TEN = 10.0
 """Times by which the scatter has to be smaller than a claim to count in its place."""
 SURE = 3.0
 """Standard errors of the scatter by which it has to be."""
+COMPUTED = 1e-6
+"""Of the largest reading: a scatter below that is none of a sensor, the readings were computed."""
 CHANCE = 1e-4
 """Chance that noise leaves so little, where the series are too short for a scatter."""
 
@@ -91,6 +93,8 @@ def _caps(found: Fit, channel: int, share: float) -> Iterator[tuple[int, float]]
         np.sum(np.linalg.inv(whitening(cases, found.prediction).factors)[rows, channel] ** 2, axis=-1)
     )
     target = share * float(np.sqrt(np.mean(spread**2)))
+    if target < COMPUTED * float(np.max(np.abs(cases.measured[rows, channel]))):
+        return
     parts = {channel: (float(cases.sigma[channel]), 1.0)}
     for j in range(6):
         for own in np.unique(cases.channels[rows, j]):

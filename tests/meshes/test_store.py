@@ -112,7 +112,7 @@ def test_gmsh_failures_are_told_as_such(monkeypatch: pytest.MonkeyPatch) -> None
     def fail(*_: object) -> None:
         raise Exception("Could not recover boundary mesh")
 
-    monkeypatch.setattr(store, "build_swept", fail)
+    monkeypatch.setattr("meshes.sweep.build_swept", fail)
     with pytest.raises(RuntimeError, match="gmsh could not mesh the bar: Could not recover boundary mesh"):
         mesh_bar(BARS["hexahedron20"][0], SIZE)
 
