@@ -120,6 +120,9 @@ def _directions(state: Equilibrium) -> list[Array]:
     count = int(state.unstable)
     modes = reduced_modes(state, np.asarray(state.held))
     place = lagrangian.layout(state.mechanism)
+    if count < 1 or not modes.vectors.size:
+        # Everything is held, or what turned unstable is none of the free directions.
+        return []
     vectors = modes.vectors[:, :count] / place.scale[:, None]
     first = in_phase(modes.vectors[:, :count], place) / place.scale
     # What is left of the others beside the direction in which all bars move alike.
