@@ -111,13 +111,13 @@ def _refine(
     state = drive(mechanism, root, held, start)
     modes = reduced_modes(state, held)
     unstable = max(1, int(np.sum(modes.values < together)))
-    direction = _in_phase(modes.vectors[:, :unstable], lagrangian.layout(mechanism))
+    direction = in_phase(modes.vectors[:, :unstable], lagrangian.layout(mechanism))
     load = float(state.load[0])
     reason = f"{unstable} direction(s) turn unstable at load {load:.6g} N"
     return CriticalLoad(True, load, root, load, held, state, direction, unstable, reason)
 
 
-def _in_phase(vectors: Array, place: lagrangian.Layout) -> Array:
+def in_phase(vectors: Array, place: lagrangian.Layout) -> Array:
     """Of the directions (N, k) that turn unstable together, the one in which the chains move most alike.
 
     It maximises the part that survives averaging over the chains, so two bars that buckle at one load buckle

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pipeline.campaign.names import COORDINATES
+from pipeline.inference.branches import Sight, branched
 from pipeline.inference.history import history
 from pipeline.inference.manipulator_prediction import predict_manipulator
 from pipeline.inference.manipulator_states import States
@@ -187,29 +188,31 @@ def _group(
         # Its states have what is asked of those of a bench: unknowns, whether they converged and are stable.
         whole = predict_manipulator(model, group, slopes, cast(States | None, start))
         real, state = group.real, cast(Equilibrium, whole.state)
-        rows = whole.values[real], whole.by_inputs[real], whole.by_free[real]
-        return _Part(*rows, state, whole.stops[real], whole.slides[real])
-    mechanism = model.mechanism(group.rig, program.campaign.gauges)
+        read = whole.values[real], whole.by_inputs[real], whole.by_free[real]
+        return _Part(*read, state, whole.stops[real], whole.slides[real])
+    mechanism, rows = model.mechanism(group.rig, program.campaign.gauges), program.rows_of(group)
     if held or not initial_memory(mechanism).size:
         # Filling would be solved for nothing; it gets the state that it repeats.
         alone = group.by_steps
         begin = None if start is None else start.member(np.nonzero(group.real)).reshaped(len(alone.q), 1)
-        part = _of_bench(model, program, alone, mechanism, slopes, begin, order, held)
+        part = _of_bench(model, program, alone, rows[:, None], mechanism, slopes, begin, order, held)
         state = part.state.member((group.places, np.zeros_like(group.places)))
         return replace(part, state=state)
-    return _of_bench(model, program, group, mechanism, slopes, start, order, held)
+    return _of_bench(model, program, group, rows[group.places], mechanism, slopes, start, order, held)
 
 
 def _of_bench(
     model: Model,
     program: Program,
     group: Group,
+    rows: NDArray[np.int64],
     mechanism: Rig,
     slopes: bool,
     start: Equilibrium | None,
     order: int,
     held: bool,
 ) -> _Part:
+    """rows: (T, S) of the steps of the group in the program."""
     drives = layout(mechanism).drives
     inputs = {"q": np.broadcast_to(group.q[:, None], group.rise.shape), DRIVE: group.rise}
     inputs = {name: value for name, value in inputs.items() if name in drives}
@@ -229,6 +232,7 @@ def _of_bench(
     else:
         state = equilibrium(mechanism, group.targets, group.channels[:, None], begin, drives=inputs)
         state = _branched(mechanism, group, inputs, state)
+        state = branched(mechanism, group, Sight.of(program, rows), inputs, state)
         by, change = _changes(by_parameters, state, asked, order)
     stops, slides = _stops(state, change, DRIVE in drives)
     values = state.readings.copy()
