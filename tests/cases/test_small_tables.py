@@ -13,16 +13,19 @@ import numpy as np
 import pytest
 
 from pipeline.add.command import add_effects, starting_model
+from pipeline.add.fitting import add
 from pipeline.answer import Answer
 from pipeline.campaign import read
 from pipeline.compare.models import compare_models
 from pipeline.compare.table import sentence
 from pipeline.diagnose.diagnosis import diagnose
 from pipeline.diagnose.words import answered
+from pipeline.inference.model import Model
 from pipeline.inference.model_file import NAME
 from pipeline.inference.suitable import known_effects
 from pipeline.plan.command import plan_of
 from pipeline.plan.record import Plan
+from vjm.effects import catalogue
 
 DATA = Path(__file__).parent / "data"
 LAPACK = ("SVD", "ingular matrix", "positive definite", "LinAlgError", "illegal value")
@@ -53,6 +56,7 @@ def sets(found: Answer) -> set[frozenset[str]]:
 
 
 VERDICTS = {
+    "c18_supercritical_column": "identified",
     "c03_textbook_table": "within_noise",
     "c04_dial_softer": "ambiguous",
     "c04_dial_softer/parallelogram_same_crash": "ambiguous",
@@ -156,6 +160,13 @@ def test_a_plan_with_unknown_zeros_or_a_number_at_its_bound(name: str) -> None:
     assert not found.not_done and (found.sizes or found.unmeasured)
 
 
+def test_a_column_beyond_its_critical_load_is_followed_bent() -> None:
+    """Pin-ended strip, shortened by 3 mm: the elastica's P = P_cr (1 + d / 2L), noise of 0.2 N."""
+    found = answer("c18_supercritical_column")
+    assert found.effects == ("bar_geometric_nonlinearity",)
+    assert found.error[-1].fit < 1.1 and not found.error[-1].lost
+
+
 def test_three_readings_far_off_are_not_called_noise() -> None:
     first = compared("t14_compare_nothing_beyond_noise")
     assert "not within the noise; x is -0.00237 mm off on average" in first
@@ -168,7 +179,14 @@ def test_a_sigma_far_too_large_is_a_claim_that_the_scatter_refutes() -> None:
     assert answer("t15_sigma_far_too_large").verdict not in ("within_noise", "identified")
 
 
-@pytest.mark.parametrize("name", ["t03_identified_without_degrees", "t12_add_worse", "t19_no_sigma_refused"])
+def test_a_further_effect_never_leaves_more() -> None:
+    campaign = read(DATA / "t12_add_worse")
+    found = add(campaign, Model(), [catalogue()["modulus_error"]])
+    before, after = (error.chi_square or 0.0 for error in found.answer.error)
+    assert after <= before + 1e-6 * before or found.keep
+
+
+@pytest.mark.parametrize("name", ["t03_identified_without_degrees", "t19_no_sigma_refused"])
 def test_a_model_that_explains_nothing_is_not_saved(
     name: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
