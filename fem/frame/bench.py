@@ -20,7 +20,7 @@ from fem.frame.errors import Errors
 from fem.frame.history import Histories, Records
 from fem.frame.history import run as follow
 from fem.frame.linkages import ELEMENTS, Setup, model
-from fem.frame.rig import Gauge, Rig, steep
+from fem.frame.rig import STEEPEST_DEG, Gauge, Rig, steep
 from meshes.solid import Floats
 
 NAMES = ("x", "y", "z", "rx", "ry", "rz")
@@ -102,7 +102,7 @@ def _check(trial: Trial, rig: Rig, gauges: list[str]) -> None:
     if trial.temperature is not None and np.shape(trial.temperature) != shape[:1]:
         raise ValueError("a trial needs one temperature for each step")
     if rig.kind == "parallelogram" and steep(trial.q):
-        raise ValueError(f"q is {trial.q:g} rad, allowed is less than 85 degrees either way")
+        raise ValueError(f"q is {trial.q:g} rad, allowed are {STEEPEST_DEG:g} degrees either way at most")
 
 
 def _histories(trials: Sequence[Trial], setups: Sequence[Setup], gauges: Sequence[Gauge]) -> Histories:

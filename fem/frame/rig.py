@@ -90,6 +90,10 @@ class Rig:
         return self.length * np.array([cos(q), 0.0, -sin(q)])
 
 
+STEEPEST_DEG = 85.0
+"""Largest angle of the bars of a parallelogram, degrees, either way: at 90 nothing holds its platform along x."""
+
+
 def steep(q: float) -> bool:
-    """Whether an angle of the bars is outside what a parallelogram can hold, ±85 degrees."""
-    return abs(q) > 85.0 / 180.0 * pi
+    """Whether an angle of the bars, rad, is beyond the steepest one; rounding of the conversion does not count."""
+    return abs(q) > STEEPEST_DEG / 180.0 * pi * (1.0 + 1e-12)

@@ -4,6 +4,7 @@ from typing import Annotated, Any, Literal
 
 from pydantic import BaseModel, ConfigDict, Field, ValidationError, field_validator, model_validator
 
+from fem.frame.rig import STEEPEST_DEG
 from pipeline.campaign.complaints import shown
 from pipeline.campaign.matrix import not_a_stiffness, symmetric
 from pipeline.campaign.model import Kind, Rig, Role, UniformBar, Zero
@@ -18,7 +19,7 @@ Entry = Annotated[Number, Field(ge=-1e15, le=1e15)]
 Weight = Annotated[Number, Field(ge=0.0, le=1e9)]
 Sigma = Annotated[Number, Field(ge=1e-12, le=1e9)]
 Celsius = Annotated[Number, Field(ge=-273.15, le=1e4)]
-Angle = Annotated[Number, Field(ge=-85.0, le=85.0)]
+Angle = Annotated[Number, Field(ge=-STEEPEST_DEG, le=STEEPEST_DEG)]
 Place = Annotated[Number, Field(ge=-1e6, le=1e6)]
 Text = Annotated[str, Field(min_length=1, max_length=100)]
 Direction = Literal["x", "y", "z", "-x", "-y", "-z"]
