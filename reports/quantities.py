@@ -22,6 +22,8 @@ Z = 1.959964
 """Standard errors from a value to the end of its 95 % interval."""
 WHOLE = 99_999.5
 """Up to here no digit before the point is rounded away."""
+MANY = 10.0
+"""Times from which a share is told as a factor."""
 LEAST_SIGMA, LEAST_P, LEAST_PERCENT = 1e-3, 1e-6, 0.1
 """Below these only that it is below is said."""
 
@@ -101,6 +103,13 @@ def percent(ratio: float | None) -> str:
     if 0.0 < share < LEAST_PERCENT:
         return f"under {LEAST_PERCENT:g} %"
     return f"{short(share, 2)} %"
+
+
+def proportion(share: float) -> str:
+    """By what share measurements exceed a model: 18 % more than the model says, 12.3 times what the model says."""
+    if share < -1.0 or share > MANY:
+        return f"{short(1.0 + share)} times what the model says"
+    return f"{percent(share)} {'more' if share > 0.0 else 'less'} than the model says"
 
 
 def p_value(p: float | None) -> str:

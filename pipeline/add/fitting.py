@@ -22,8 +22,10 @@ from pipeline.inference.fit import Fit, fit, unfitted
 from pipeline.inference.intervals import correlations, intervals, landscape, only_together, straight
 from pipeline.inference.model import Model, at_bound
 from pipeline.inference.model_file import Uncertainty
+from pipeline.inference.prediction import predict
 from pipeline.inference.program import Program, program
 from pipeline.inference.sigmas import completed
+from pipeline.inference.starts import best_fit
 from pipeline.inference.suitable import check_suitable, scale_for, sized_model
 from pipeline.provenance import commit, versions
 from vjm.effects.base import Effect
@@ -32,6 +34,8 @@ from vjm.effects.sized import sized
 Say = Callable[[str], None]
 WORSE = 1.0
 """Chi-square by which a fit may leave more than the model before: a step that noise takes."""
+NOTHING = 1e-9
+"""Of chi-square: a fall by less is rounding."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -78,8 +82,11 @@ def add(campaign: Campaign, model: Model, effects: Sequence[Effect], say: Say = 
         for count in range(len(new)):
             shelf.fit(frozenset(new[: count + 1]))
         after = shelf.fit(frozenset(new))
-        # Without the pull of plausible sizes: intervals are about the least chi-square itself.
-        after = min(after, fit(after.model, cases, after.prediction), key=lambda each: each.order)
+        # Without the pull of plausible sizes: intervals are about the least chi-square itself, and where only
+        # combinations of numbers are seen, it may be elsewhere on their ridge.
+        polished = fit(after.model, cases, after.prediction)
+        anew = best_fit(model.with_effects(effects), cases, new, predict(model, cases, slopes=False), say)
+        after = min(polished, anew, key=lambda each: each.order)
     else:
         after = unfitted(model.with_effects(effects), cases)
     return _compared(cases, (before, after), len(model.free), new, say, start, shelf.unseen if new else ())
@@ -150,13 +157,13 @@ def _compared(
         commit=commit(),
         versions=versions(),
     )
-    keep = _keeps(before, after, nothing) if new else ""
+    keep = _keeps(before, after, numbers, nothing) if new else ""
     said = sentences(answer, cases.campaign.remarks, nothing or "", in_units(after), keep)
     return Added(after.model, answer.model_copy(update={"sentences": said}), keep)
 
 
-def _keeps(before: Fit, after: Fit, nothing: str | None) -> str:
-    """Why a fit should not take the place of the model before it."""
+def _keeps(before: Fit, after: Fit, numbers: int, nothing: str | None) -> str:
+    """Why a fit should not take the place of the model before it, which had so many fitted numbers."""
     rows = after.residual.program.fitted
     lost = int(np.sum(after.prediction.lost & ~before.prediction.lost & rows))
     if nothing:
@@ -167,4 +174,6 @@ def _keeps(before: Fit, after: Fit, nothing: str | None) -> str:
         return f"it has no prediction for {lost} rows for which the model before has one"
     if after.chi_square > before.chi_square + WORSE:
         return "it leaves more than the model before"
+    if len(after.model.free) > numbers and after.chi_square >= before.chi_square * (1.0 - NOTHING):
+        return "its further numbers take nothing off what the model before leaves"
     return ""

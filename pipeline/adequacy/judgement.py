@@ -15,11 +15,12 @@ from pipeline.inference.driving import column_name
 from pipeline.inference.fit import Fit, fit
 from pipeline.inference.program import program
 from pipeline.noise import lag_one
+from reports.quantities import percent, short, sigma
 
 Array = NDArray[np.float64]
 LEVEL = FALSE_ALARM / 6
 """Chance, of each of six checks, that noise fails it: the truth is refused as seldom as a name is false."""
-HELD_OUT = "held out"
+HELD_OUT, SIZE = "held out", "size"
 LARGER = 1.15
 """Scatter up to so many times the sigmas, and without any order, is put down to the sigmas."""
 
@@ -57,7 +58,7 @@ def judge(found: Fit) -> Judgement:
     scatter = 1.0
     if not size.passed and order.passed and found.rms <= LARGER:
         scatter = found.rms
-        size = Check(size.name, 1.0, f"the scatter is {100 * (scatter - 1):.0f} % larger than the sigmas say")
+        size = Check(size.name, 1.0, f"the scatter is {percent(scatter - 1.0)} larger than the sigmas say")
     out = [
         _lost(found),
         size,
@@ -86,7 +87,7 @@ def _lost(found: Fit) -> Check | None:
 
 def _size(found: Fit) -> Check:
     p = float(chi2.sf(found.chi_square, max(found.degrees, 1)))
-    return Check("size", p, f"what is left is {found.rms:.2f} sigma")
+    return Check(SIZE, p, f"what is left is {sigma(found.rms)} sigma")
 
 
 def _order(found: Fit) -> Check:
@@ -117,7 +118,7 @@ def _series(found: Fit, scatter: float) -> Check:
     whole = found.residual.program
     rms = float(np.sqrt(np.mean(paths[worst] ** 2)))
     name = column_name(worst[1], whole.campaign.gauges)
-    words = f"{name} in test {whole.campaign.tests[worst[0]].id} is off by {rms:.1f} sigma"
+    words = f"{name} in test {whole.campaign.tests[worst[0]].id} is off by {sigma(rms)} sigma"
     return Check("series", float(min(1.0, p * len(paths))), words)
 
 
@@ -127,7 +128,7 @@ def _patterns(found: Fit, scatter: float) -> Check:
     if not every:
         return Check("patterns", 1.0, "no pattern of a sensor can be seen")
     p = 2.0 * float(norm.sf(abs(every[0].score) / scatter)) * len(every)
-    words = f"the rest looks as if {every[0].words} ({abs(every[0].score):.1f} sigma)"
+    words = f"the rest looks as if {every[0].words} ({sigma(abs(every[0].score))} sigma)"
     return Check("patterns", min(1.0, p), words)
 
 
@@ -138,7 +139,7 @@ def _constant(found: Fit, scatter: float) -> Check | None:
         return None
     p = 2.0 * float(norm.sf(abs(it.score) / scatter)) * it.looks
     more = "more" if it.change > 0.0 else "less"
-    words = f"{it.name} would be {abs(it.change):.3g} {more} {it.where} ({abs(it.score):.1f} sigma)"
+    words = f"{it.name} would be {short(abs(it.change))} {more} {it.where} ({sigma(abs(it.score))} sigma)"
     return Check("constancy", min(1.0, p), words)
 
 
@@ -166,7 +167,7 @@ def _held_out(found: Fit, scatter: float) -> Check | None:
         total -= float(pull @ np.linalg.solve(inner, pull))
     p = float(chi2.sf(total / scatter**2, residual.size))
     rms = float(np.sqrt(np.mean(residual**2)))
-    return Check(HELD_OUT, p, f"tests that were held out are off by {rms:.2f} sigma")
+    return Check(HELD_OUT, p, f"tests that were held out are off by {sigma(rms)} sigma")
 
 
 def _held_out_anew(found: Fit, scatter: float, linear: Check) -> Check:

@@ -8,6 +8,7 @@ from pipeline.campaign.names import DISPLACEMENTS, WRENCHES, gauge_column
 from pipeline.inference.driving import column_name, unit_of
 from pipeline.inference.fit import Fit
 from pipeline.inference.sigmas import to_write
+from reports.quantities import proportion
 
 HEAD = "nothing_tested"
 NOT_YET = "not measured yet"
@@ -61,13 +62,8 @@ def in_units(found: Fit) -> tuple[str, ...]:
 
 
 def _share(measured: np.ndarray, predicted: np.ndarray) -> str:
-    """By how much in proportion, where the model says anything but zero."""
+    """By how much in proportion, where the model says anything but nothing."""
     square = float(predicted @ predicted)
     if square == 0.0 or not np.isfinite(square):
         return ""
-    more = 100.0 * (float(measured @ predicted) / square - 1.0)
-    return (
-        f" ({abs(more):.2g} % {'more' if more > 0 else 'less'} than the model says)"
-        if abs(more) < 1e4
-        else ""
-    )
+    return f" ({proportion(float(measured @ predicted) / square - 1.0)})"

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from pipeline.compare.error import Discrepancy
 from pipeline.inference.driving import column_name, unit_of
-from reports.quantities import percent, short, sigma
+from reports.quantities import proportion, short, sigma
 
 Array = NDArray[np.float64]
 ABOVE = 4.0
@@ -80,6 +80,4 @@ def _weighted(off: Array, regressor: Array, spread: Array) -> tuple[float, float
 def _in_proportion(name: str, share: float) -> str:
     if abs(share + 2.0) < TURNED:
         return f"{name} runs against the model: is its sign, or that of its load, right?"
-    if share < -1.0 or share > 10.0:
-        return f"{name} is {short(1.0 + share)} times what the model says"
-    return f"{name} is {percent(share)} {'more' if share > 0.0 else 'less'} than the model says"
+    return f"{name} is {proportion(share)}"

@@ -18,7 +18,7 @@ from pipeline.compare.failure import findings, groups, too_short
 from pipeline.compare.headline import headline
 from pipeline.compare.record import Comparison, ModelError
 from pipeline.inference.claims import trusted
-from pipeline.inference.fit import Fit
+from pipeline.inference.fit import SETTLED, Fit
 from pipeline.inference.frame_prediction import predict_frame
 from pipeline.inference.inputs import linearised
 from pipeline.inference.linear_prediction import predict_linear
@@ -43,8 +43,6 @@ TITLES = {
 Say = Callable[[str], None]
 Solve = Callable[[np.ndarray | None], Prediction]
 """A prediction at inputs shifted by (R, 7) from the measured ones."""
-SETTLED = 3.0
-"""Sigmas below which a misfit moves the inputs by no more than their noise."""
 
 
 def compare_models(campaign: Campaign, saved: Model | None = None, say: Say = lambda _: None) -> Comparison:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -32,19 +33,28 @@ def determined(found: Fit, whole: Program) -> Fit:
     What only combinations determine is told by as many numbers as there are combinations. The same fit where all are
     determined, or where it would leave more.
     """
-    here, effects = found, len(found.model.free)
-    for _ in range(effects):
-        blind = undetermined(here, whole)
-        if not blind:
-            return here
-        free = {each.name: k for k, each in enumerate(here.model.free)}
-        sizes = {n: float(np.linalg.norm(here.jacobian[:, free[n]])) * _typical(here, free[n]) for n in blind}
-        least = min(blind, key=lambda name: sizes[name])
-        model = _nulled(here.model, least)
-        here = fit(model, whole, here.prediction, None, PLAUSIBLE)
-        if here.chi_square > found.chi_square + RISE:
+    here = found
+    while blind := undetermined(here, whole):
+        fewer = _with_one_less(here, blind, whole, found.chi_square + RISE)
+        if fewer is None:
             return found
+        here = fewer
     return here
+
+
+def _with_one_less(here: Fit, blind: Sequence[str], whole: Program, most: float) -> Fit | None:
+    """The fit with one of these numbers at null that leaves no more than so much; None where each leaves more.
+
+    Of a product of two numbers, such as the spring of a friction that never slips, one at null is no effect at all, the
+    other at its usual size tells the product.
+    """
+    free = {each.name: k for k, each in enumerate(here.model.free)}
+    sizes = {n: float(np.linalg.norm(here.jacobian[:, free[n]])) * _typical(here, free[n]) for n in blind}
+    for name in sorted(blind, key=lambda each: sizes[each]):
+        fewer = fit(_nulled(here.model, name), whole, here.prediction, None, PLAUSIBLE)
+        if fewer.chi_square <= most:
+            return fewer
+    return None
 
 
 def _typical(found: Fit, k: int) -> float:

@@ -9,7 +9,7 @@ import numpy as np
 from pipeline.diagnose.evidence import PLAUSIBLE, entry, numbers
 from pipeline.diagnose.shelf import Names, Shelf
 from pipeline.inference.fit import Fit
-from pipeline.inference.residual import LOST
+from pipeline.inference.program import LOST
 
 
 def cost(shelf: Shelf, names: Names) -> float:

@@ -74,6 +74,11 @@ def plain_zero(found: Fit) -> bool:
     return bool(every) and found.rms > LARGE and every[0].gain > NEARLY_ALL * found.chi_square
 
 
+def _plainer(fit: Fit, zero: Zero) -> bool:
+    """Whether another fault of a sensor explains more than a zero."""
+    return any(pattern.score**2 > zero.gain for pattern in scores(fit)[:1])
+
+
 def zero_first(found: Found) -> Instead | None:
     """The zero of a sensor that explains more than the best set of effects, beside the set that needs it."""
     shelf, best = found.shelf, found.best
@@ -86,6 +91,7 @@ def zero_first(found: Found) -> Instead | None:
             left = fit.chi_square - zero.gain
             total = cost(shelf, names) - zero.gain + zero.price
             noise = left <= float(chi2.isf(NOISE, max(fit.degrees - 1, 1)))
-            if zero.gain > zero.price and total < cost(shelf, best) and (noise or left < most / MOST):
+            worth = zero.gain > zero.price and total < cost(shelf, best) and not _plainer(fit, zero)
+            if worth and (noise or left < most / MOST):
                 out.append((total, Instead("", names, zero.words, zero.gain, most, zero)))
     return min(out, key=lambda it: it[0])[1] if out else None

@@ -11,7 +11,7 @@ import numpy as np
 from pipeline.diagnose.evidence import PLAUSIBLE
 from pipeline.diagnose.picture import Picture, picture
 from pipeline.diagnose.signatures import Look, Probe, Say, hidden, look, probed, probes, signatures
-from pipeline.inference.fit import Fit, fit
+from pipeline.inference.fit import Fit, fit, unfitted
 from pipeline.inference.model import Model, Term
 from pipeline.inference.parts import at_rows
 from pipeline.inference.prediction import Prediction, predict
@@ -25,8 +25,6 @@ from vjm.effects.base import Effect
 Names = frozenset[str]
 FEW_READINGS = 24
 """Readings up to which a set has no numbers that they do not see: two of the largest effects would take them all."""
-SETTLED = 3.0
-"""Whitened RMS below which a misfit moves the inputs by no more than their noise."""
 
 
 @dataclass(eq=False)
@@ -194,7 +192,7 @@ class Shelf:
         effects = [self.candidates[name] for name in self.order(names)]
         model, start, known = self._begin(names)
         if not model.free:
-            return self._settled(fit(model, self.whole))
+            return unfitted(model, self.whole)
         effects = [e for e in effects if e.name not in known]
         kinked = [e for e in effects if not e.smooth]
         new = [e.name for e in effects]
@@ -204,13 +202,6 @@ class Shelf:
         for effect in kinked:
             model = probed(model, effect, begin[effect.name])
         return fit(model, self.whole, start, None, PLAUSIBLE)
-
-    def _settled(self, found: Fit) -> Fit:
-        """Where nothing is fitted, the inputs still are: seen from the measured ones their noise is in the slopes."""
-        if found.rms > SETTLED:
-            return found
-        there = predict(found.model, self.whole, start=found.prediction, shift=found.residual.shift)
-        return Fit(found.model, there, residual(self.whole, there), found.evaluations + 1)
 
     def _title(self, names: Names) -> str:
         return " + ".join(self.order(names)) or "the model as it is"

@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterator
 import numpy as np
 
 from pipeline.add.sentences import limits
-from pipeline.adequacy.judgement import judge
+from pipeline.adequacy.judgement import SIZE, judge
 from pipeline.adequacy.untested import in_units
 from pipeline.answer import Answer
 from pipeline.attempt import Attempts
@@ -81,8 +81,10 @@ def _verdict(it: Diagnosis) -> Iterator[str]:
     elif it.sets[0]:
         rest = "what is left is no noise and nothing known explains it"
         yield f"unknown: {asked}{_and(it.sets[0])} help, {fall}, but {rest}."
+    elif zero:
+        yield f"unknown: {asked}Nothing is named before that is settled; the misfit is {sigma(rms)} sigma."
     else:
-        yield f"unknown: {asked}the misfit of {sigma(rms)} sigma is no noise, and nothing known explains it."
+        yield f"unknown: the misfit of {sigma(rms)} sigma is no noise, and nothing known explains it."
 
 
 def _evidence(it: Diagnosis, answer: Answer) -> Iterator[str]:
@@ -130,7 +132,7 @@ def _left(it: Diagnosis) -> Iterator[str]:
     for check in failed:
         yield f"Not noise ({check.name}, {p_is(check.p_value)}): {check.words}."
     if it.judgement.scatter > 1.0:
-        size = next(check.words for check in it.judgement.checks if check.name == "size")
+        size = next(check.words for check in it.judgement.checks if check.name == SIZE)
         yield f"By its order along the load paths the rest is noise, but {size}."
     if it.verdict == "unknown":
         yield from _why_not(it)
@@ -144,7 +146,8 @@ def _why_not(it: Diagnosis) -> Iterator[str]:
     for names in [n for n in near if n and n != frozenset(it.sets[0])][:3]:
         found = shelf.fit(names)
         worst = min(judge(found).checks, key=lambda check: check.p_value)
-        yield f"{_and(shelf.order(names))} leaves {sigma(found.rms)} sigma: {worst.words}."
+        why = "" if worst.name == SIZE else f": {worst.words}"
+        yield f"{_and(shelf.order(names))} leaves {sigma(found.rms)} sigma{why}."
 
 
 def _described(it: Diagnosis) -> Iterator[str]:

@@ -74,20 +74,28 @@ def zeros(found: Fit) -> list[Zero]:
         seen = sizes > FLAT * np.maximum(np.linalg.norm(columns, axis=0), 1e-300)
         for k in np.flatnonzero(seen):
             value = float(left[:, k] @ found.whitened / sizes[k] ** 2)
-            out.append(_zero(found, channel, own[k], value, 1.0 / float(sizes[k]), len(named)))
+            everywhere = own[k] == max(own, key=len)
+            out.append(_zero(found, channel, own[k], everywhere, (value, 1.0 / float(sizes[k])), len(named)))
     return sorted(out, key=lambda it: -it.gain)
 
 
-def _zero(found: Fit, channel: int, tests: tuple[int, ...], value: float, std: float, looks: int) -> Zero:
+def _zero(
+    found: Fit,
+    channel: int,
+    tests: tuple[int, ...],
+    everywhere: bool,
+    estimate: tuple[float, float],
+    looks: int,
+) -> Zero:
+    """estimate: the constant and its standard error."""
     whole, expected = found.residual.program, found.prediction.values
+    value, std = estimate
     ids = tuple(whole.campaign.tests[k].id for k in tests)
-    every = {t for c, t in _constants(whole) if c == channel}
-    largest = max(every, key=len)
     unit = unit_of(channel).replace("Nmm", "N·mm")
     rows = np.isin(whole.test, tests) & whole.predicted[:, channel]
     unloaded = bool(rows.any() and np.all(np.abs(expected[rows, channel]) < NOTHING * abs(value)))
     name = column_name(channel, whole.campaign.gauges)
-    return Zero(name, ids, tests == largest, value, std, unit, (value / std) ** 2, looks, unloaded)
+    return Zero(name, ids, everywhere, value, std, unit, (value / std) ** 2, looks, unloaded)
 
 
 def _constants(whole: Program) -> Iterator[tuple[int, tuple[int, ...]]]:

@@ -13,7 +13,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from pipeline.inference.program import Group, Program
+from pipeline.inference.program import LOST, Group, Program
 from vjm import lagrangian
 from vjm.bent import along, leave, neutral_is_stable
 from vjm.effects.base import Rig
@@ -24,8 +24,6 @@ from vjm.stability import reduced_modes
 
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
-LOST = 30.0
-"""Sigmas that a reading without a prediction counts for, so that a side on which more rows are found is chosen."""
 TINY = 1e-7
 """mm, rad, N or N·mm: no sensor tells so little from nothing."""
 SAME = 1e-6

@@ -146,11 +146,20 @@ def fit(
     return Fit(model.at(values), whole, residual(program, whole), aim.count)
 
 
+SETTLED = 3.0
+"""Whitened RMS below which a misfit moves the inputs by no more than their noise."""
+
+
 def unfitted(model: Model, cases: Program) -> Fit:
-    """A model as it is: nothing is fitted but the inputs, which were measured as well."""
+    """A model as it is: nothing is fitted but, where it leaves little, the inputs, which were measured as well.
+
+    Seen from the measured ones their noise would be in the slopes; what leaves much moves them by more than noise.
+    """
     fixed = replace(model, fixed=frozenset(each.name for each in model.free) | model.fixed)
-    there, left = linearised(fixed, cases)
-    return Fit(fixed, *linearised(fixed, cases, start=there, shift=left.shift), 2)
+    first = Fit(fixed, *linearised(fixed, cases), 1)
+    if first.rms > SETTLED:
+        return first
+    return Fit(fixed, *linearised(fixed, cases, start=first.prediction, shift=first.residual.shift), 2)
 
 
 @dataclass(frozen=True, eq=False)

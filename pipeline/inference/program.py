@@ -18,6 +18,8 @@ CHANNELS = 12
 """Six of the pose and six of the wrench; gauges follow."""
 INPUTS = 7
 """What is prescribed for each coordinate, and the temperature."""
+LOST = 30.0
+"""Sigmas that stand for a reading for which the model has no stable equilibrium."""
 
 
 @dataclass(frozen=True, eq=False)

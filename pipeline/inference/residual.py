@@ -23,12 +23,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pipeline.inference.prediction import Prediction
-from pipeline.inference.program import Program
+from pipeline.inference.program import LOST, Program
 from pipeline.inference.sides import SIDE, SPREAD
 
 Array = NDArray[np.float64]
-LOST = 30.0
-"""Sigmas that stand for a reading for which the model has no stable equilibrium."""
 FARTHEST = 5.0
 """Sigmas from where it was read that an input is looked for."""
 ROUNDED = 1e5

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping
 
 from pipeline.answer import Answer, Candidate
 from pipeline.campaign import Campaign
-from pipeline.inference.residual import LOST
+from pipeline.inference.program import LOST
 from reports.quantities import short, sigma
 from vjm.effects.base import Effect
 

@@ -60,8 +60,9 @@ def linkage_sentences(records: Sequence[Parallelogram]) -> list[str]:
     ranks = sorted({r.rank for r in records})
     return [
         f"The closed form of K_p (Eq. 11), fed with this K_b, agrees with the solid parallelogram within "
-        f"{100 * worst:.1g} % in every entry, as it must with rigid faces and ideal pins: this checks both programs, "
-        f"not the pins. Its rank is {' and '.join(map(str, ranks))}, without stiffness along z of the bar frame."
+        f"{max(100 * worst, 1e-3):.1g} % in every entry, as it must with rigid faces and ideal pins: this checks both "
+        f"programs, not the pins. Its rank is {' and '.join(map(str, ranks))}, without stiffness along z of the bar "
+        "frame."
     ]
 
 

@@ -183,10 +183,10 @@ def test_a_further_effect_never_leaves_more() -> None:
     campaign = read(DATA / "t12_add_worse")
     found = add(campaign, Model(), [catalogue()["modulus_error"]])
     before, after = (error.chi_square or 0.0 for error in found.answer.error)
-    assert after <= before + 1e-6 * before or found.keep
+    assert after <= before * (1.0 + 1e-9)
 
 
-@pytest.mark.parametrize("name", ["t03_identified_without_degrees", "t19_no_sigma_refused"])
+@pytest.mark.parametrize("name", ["t03_identified_without_degrees", "t12_add_worse", "t19_no_sigma_refused"])
 def test_a_model_that_explains_nothing_is_not_saved(
     name: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

@@ -40,7 +40,7 @@ def table_sentences(tables: list[Table1]) -> list[str]:
             f"Table 1, the whole Orthoglide: {len(table.unknowns)} numbers that the paper does not give are fitted to "
             f"{table.fitted} cells, {table.predicted} cells are predicted: those of the parallelogram within "
             f"{100 * nearest:.0f} %, {rest.quantity} of the {rest.linkage} by {100 * (rest.deviation or 0.0):+.0f} %. "
-            f"Springs and frame elements agree within {max(100 * worst, 1e-6):.1g} %."
+            f"Springs and frame elements agree within {max(100 * worst, 1e-3):.1g} %."
         )
         sentences.append("Unfitted: " + " ".join(_answered(f.statement, f.holds) for f in table.findings))
     return sentences

@@ -97,9 +97,7 @@ def test_what_cannot_be_told_apart_is_said() -> None:
     together = any(names <= set(group) for group in answer.undetermined)
     paired = any({pair.first, pair.second} == names for pair in answer.correlations)
     assert together or paired
-    # Of the tilt they say at most that it is no ten times a usual one.
-    tilt = answer.parameters["axis_flexibility.tilt_rad_per_Nmm"]
-    assert tilt.interval == "undetermined" or (tilt.low95 == 0.0 and (tilt.high95 or np.inf) > 1e-6)
+    assert "axis_flexibility.tilt_rad_per_Nmm" in {name for group in answer.undetermined for name in group}
     assert any("axis_flexibility" in s and ("told apart" in s or "determined" in s) for s in answer.sentences)
 
 

@@ -28,8 +28,7 @@ def test_a_gauge_that_creeps_a_little_is_no_tilt(seed: int) -> None:
     """A tilt of the mounting takes more off chi-square than any other effect, the gauge's own fault still more."""
     it = diagnose(with_fault(bench(seed=seed), slightly_creeping), Model(), catalogue())
     assert it.sets == ((ALWAYS, "mounting_tilt"),)
-    # A constant of another sensor does nearly as well, and is asked about too.
-    fault = it.instead[0]
+    (fault,) = it.instead
     assert fault.effect == "mounting_tilt" and "has a zero that moves during a test" in fault.words
     assert fault.explains > fault.of
     answer = answer_of(it)

@@ -15,8 +15,7 @@ from pipeline.extrapolation.yardstick import true_model, yardstick
 from pipeline.inference.driving import driving
 from pipeline.inference.model import Model
 from pipeline.inference.prediction import predict
-from pipeline.inference.program import program
-from pipeline.inference.residual import LOST
+from pipeline.inference.program import LOST, program
 from pipeline.virtual.plan import bench_plan
 from tests.pipeline.extrapolation.stiff import STEPS, stiff
 from vjm.effects import catalogue
