@@ -1,6 +1,7 @@
 """What the commands do, with their imports where they are needed: a complaint about the input comes at once."""
 
 import os
+import sys
 from pathlib import Path
 
 from pipeline.errors import InputError
@@ -32,7 +33,9 @@ def validate(name: str, coarse: bool, fine: bool, out: Path | None, quiet: bool,
     result = run(case, detail, Workshop(WORKSHOP, progress), folder, typed)
     write_result(result, folder)
     page = draw(folder, progress)
-    print("\n".join([*result.story, f"report: {page}"]))
+    print("\n".join([*result.story, f"report: {page}"]), flush=True)
+    for said in result.warnings:
+        print(f"warning: {said}", file=sys.stderr)
 
 
 def redraw(folder: Path, quiet: bool) -> None:

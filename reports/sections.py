@@ -3,18 +3,20 @@
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from reports import plots, tables_bar, tables_linkage, tables_orthoglide, tables_record
+from reports import plots, tables_bar, tables_linkage, tables_orthoglide, tables_record, tables_yield
 from reports.blocks import Block, Bullets, Code, Figure, Gallery, Section, Table, Tables, Text
 from reports.load import Json
 from reports.shapes import supports_of
 
 Drawing = tuple[str, bytes]
+WARNED = "Figures of this report that belong together are farther apart than their stated band. Do not rely on them."
 
 
 def build(result: Json, drawings: Mapping[str, Drawing], shapes: Any, stressed: Any = None) -> list[Section]:
     """All sections. `drawings`: (SVG, PNG) by name; `shapes`: plot of the modes and its supports, or None;
     `stressed`: plot of the bent linkages, or None."""
     parts = [
+        *warnings(result),
         Section("findings", "Findings", [Bullets(result["story"]), Tables([tables_record.run(result)])]),
         linkage(result, drawings),
         bar(result, drawings),
@@ -27,6 +29,12 @@ def build(result: Json, drawings: Mapping[str, Drawing], shapes: Any, stressed: 
     if result["orthoglide"]:
         parts.append(orthoglide(result))
     return [*parts, errata(result), record(result)]
+
+
+def warnings(result: Json) -> list[Section]:
+    """Where the models of this report are too far apart, before anything else; nothing where they agree."""
+    said = result.get("warnings")
+    return [Section("warnings", "Warnings", [Text(WARNED), Bullets(said)])] if said else []
 
 
 def drawn(name: str, caption: str, drawings: Mapping[str, Drawing], plot: Any = None) -> Figure:
@@ -163,6 +171,8 @@ def force_deflection(result: Json, drawings: Mapping[str, Drawing]) -> Section:
     notes = list(dict.fromkeys(curve["note"] for curve in result["curves"] if curve["note"]))
     if notes:
         blocks.append(Bullets(notes))
+    if result.get("yield_MPa"):
+        blocks.append(tables_yield.travels(result))
     blocks.append(tables_linkage.validity(result))
     return Section("force-deflection", "Force and deflection (Fig. 3)", blocks)
 

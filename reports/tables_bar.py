@@ -20,6 +20,7 @@ from reports.formats import (
 )
 from reports.load import Json
 from reports.style import model_label
+from reports.tables_yield import marked, note
 
 SUPPORTS = {
     "free": "base clamped, tip free",
@@ -221,11 +222,12 @@ def buckling(result: Json) -> Table:
                 *head,
                 str(item["mode"]),
                 item["plane"],
-                number(item["load_N"]),
+                marked(Cell(number(item["load_N"])), item),
                 percent(item.get("band")).removeprefix("+"),
                 number(item.get("formula_N")),
                 percent(item.get("deviation")),
-                item.get("formula") or DASH,
+                fixed(item.get("mac"), 3),
+                formula_cell(item),
             ]
         )
     columns = [
@@ -237,6 +239,7 @@ def buckling(result: Json) -> Table:
         Column("its mesh error", "±%"),
         Column("formula value", "N"),
         Column("deviation", "%"),
+        Column("MAC"),
         Column("formula", numeric=False),
     ]
     used = dict.fromkeys(item["supports"] for item in items)
@@ -246,9 +249,24 @@ def buckling(result: Json) -> Table:
         "along the bar converge faster than its corners do. The formula takes EI from the K_b of the same mesh, so the "
         "deviation of the first modes holds less of it."
     )
+    notes.append(
+        "Solid and formula are matched by the shape of their modes; MAC: how alike the two shapes are, 1 is the same."
+    )
     if any(item.get("formula_N") is None for item in items):
         notes.append(f"{DASH}: the run holds no closed form for this mode.")
+    notes += note(result)
     return table("Critical loads of the bar, compression positive", columns, rows, *notes)
+
+
+def formula_cell(item: Json) -> Cell:
+    """The formula of a mode's shape; without one, the nearest, marked as none."""
+    if item.get("missing"):
+        return Cell(item["formula"], "no solid mode has its shape")
+    if item.get("nearest"):
+        return Cell(
+            f"none; nearest: {item['nearest']}, {number(item['nearest_N'])} N", "no formula of its shape"
+        )
+    return Cell(item.get("formula") or DASH)
 
 
 def labels(result: Json) -> list[str]:

@@ -8,6 +8,7 @@ from reports.blocks import Cell, Column, Table, table
 from reports.formats import DASH, count, entry_of, entry_unit, fixed, held_label, number, percent, symbol
 from reports.load import Json
 from reports.style import model_label
+from reports.tables_yield import marked, note
 
 # Entries below this share of the diagonals they couple are rounding.
 ROUNDING = 1e-6
@@ -135,7 +136,7 @@ def load_cell(item: Json | None) -> Cell:
         return Cell(DASH, "none found" if searched is None else f"none up to {number(searched / 1e3, 3)} kN")
     band = item.get("band")
     mark = "tension" if item["load_N"] < 0 else "" if band is None else f"±{fixed(100 * band, 2)} %"
-    return Cell(number(item["load_N"] / 1e3, 4), mark)
+    return marked(Cell(number(item["load_N"] / 1e3, 4), mark), item)
 
 
 def critical(result: Json) -> Table:
@@ -166,6 +167,7 @@ def critical(result: Json) -> Table:
         "Ratio: to solid FE. ±: mesh error, that of one bar's load in the same supports and plane. VJM and formulas "
         "have the K_b of the same mesh, so a ratio holds less of it than the load.",
         "VJM tip, middle, base: where the bar's lumped spring sits; VJM distributed: with geometric stiffness.",
+        *note(result),
     )
 
 
@@ -213,12 +215,12 @@ def validity(result: Json) -> Table:
     """Load up to which LIN is good enough, one column for each deviation."""
     items = result["validity"]
     deviations = sorted({item["deviation"] for item in items})
-    found: dict[tuple[str, float, str], dict[float, float | None]] = {}
+    found: dict[tuple[str, float, str], dict[float, Cell]] = {}
     for item in items:
         key = (model_label(item), item["q_deg"], held_label(item["held"]))
-        found.setdefault(key, {})[item["deviation"]] = item["load_N"]
-    rows = [
-        [model, fixed(q, 0), held, *(kilo(loads.get(deviation)) for deviation in deviations)]
+        found.setdefault(key, {})[item["deviation"]] = marked(Cell(kilo(item["load_N"])), item)
+    rows: list[list[str | Cell]] = [
+        [model, fixed(q, 0), held, *(loads.get(deviation, Cell(DASH)) for deviation in deviations)]
         for (model, q, held), loads in found.items()
     ]
     columns = [Column("LIN against", numeric=False), Column("q", "°"), Column("held", numeric=False)]
@@ -232,6 +234,7 @@ def validity(result: Json) -> Table:
         )
     if any(item["load_N"] is None for item in items):
         notes.append(f"{DASH}: the curve ends before it deviates so much.")
+    notes += note(result)
     return table("Load up to which the linear model holds", columns, rows, *notes)
 
 

@@ -37,7 +37,7 @@ def curve_records(
     records = []
     section = section_of_bar(s, stiffness)
     for path in paths:
-        frame = FrameLinkage(case, section, stiffness, path.q_deg, path.held)
+        frame = FrameLinkage(case, section, stiffness, path.q_deg, path.held, path.plane)
         springs = {place: every[path.q_deg, place] for place in PLACES}
         slope = linear_slope(springs["tip"].closed_form, path.q_deg, path.held)
         ends = np.array([path.tension_x[-1], 0.0, path.x[-1]])

@@ -140,6 +140,11 @@ class Buckling(Record):
     nearest_N: float | None = None
     mesh_mac: float | None = None
     """How alike the shapes on two meshes are, 0 to 1; where they are not, there is no `band`."""
+    missing: bool = False
+    """Of a formula: the solid has no mode of its shape, though it has higher ones."""
+    stress_MPa: float | None = None
+    """Of the straight bar under this load, where the material has a yield stress."""
+    beyond_yield: bool = False
 
 
 class Parallelogram(Record):
@@ -178,6 +183,9 @@ class Critical(Record):
     why: str
     band: float | None = None
     """Relative discretisation error of a solid's `load_N`."""
+    stress_MPa: float | None = None
+    """Of the straight bars under this load, where the material has a yield stress."""
+    beyond_yield: bool = False
 
 
 class Curve(Record):
@@ -196,6 +204,11 @@ class Curve(Record):
     note: str
     band: float | None = None
     """Relative discretisation error of `fx_N` past the critical load, of a finite-element curve."""
+    yield_x_mm: float | None = None
+    """Where the first fibre reaches the yield stress; None where the curve does not come so far."""
+    yield_fx_N: float | None = None
+    largest_stress_MPa: float | None = None
+    """On this curve, where the material has a yield stress."""
 
 
 class Validity(Record):
@@ -206,6 +219,9 @@ class Validity(Record):
     held: list[str]
     deviation: float
     load_N: float | None
+    stress_MPa: float | None = None
+    """Of the fibre under the largest stress, where the material has a yield stress."""
+    beyond_yield: bool = False
 
 
 class Refinement(Record):
@@ -259,6 +275,9 @@ class Result(Record):
     orthoglide: list[Table1]
     """The paper's Table 1; empty for a case that is not the paper's."""
     errata: list[Erratum]
+    warnings: list[str] = Field(default_factory=list)
+    """Where two models, meshes or routes of this run are farther apart than their stated band, a sentence each."""
+    yield_MPa: float | None = None
     story: list[str]
     """The findings in plain sentences, every number from this run."""
     seconds: dict[str, float]

@@ -9,9 +9,11 @@ from pydantic import BaseModel
 
 from fem.solvers import has_pardiso
 from meshes.files import replacing
+from pipeline.manipulator.table_record import Table1
 from pipeline.progress import Progress, Stage
 from pipeline.provenance import commit, versions
 from pipeline.validation.agreement import agreement_sentences
+from pipeline.validation.alarms import alarms
 from pipeline.validation.case import Case
 from pipeline.validation.comparison import stiffness_records
 from pipeline.validation.critical import bar_mode, critical_records
@@ -43,8 +45,17 @@ from pipeline.validation.stages.orthoglide import table_sentences, whole_manipul
 from pipeline.validation.stages.refinement import refinements
 from pipeline.validation.stages.specimen import Specimen, specimen
 from pipeline.validation.stages.springs import spring_set
-from pipeline.validation.story import tell
+from pipeline.validation.story import tell, yield_sentences
 from pipeline.validation.workshop import Workshop
+from pipeline.validation.yielding import (
+    Planes,
+    Yielding,
+    marked_buckling,
+    marked_critical,
+    marked_curves,
+    marked_validity,
+    yielding_of,
+)
 from vjm.paper_errata import errata
 
 SOURCES = (
@@ -116,6 +127,10 @@ def run(case: Case, detail: Detail, workshop: Workshop, out: Path, typed: str) -
     solids = solid_stage(job, s)
     springs = spring_stage(job, s, bar, buckling, solids)
     table = whole_manipulator(case, workshop)
+    limit = yielding_of(s, case.material.yield_MPa)
+    planes: Planes = {(p.q_deg, *p.held): p.plane for p in solids.paths}
+    buckling = marked_buckling(buckling, limit)
+    springs = marked(springs, planes, limit)
     for path in (*shapes, *bent_linkage(job, s, solids.loads)):
         # Late, so that an interrupted run leaves no new shapes beside an old result.
         with replacing(out / "modes" / path.name) as part:
@@ -137,10 +152,17 @@ def run(case: Case, detail: Detail, workshop: Workshop, out: Path, typed: str) -
         agreement=springs.agreement,
         orthoglide=table,
         errata=springs.errata,
-        story=[
-            *tell(bar, buckling, springs.parallelogram, springs.critical, springs.validity),
-            *table_sentences(table),
-        ],
+        warnings=alarms(
+            bar,
+            buckling,
+            springs.parallelogram,
+            springs.critical,
+            springs.curves,
+            springs.refinement,
+            table,
+        ),
+        yield_MPa=case.material.yield_MPa,
+        story=story(bar, buckling, springs, table, limit),
         seconds=dict(job.progress.seconds),
         versions=versions(),
         commit=commit(),
@@ -149,6 +171,28 @@ def run(case: Case, detail: Detail, workshop: Workshop, out: Path, typed: str) -
         solver="pardiso" if has_pardiso() else "SuperLU",
         sources=list(SOURCES),
     )
+
+
+def marked(springs: Springs, planes: Planes, limit: Yielding | None) -> Springs:
+    """Critical loads, curves and limits of the linear model with their stress, where a yield stress is known."""
+    return springs.model_copy(
+        update={
+            "critical": marked_critical(springs.critical, limit),
+            "curves": marked_curves(springs.curves, planes, limit),
+            "validity": marked_validity(springs.validity, springs.curves, planes, limit),
+        }
+    )
+
+
+def story(
+    bar: Bar, buckling: list[Buckling], springs: Springs, table: list[Table1], limit: Yielding | None
+) -> list[str]:
+    """The findings in sentences."""
+    told = tell(bar, buckling, springs.parallelogram, springs.critical, springs.validity)
+    if limit is not None:
+        both = 2.0 * limit.limit * limit.area
+        told += yield_sentences(limit.limit, both, buckling, springs.critical, springs.curves)
+    return [*told, *table_sentences(table)]
 
 
 def buckled_bar(job: Run, s: Specimen, bar: Bar) -> tuple[list[Buckling], list[Path]]:

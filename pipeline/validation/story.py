@@ -5,7 +5,8 @@ from collections.abc import Sequence
 import numpy as np
 
 from pipeline.validation.entries import eight_entries
-from pipeline.validation.result import Bar, Buckling, Critical, Parallelogram, Validity
+from pipeline.validation.quantities import force, stress
+from pipeline.validation.result import Bar, Buckling, Critical, Curve, Parallelogram, Validity
 from pipeline.validation.stages.linkage import BOW
 
 FULLY = ["y", "z", "rx", "ry", "rz"]
@@ -68,20 +69,47 @@ def linkage_sentences(records: Sequence[Parallelogram]) -> list[str]:
 
 def bar_buckling_sentences(records: Sequence[Buckling]) -> list[str]:
     """Solid buckling of the bar against the formulas."""
-    solid = [r for r in records if r.model == "solid" and r.deviation is not None]
-    worst = max(solid, key=lambda r: abs(r.deviation or 0.0))
-    torsion = min(r.load_N for r in records if r.plane == "torsion")
-    lowest = {r.supports: r.load_N for r in reversed(solid) if r.mode == 1}
-    in_plane = min((r.load_N for r in solid if r.supports == "pinned" and r.plane == "xz"), default=None)
-    highest = max(r.load_N for r in solid)
+    solid = [r for r in records if r.model == "solid"]
+    torsion = min((r.load_N for r in records if r.plane == "torsion"), default=None)
+    named = (("guided", "xy"), ("clamped", "xy"), ("pinned", "xz"))
+    sideways, clamped, in_plane = (
+        marked(min(bent_in(solid, supports, plane), key=lambda r: r.load_N, default=None))
+        for supports, plane in named
+    )
+    highest = marked(max(solid, key=lambda r: r.load_N))
     return [
-        f"The bar's three buckling configurations in the linkage are, for one bar: sliding sideways at "
-        f"{kilo(lowest['guided'])}, clamped sideways at {kilo(lowest['clamped'])}, and in plane between the pins at "
-        f"{kilo(in_plane)}.",
-        f"All {len(solid)} solid bending modes lie within {100 * abs(worst.deviation or 0.0):.1f} % of Euler's "
-        f"formulas with shear and the bar's own end softness (worst: {worst.supports}, mode {worst.mode}, in "
-        f"{worst.plane}); torsion would come at {kilo(torsion)}, the highest of these modes at {kilo(highest)}.",
+        f"The bar's three buckling configurations in the linkage are, for one bar: sliding sideways at {sideways}, "
+        f"clamped sideways at {clamped}, and in plane between the pins at {in_plane}.",
+        f"{against_formulas(solid)}; torsion would come at {force(torsion)}, the highest of these modes at {highest}.",
     ]
+
+
+def bent_in(solid: Sequence[Buckling], supports: str, plane: str) -> list[Buckling]:
+    """The modes of the bar with these supports that bend it in this plane."""
+    return [r for r in solid if (r.supports, r.plane) == (supports, plane)]
+
+
+def against_formulas(solid: Sequence[Buckling]) -> str:
+    """How far the loads of solid and formula are apart, and how many modes have no formula of their shape."""
+    compared = [r for r in solid if r.deviation is not None]
+    alone = len(solid) - len(compared)
+    if not compared:
+        return f"None of {len(solid)} solid modes has the shape of a formula's mode"
+    worst = max(compared, key=lambda r: abs(r.deviation or 0.0))
+    bending = all(r.plane != "torsion" for r in solid)
+    modes = "solid bending modes" if bending else "solid modes of bending and torsion"
+    which = f"All {len(compared)} {modes}" if not alone else f"{len(compared)} of {len(solid)} {modes}"
+    formulas = "Euler's formulas with shear and the bar's own end softness"
+    formulas += "" if bending else " and the formula for torsion"
+    said = (
+        f"{which} lie within {100 * abs(worst.deviation or 0.0):.1f} % of {formulas} (worst: {worst.supports}, mode "
+        f"{worst.mode}, in {worst.plane})"
+    )
+    return (
+        said
+        if not alone
+        else f"{said}, {alone} have the shape of no formula's mode and are compared with none"
+    )
 
 
 def critical_sentences(records: Sequence[Critical]) -> list[str]:
@@ -89,32 +117,40 @@ def critical_sentences(records: Sequence[Critical]) -> list[str]:
     at_zero = [r for r in records if r.q_deg == 0.0]
     if not at_zero:
         return []
-    solid: dict[tuple[str, ...], float] = {}
+    lowest: dict[tuple[str, ...], Critical] = {}
     for r in at_zero:
         if r.model == "solid" and r.load_N is not None:
-            solid.setdefault(tuple(r.held), r.load_N)
-    spring = {(r.spring_at, r.what): r.load_N for r in at_zero if r.model == "vjm" and r.held == GUIDED}
+            lowest.setdefault(tuple(r.held), r)
+    solid = sorted(r.load_N or 0.0 for r in lowest.values())
+    spring = {(r.spring_at, r.what): r for r in at_zero if r.model == "vjm" and r.held == GUIDED}
     places = ", ".join(
         f"at the {place} {at(spring[place, 'in compression'])}" for place in ("base", "middle", "tip")
     )
-    tension = spring["tip", "in tension (spurious)"]
-    loads = ", ".join(kilo(v) for v in sorted(solid.values()))
+    loads = ", ".join(marked(r) for r in sorted(lowest.values(), key=lambda r: r.load_N or 0.0))
     sentences = [
         f"K_p does not depend on where the lumped spring sits, the critical load does: with z held and the platform "
         f"guided, springs buckle {places}; at the tip (Eq. 1 as written) tension upsets the linkage "
-        f"{at(None if tension is None else -tension)}. The solid parallelogram buckles at {loads}, depending on what "
+        f"{at(spring['tip', 'in tension (spurious)'])}. The solid parallelogram buckles at {loads}, depending on what "
         f"is held."
     ]
-    base = spring["base", "in compression"]
-    if base is not None and min(solid.values()) < base < max(solid.values()):
+    base = spring["base", "in compression"].load_N
+    if base is not None and solid[0] < base < solid[-1]:
         sentences.append('The paper\'s "both lower and higher" is true against the spring at the base.')
     sentences.append(missing_effect(records))
     return sentences
 
 
-def at(load: float | None) -> str:
-    """Where a spring buckles, or that it does not."""
-    return "never" if load is None else f"at {kilo(load)}"
+def at(record: Critical) -> str:
+    """Where a spring buckles, or that it does not; the size of a load in tension."""
+    return "never" if record.load_N is None else f"at {marked(record)}"
+
+
+def marked(record: Buckling | Critical | Validity | None) -> str:
+    """A load, with its stress where the material yields before it is reached."""
+    if record is None or record.load_N is None:
+        return force(None)
+    load = force(abs(record.load_N))
+    return f"{load} ({stress(record.stress_MPa)}, beyond yield)" if record.beyond_yield else load
 
 
 def missing_effect(records: Sequence[Critical]) -> str:
@@ -142,19 +178,43 @@ def validity_sentences(records: Sequence[Validity]) -> list[str]:
     sentences = []
     for held, named in ((FULLY, "fully held"), (GUIDED, "free along y")):
         loads = {
-            r.deviation: r.load_N
+            r.deviation: r
             for r in records
             if r.q_deg == 0.0 and r.held == held and r.model == "solid FE" and r.load_N is not None
         }
         if 0.01 in loads and 0.05 in loads:
             sentences.append(
-                f"With the platform {named}, the linear model is good to 1 % up to {kilo(loads[0.01])} and to 5 % "
-                f"up to {kilo(loads[0.05])} (solid bars of the path's coarser mesh with {BOW}, q = 0; "
+                f"With the platform {named}, the linear model is good to 1 % up to {marked(loads[0.01])} and to 5 % "
+                f"up to {marked(loads[0.05])} (solid bars of the path's coarser mesh with {BOW}, q = 0; "
                 f"a larger bow bends earlier)."
             )
     return sentences
 
 
-def kilo(load: float | None) -> str:
-    """A load in kN with three digits."""
-    return "no load" if load is None else f"{load / 1000:.3g} kN"
+def yield_sentences(
+    limit: float,
+    straight: float,
+    buckling: Sequence[Buckling],
+    critical: Sequence[Critical],
+    curves: Sequence[Curve],
+) -> list[str]:
+    """What the yield stress `limit`, MPa, makes of the loads; `straight` N: where both straight bars yield, q = 0."""
+    bars, linkage = [r for r in buckling if r.model == "solid"], [r for r in critical if r.model == "solid"]
+    said = (
+        f"All models are elastic; the material yields at {limit:g} MPa, which straight bars reach at {force(straight)} "
+        f"(both bars, q = 0). Beyond it lie {sum(r.beyond_yield for r in bars)} of {len(bars)} critical loads of the "
+        f"solid bar and {sum(r.beyond_yield for r in linkage)} of {len(linkage)} of the solid linkage"
+    )
+    beyond = [r for r in linkage if r.beyond_yield]
+    if beyond:
+        highest = max(beyond, key=lambda r: r.stress_MPa or 0.0)
+        said += f" ({force(highest.load_N)} would be {stress(highest.stress_MPa)}); a real bar yields first"
+    sentences = [f"{said}."]
+    for curve in curves:
+        if curve.model == "fea" and curve.branch == "buckled" and curve.yield_x_mm is not None:
+            sentences.append(
+                f"On the solid's load path at q = {curve.q_deg:g}° with {', '.join(curve.held)} held the first fibre "
+                f"yields at x = {curve.yield_x_mm:.3g} mm, Fx = {force(curve.yield_fx_N)}; the rest of the path "
+                f"is that of an elastic bar only."
+            )
+    return sentences

@@ -17,13 +17,14 @@ from hypothesis import strategies as st
 from numpy.typing import NDArray
 
 from vjm.effects import catalogue
+from vjm.effects.sized import Scale, scale_of, sized
 from vjm.stiffness import closed_form
 
 Array = NDArray[np.float64]
 COLUMNS = ("x_mm", "y_mm", "z_mm", "rx_rad", "ry_rad", "rz_rad")
 LOADS = ("fx_N", "fy_N", "fz_N", "mx_Nmm", "my_Nmm", "mz_Nmm")
 COORDINATES = ("x", "y", "z", "rx", "ry", "rz")
-TIPS = {"free": COORDINATES, "pinned": ("x", "rx", "ry", "rz"), "guided": ("x", "y", "z")}
+TIPS = {"free": COORDINATES, "pinned": ("x",), "guided": ("x", "y", "z")}
 IDS = ("t0", "axial_q+30", "Prüfung 3", "試験-一", "اختبار", "бросок", "😀 lateral", "a" * 100)
 FAULTS = ("exact", "noisy", "offset", "tenfold", "flipped")
 
@@ -192,7 +193,7 @@ def files(
     top = 'schema = 1\nname = "small"\n\n'
     toml = top + rig.toml + f"\n[noise]\n{noise}\n" + "\n".join(test.head for test in tests)
     effect = draw(st.sampled_from(sorted(catalogue())))
-    return Files(toml, _csv(draw, tests), draw(_models()), effect)
+    return Files(toml, _csv(draw, tests), draw(_models(rig)), effect)
 
 
 def _read(tests: list[Table], column: int) -> bool:
@@ -247,11 +248,14 @@ def _csv(draw: st.DrawFn, tests: list[Table]) -> str:
 
 
 @st.composite
-def _models(draw: st.DrawFn) -> str | None:
-    """A saved model of one effect, each parameter absent, usual or at a bound; mostly none."""
+def _models(draw: st.DrawFn, rig: Rig) -> str | None:
+    """A saved model of one effect that the rig can have, each parameter absent, usual or at a bound; mostly none."""
     if draw(st.integers(0, 3)):
         return None
-    effect = catalogue()[draw(st.sampled_from(sorted(catalogue())))]
+    kind = "bar" if rig.kind == "bar" else "parallelogram"
+    scale = scale_of(rig.length, rig.bar) if rig.kind != "manipulator" else Scale()
+    able = [e for e in catalogue().values() if kind in e.kinds and not (kind == "bar" and e.hinge)]
+    effect = sized(draw(st.sampled_from(able)), scale)
     lines = ["schema = 1", 'base = "vjm"', "fixed = []", "[[effects]]", f'name = "{effect.name}"']
     if effect.parameters:
         lines.append("[effects.values]")

@@ -43,7 +43,7 @@ def identified(case: Case, s: Specimen, fit: Fit | None, study: MeshStudy) -> Ba
         section=described(bar.section),
         length_mm=bar.length,
         lug=None if bar.lug is None else {f"{k}_mm": v for k, v in asdict(bar.lug).items()},
-        material={"E_MPa": s.material.E, "nu": s.material.nu, "source": s.material.source},
+        material=material_of(case),
         constants={k: float(v) for k, v in asdict(s.constants).items()},
         stiffness=rows(stiffness),
         paper=None if paper is None else rows(paper),
@@ -62,6 +62,13 @@ def identified(case: Case, s: Specimen, fit: Fit | None, study: MeshStudy) -> Ba
         axial=axial_record(s, stiffness, study),
         solve=Solve(**asdict(factor.record)),
     )
+
+
+def material_of(case: Case) -> dict[str, float | str]:
+    """The material of a case, with its yield stress where it has one."""
+    m = case.material
+    limit = {} if m.yield_MPa is None else {"yield_MPa": m.yield_MPa}
+    return {"E_MPa": m.E_MPa, "nu": m.nu, **limit, "source": m.source}
 
 
 def laws(s: Specimen, raw: Floats) -> dict[str, float]:

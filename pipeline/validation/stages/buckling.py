@@ -15,6 +15,7 @@ from fem.space import Space
 from meshes.files import replacing
 from meshes.solid import SolidMesh
 from pipeline.progress import Stage
+from pipeline.validation.bands import MODE
 from pipeline.validation.result import Buckling, Convergence
 from pipeline.validation.stages.mode_matching import Match, with_formulas, with_shapes
 from pipeline.validation.stages.specimen import Specimen
@@ -60,9 +61,30 @@ def buckle_bar(s: Specimen, study: Convergence, folder: Path, stage: Stage) -> l
             record = solid_record(supports, number, mode)
             record = with_band(record, by_mesh[number - 1], beside, (s.detail.working, other), study)
             records.append(with_formula(record, by_formula[number - 1], formulas))
+        records += missing_records(supports, by_formula, formulas)
         torsion = next(f for f in formulas if f.plane == "torsion")
         records.append(torsion_record(supports, torsion.load))
     return records
+
+
+def missing_records(supports: str, found: list[Match], formulas: list[FormulaMode]) -> list[Buckling]:
+    """Formulas whose shape no mode of the solid has, though it has that of a clearly higher one."""
+    taken = {match.partner for match in found if match.partner is not None}
+    highest = max((formulas[index].load for index in taken), default=0.0)
+    return [
+        Buckling(
+            body="bar",
+            model="formula",
+            supports=supports,
+            plane=formula.plane,
+            mode=formula.number,
+            load_N=formula.load,
+            formula=named(formula),
+            missing=True,
+        )
+        for index, formula in enumerate(formulas)
+        if index not in taken and formula.load * (1.0 + MODE.value) < highest
+    ]
 
 
 def modes_of(s: Specimen, space: Space, supports: str, count: int) -> tuple[Mode, ...]:

@@ -49,13 +49,15 @@ def stiff_ended(push: float, mixed: float, turn: float, length: float, GA: float
 
 @dataclass(frozen=True, eq=False)
 class FrameLinkage:
-    """The frame of a case with bars of this section, whose K_b (6, 6) is `stiffness`, at an angle, held in a way."""
+    """The frame of a case with bars of this section, whose K_b (6, 6) is `stiffness`, at an angle, held in a way; its
+    bars are bowed in this `plane`."""
 
     case: Case
     section: Section
     stiffness: Floats
     q_deg: float
     held: Sequence[str]
+    plane: str
 
     def path(self, x: Sequence[float] | Floats, elements: int = ELEMENTS) -> tuple[Floats, Floats, str]:
         """x mm and Fx N at the platform displacements that were reached, and why not all of them were, or ""."""
@@ -76,12 +78,15 @@ class FrameLinkage:
 
     @property
     def imperfection(self) -> dict[str, float]:
-        """What sways the frame as the solid's bow e in the shape of the lowest sideways mode does, to first order.
+        """What sways the frame as the solid's bow e in the shape of its lowest mode does, to first order.
 
-        Fully held, a half sine: its part in the mode (1 - cos 2πx/L)/2 is 8/(3π) of its size. Else a force at the
+        In the linkage's plane the bars are pinned, and that shape is the frame's half sine. Out of it, platform
+        fully held, the half sine's part in the mode (1 - cos 2πx/L)/2 is 8/(3π) of its size. Else a force at the
         platform: at the critical load a bow e acts as the force that moves the unloaded tips by e.
         """
         bow = self.case.linkage.length_mm / LENGTH_TO_BOW
+        if self.plane == "xz":
+            return {"bar_initial_bow.bow_z_mm": bow}
         if "y" in self.held:
             return {"bar_initial_bow.bow_y_mm": 3 * pi / 8 * bow}
         k = self.stiffness

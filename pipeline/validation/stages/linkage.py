@@ -46,7 +46,8 @@ class SolidBuckling(BaseModel):
 class SolidPath(BaseModel):
     """A load path of the linkage, compression from no load on, and the tension side from no load on.
 
-    `tangent` is the slope of the same mesh at no load, N/mm; `critical` the linear critical load of that mesh, N.
+    `tangent` is the slope of the same mesh at no load, N/mm; `critical` the linear critical load of that mesh, N, and
+    `plane` that of its mode.
     """
 
     q_deg: float
@@ -55,6 +56,7 @@ class SolidPath(BaseModel):
     fx: list[float]
     tangent: float
     critical: float
+    plane: str
     failure: str
     tension_x: list[float]
     tension_fx: list[float]
@@ -111,12 +113,14 @@ def slope(model: LinearModel, held: Sequence[str]) -> float:
 
 @dataclass(frozen=True)
 class Bowed:
-    """The linkage of slightly bowed bars on the mesh of load paths: critical load N, slope N/mm without load."""
+    """The linkage of slightly bowed bars on the mesh of load paths: critical load N, slope N/mm without load, and the
+    plane of the bow."""
 
     model: LinearModel
     held: tuple[str, ...]
     critical: float
     tangent: float
+    plane: str
 
     @property
     def travel(self) -> float:
@@ -130,7 +134,7 @@ def bowed_linkage(case: Case, s: Specimen, q: float, held: tuple[str, ...]) -> B
     first: Mode = buckling(straight, held, 1)[0]
     bent = with_imperfection(straight.linkage, first.displacements, s.bar.length / LENGTH_TO_BOW)
     model = LinearModel(bent, s.material)
-    return Bowed(model, held, first.load, slope(model, held))
+    return Bowed(model, held, first.load, slope(model, held), first.plane)
 
 
 def solid_path(case: Case, s: Specimen, q: float, held: tuple[str, ...]) -> SolidPath:
@@ -145,6 +149,7 @@ def solid_path(case: Case, s: Specimen, q: float, held: tuple[str, ...]) -> Soli
         fx=[0.0, *path.column("wrench", "x")],
         tangent=bowed.tangent,
         critical=bowed.critical,
+        plane=bowed.plane,
         failure=path.failure or pulled.failure,
         tension_x=[0.0, *pulled.column("displacement", "x")],
         tension_fx=[0.0, *pulled.column("wrench", "x")],

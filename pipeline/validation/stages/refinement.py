@@ -149,9 +149,13 @@ def refinements(
         solid_meshes(s, path, solids[tuple(path.held)], bar) for path, bar in here
     ]
     section = section_of_bar(s, stiffness)
-    found += [steps, frame_steps(FrameLinkage(case, section, stiffness, first, GUIDED), loads)]
     found += [
-        frame_elements(FrameLinkage(case, section, stiffness, first, path.held), path) for path, _ in here
+        steps,
+        frame_steps(FrameLinkage(case, section, stiffness, first, GUIDED, solids[GUIDED].planes[0]), loads),
+    ]
+    found += [
+        frame_elements(FrameLinkage(case, section, stiffness, first, path.held, path.plane), path)
+        for path, _ in here
     ]
     found += [spring_segments(case, stiffness, solids[tuple(path.held)]) for path, _ in here]
     return [f for f in found if f is not None]

@@ -56,6 +56,10 @@ def test_result_has_what_others_build_on(raw: dict[str, Any]) -> None:
     assert raw["commit"] and raw["versions"]["scikit-fem"] and raw["seed"] == 0
 
 
+def test_models_of_the_default_run_agree_within_their_bands(result: Result) -> None:
+    assert result.warnings == []
+
+
 def test_progress_is_silent_without_a_terminal(clean_run: CleanRun) -> None:
     assert clean_run.first.err == ""
 
