@@ -11,7 +11,7 @@ from pipeline.campaign import Gauge
 from pipeline.campaign import Rig as Described
 from vjm.effects.base import Rig
 from vjm.effects.sized import Scale, scale_of
-from vjm.manipulator.effects import bench, like_bench
+from vjm.manipulator.effects import Surroundings, bench, like_bench
 from vjm.manipulator.parts import Manipulator
 from vjm.mechanisms.assembly import GaugeAt
 from vjm.mechanisms.bar import Bar
@@ -47,10 +47,10 @@ def mechanism_of(rig: Described, gauges: tuple[Gauge, ...]) -> Rig:
 @lru_cache(maxsize=64)
 def scale_of_rig(rig: Described) -> Scale:
     """By what typical sizes of effects differ from those of the catalogue; a machine without bars has no measure."""
-    try:
-        first = mechanism_of(rig, ()).links[0]
-    except (ValueError, IndexError):
+    whole = mechanism_of(rig, ())
+    if isinstance(whole, Surroundings):
         return Scale()
+    first = whole.links[0]
     return scale_of(first.length, first.stiffness)
 
 
