@@ -52,7 +52,7 @@ def ruled(found: Found, judgement: Judgement, attempts: Attempts) -> Ruling:
     shelf, best = found.shelf, found.best
     here = shelf.fit(best)
     alike = tuple(attempts.get("what could be taken for what", lambda: likenesses(shelf, best), []))
-    zero = attempts.get("whether a sensor was not zeroed", lambda: zero_first(found), None)
+    zero = attempts.get("whether a sensor was not zeroed", lambda: zero_first(found, judgement.noise), None)
     bounded = at_bound(here.model)
     out = tuple(_implausible(found))
     if zero is not None and _nothing_but(zero, shelf):

@@ -79,13 +79,18 @@ def _plainer(fit: Fit, zero: Zero) -> bool:
     return any(pattern.score**2 > zero.gain for pattern in scores(fit)[:1])
 
 
-def zero_first(found: Found) -> Instead | None:
-    """The zero of a sensor that explains more than the best set of effects, beside the set that needs it."""
+def zero_first(found: Found, explained: bool) -> Instead | None:
+    """The zero of a sensor that explains more than the best set of effects, beside the set that needs it.
+
+    explained: whether the best set leaves noise; a zero beside all of it would only take up some of that.
+    """
     shelf, best = found.shelf, found.best
     sets = sorted(shelf.fits, key=lambda names: cost(shelf, names))[:NEAR]
     most = shelf.fit(best).chi_square
     out: list[tuple[float, Instead]] = []
     for names in dict.fromkeys([frozenset(), *sets]):
+        if explained and best <= names:
+            continue
         fit = shelf.fit(names)
         for zero in zeros(fit)[:1]:
             left = fit.chi_square - zero.gain
