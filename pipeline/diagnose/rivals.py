@@ -20,12 +20,14 @@ WIDTH = 4
 @dataclass(frozen=True, eq=False)
 class Found:
     """What was found. best: the set of least cost. rivals: sets as simple that the data do not exclude. beyond: an
-    effect of the best set that only tests held out show, "" if there is none."""
+    effect of the best set that only tests held out show, "" if there is none. ended: whether the search ended before
+    all that might compete was fitted, as it took too long."""
 
     shelf: Shelf
     best: Names
     rivals: tuple[Names, ...]
     beyond: str = ""
+    ended: bool = False
 
 
 def with_rivals(shelf: Shelf, best: Names) -> Found:

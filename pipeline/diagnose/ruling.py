@@ -69,6 +69,12 @@ def ruled(found: Found, judgement: Judgement, attempts: Attempts) -> Ruling:
     sets = tuple(sorted(dict.fromkeys((best, *rivals)), key=lambda n: _simplicity(shelf, n)))
     if not best and zero is None and not rivals:
         return Ruling("within_noise", (best,), here, (), None, alike, (), out)
+    if found.ended:
+        because = (
+            "not all that might explain it as well could be looked at: each takes long, as rows are lost"
+        )
+        bounded = at_bound(shelf.fit(sets[0]).model)
+        return Ruling("unknown", sets[:1], shelf.fit(sets[0]), (), None, alike, bounded, out, because)
     if len(sets) > 1 or instead:
         return Ruling(
             "ambiguous",

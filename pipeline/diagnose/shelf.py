@@ -21,6 +21,7 @@ from pipeline.inference.sent import fits_at_once
 from pipeline.inference.sides import sided
 from pipeline.inference.starts import best_fit, height
 from vjm.effects.base import Effect
+from vjm.work import TooMuch, spent
 
 Names = frozenset[str]
 FEW_READINGS = 24
@@ -32,7 +33,8 @@ class Shelf:
     """Fits of the base model with sets of added effects, and the pictures about them.
 
     candidates: by name, in the order in which they enter a model. tried: sets that were fitted from where a larger one
-    stands, and that one. looks: what `left_without` found.
+    stands, and that one. looks: what `left_without` found. ends: work (`vjm.work`) after which nothing new is
+    begun, but `TooMuch` raised.
     """
 
     whole: Program
@@ -43,6 +45,7 @@ class Shelf:
     pictures: dict[Names, Picture] = field(default_factory=dict)
     tried: set[tuple[Names, Names]] = field(default_factory=set)
     looks: dict[tuple[Names, str], float] = field(default_factory=dict)
+    ends: float = np.inf
     at: Look = field(init=False)
 
     def __post_init__(self) -> None:
@@ -81,7 +84,7 @@ class Shelf:
     def fit(self, names: Names, begin: Mapping[str, float] | None = None) -> Fit:
         """The base model with these effects at its best fit. begin: where those with kinks begin."""
         if names not in self.fits:
-            self.say(self._title(names))
+            self._begun(self._title(names))
             self.fits[names] = self._no_worse(names, self._fitted(names, begin or {}))
         return self.fits[names]
 
@@ -98,7 +101,7 @@ class Shelf:
         order = sorted(new, key=self._quickness)
         if order:
             more = f" and {len(order) - 1} more" if len(order) > 1 else ""
-            self.say(self._title(order[0]) + more)
+            self._begun(self._title(order[0]) + more)
         calls = [(self._model(names), partial(self._fitted, names, new[names])) for names in order]
         made = dict(zip(order, fits_at_once(calls, self.whole), strict=True))
         for names in new:
@@ -111,7 +114,7 @@ class Shelf:
         models = {names: _valued(model, there.model) for names, model in new.items() if model.free}
         if not models:
             return
-        self.say(f"{self._title(larger)} with one less")
+        self._begun(f"{self._title(larger)} with one less")
         self.tried |= {(names, larger) for names in models}
         calls = [(m, partial(fit, m, self.whole, there.prediction, None, PLAUSIBLE)) for m in models.values()]
         for names, found in zip(models, fits_at_once(calls, self.whole), strict=True):
@@ -151,7 +154,7 @@ class Shelf:
         """Chi-square that a fit leaves without one of its effects, after a linear step of what is smooth, in
         `least`s of the fit."""
         if (names, name) not in self.looks:
-            self.say(f"{self._title(names)} without {name}")
+            self._begun(f"{self._title(names)} without {name}")
             found = self.fit(names)
             rows, own = self.whole.by_role[0]
             start = at_rows(found.prediction, self.whole, own, rows)
@@ -166,6 +169,7 @@ class Shelf:
     def picture(self, names: Names) -> Picture:
         """What could be added to a fit."""
         if names not in self.pictures:
+            self._begun(f"what could be added to {self._title(names)}")
             found = self.fit(names)
             every = signatures(found, list(self.candidates.values()), self._probes, self.at, self.say)
             self.pictures[names] = picture(found, every, self.at, self._rescues(found))
@@ -202,6 +206,11 @@ class Shelf:
         for effect in kinked:
             model = probed(model, effect, begin[effect.name])
         return fit(model, self.whole, start, None, PLAUSIBLE)
+
+    def _begun(self, what: str) -> None:
+        if spent() > self.ends:
+            raise TooMuch(f"nothing new is begun at {what}")
+        self.say(what)
 
     def _title(self, names: Names) -> str:
         return " + ".join(self.order(names)) or "the model as it is"

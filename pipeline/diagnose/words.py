@@ -135,6 +135,11 @@ def _left(it: Diagnosis) -> Iterator[str]:
         size = next(check.words for check in it.judgement.checks if check.name == SIZE)
         yield f"By its order along the load paths the rest is noise, but {size}."
     if it.verdict == "unknown":
+        if it.found.ended and not it.ruling.because:
+            yield (
+                f"The search ended after {len(it.shelf.fits)} fits, as each takes long where rows have no equilibrium: "
+                "what was not looked at may explain more."
+            )
         yield from _why_not(it)
         yield from _described(it)
 

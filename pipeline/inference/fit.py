@@ -21,6 +21,7 @@ from pipeline.inference.program import Program
 from pipeline.inference.residual import Residual, residual
 from pipeline.inference.span import basis
 from vjm.effects.base import Parameter
+from vjm.work import spent
 
 Array = NDArray[np.float64]
 STEPS = 40
@@ -44,6 +45,10 @@ HELD = 0.1
 LATE = 10
 """A fit that is far above noise ends when so many evaluations took nothing."""
 TINY = 1e-12
+WORK, ROWS = 2000.0, 25
+"""Steps of Newton's method (`vjm.work`) after which a fit of no row ends where it is, and the rows for which it takes
+as many again. The longest fits of 600 benches take half of that; where rows have no equilibrium each evaluation takes a
+hundred times as long."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -207,6 +212,7 @@ def _descend(aim: Objective, watch: Callable[[str], None] | None, plausible: flo
     pulled = _Pulled.of(aim, plausible)
     scale, values = pulled.scale, np.clip(aim.model.values, *bounds)
     damping, least, settled, losses, past, stale = 0.0, 0.0, 0, 0, list[float](), True
+    ends = spent() + WORK * allowance(aim.program)
     ground = Ground(aim, pulled.total)
     ground.begin(values)
     here, slopes, lost, place = pulled.residuals(values), pulled.jacobian(values), aim.lost, aim.place
@@ -248,7 +254,8 @@ def _descend(aim: Objective, watch: Callable[[str], None] | None, plausible: flo
             aim.back(place)
         past.append(float(here @ here))
         vain = gain <= 0.0 and promise < VAIN * unit
-        if vain or damping > 1e6 or losses == LOSSES or ground.circling or drags(past, here.size):
+        over = spent() > ends or drags(past, here.size)
+        if vain or damping > 1e6 or losses == LOSSES or ground.circling or over:
             break
     return ground.end(place, values)
 
@@ -257,6 +264,11 @@ def _reach(it: Parameter) -> tuple[float, float]:
     """Of the way to its bounds, how far one step may take a number: half of that to where an effect is strongest."""
     low, high = (HALFWAY if it.one_sided and it.null == other else 1.0 for other in (it.high, it.low))
     return low, high
+
+
+def allowance(program: Program) -> float:
+    """Work that a campaign may take, as a multiple of that without any rows."""
+    return 1.0 + float(program.fitted.sum()) / ROWS
 
 
 def drags(past: list[float], count: int) -> bool:

@@ -58,11 +58,12 @@ def linearised(
     held = remembering(model)
     if held:
         start = predict(model, cases, slopes=False, start=start, shift=shift, order=0)
-    reached = predict(model, swapped, slopes=False, start=start, order=0, held=held)
+    # Which stops are pressed where the platform was, a row that is lost there does not say on any branch.
+    reached = predict(model, swapped, slopes=False, start=start, order=0, held=held, bent=False)
     # Which side is better the readings say: what the numbers change is asked where that is settled.
     here = predict(model, cases, slopes=False, start=reached, shift=shift, held=held)
     for rows, other in (
-        (_elsewhere(reached, here), _shift_to(reached, swapped, cases)),
+        (_elsewhere(reached, here) & ~reached.lost, _shift_to(reached, swapped, cases)),
         (_unsure(residual(cases, here)) & np.any(here.shift, axis=1), np.zeros_like(cases.input_sigma)),
     ):
         here = _better(model, cases, here, _whole(cases, rows), other, reached)

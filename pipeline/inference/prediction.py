@@ -97,12 +97,14 @@ def predict(
     shift: Array | None = None,
     order: int = 2,
     held: bool = False,
+    bent: bool = True,
 ) -> Prediction:
     """Readings at all rows; start: a prediction of a like model, from whose states to begin.
 
     shift: (R, 7) added to the measured inputs and temperature. order: of the differences in derivatives by numbers,
     see `vjm.sensitivity`; 0 where readings alone are wanted: a bench has zeros for all derivatives then. held: each
-    row by itself, with the memory that its state at the start had.
+    row by itself, with the memory that its state at the start had. bent: whether rows beyond a bifurcation are followed
+    on their branch.
     ValueError for an effect that the rig cannot have.
     """
     count = len(model.free) if slopes else 0
@@ -122,7 +124,7 @@ def predict(
     for number, group in enumerate(program.groups):
         begin = None if start is None else start.states[number]
         place, real = program.rows_of(group), group.real
-        part = _group(model, program, _shifted(group, out.shift[place]), slopes, begin, order, held)
+        part = _group(model, program, _shifted(group, out.shift[place]), slopes, begin, order, held, bent)
         out.values[place], out.by_inputs[place] = part.values, part.by_inputs
         out.by_free[place] = part.by_free
         count = part.stops.shape[-2]
@@ -183,6 +185,7 @@ def _group(
     start: Equilibrium | None,
     order: int,
     held: bool,
+    bent: bool,
 ) -> _Part:
     if group.rig.manipulator is not None:
         # Its states have what is asked of those of a bench: unknowns, whether they converged and are stable.
@@ -195,10 +198,10 @@ def _group(
         # Filling would be solved for nothing; it gets the state that it repeats.
         alone = group.by_steps
         begin = None if start is None else start.member(np.nonzero(group.real)).reshaped(len(alone.q), 1)
-        part = _of_bench(model, program, alone, rows[:, None], mechanism, slopes, begin, order, held)
+        part = _of_bench(model, program, alone, rows[:, None], mechanism, slopes, begin, order, held, bent)
         state = part.state.member((group.places, np.zeros_like(group.places)))
         return replace(part, state=state)
-    return _of_bench(model, program, group, rows[group.places], mechanism, slopes, start, order, held)
+    return _of_bench(model, program, group, rows[group.places], mechanism, slopes, start, order, held, bent)
 
 
 def _of_bench(
@@ -211,6 +214,7 @@ def _of_bench(
     start: Equilibrium | None,
     order: int,
     held: bool,
+    bent: bool,
 ) -> _Part:
     """rows: (T, S) of the steps of the group in the program."""
     drives = layout(mechanism).drives
@@ -232,7 +236,8 @@ def _of_bench(
     else:
         state = equilibrium(mechanism, group.targets, group.channels[:, None], begin, drives=inputs)
         state = _branched(mechanism, group, inputs, state)
-        state = branched(mechanism, group, Sight.of(program, rows), inputs, state)
+        if bent:
+            state = branched(mechanism, group, Sight.of(program, rows), inputs, state)
         by, change = _changes(by_parameters, state, asked, order)
     stops, slides = _stops(state, change, DRIVE in drives)
     values = state.readings.copy()

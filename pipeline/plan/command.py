@@ -19,7 +19,7 @@ from pipeline.inference.program import program
 from pipeline.inference.sigmas import completed
 from pipeline.inference.suitable import check_suitable, known_effects, scale_for, sized_model
 from pipeline.plan.isolability import matrix, visible
-from pipeline.plan.next import best_next
+from pipeline.plan.next import Worth, best_next
 from pipeline.plan.planned import foreseen
 from pipeline.plan.record import Plan, plan_record
 from pipeline.plan.seen import seen
@@ -27,8 +27,11 @@ from pipeline.plan.table import show
 from pipeline.progress import Progress
 from vjm.effects.base import Effect
 from vjm.effects.sized import all_sized
+from vjm.work import at_most
 
 LARGE = "bar_geometric_nonlinearity"
+WORK = 4000.0
+"""Steps of Newton's method (`vjm.work`) that the next test may take to be found."""
 
 
 def plan_of(campaign: Campaign, model: Model, known: Mapping[str, Effect], say: Say = lambda _: None) -> Plan:
@@ -47,11 +50,12 @@ def plan_of(campaign: Campaign, model: Model, known: Mapping[str, Effect], say: 
     names, alike = matrix(now)
     fitted = replace(whole, tests=tuple(t for t in whole.tests if t.role == "fit"))
     attempts = Attempts()
-    worth = attempts.get(
-        "the next test",
-        lambda: best_next(fitted, model, candidates, now, lambda text: say(f"the next test: {text}")),
-        None,
-    )
+
+    def looked_for() -> Worth | None:
+        with at_most(WORK):
+            return best_next(fitted, model, candidates, now, lambda text: say(f"the next test: {text}"))
+
+    worth = attempts.get("the next test", looked_for, None)
     words = None if worth is None else in_words(worth.choice)
     plan = plan_record(whole.name, found, names, alike, worth, words, unmeasured, refused)
     nothing = "" if unmeasured else untested(unfitted(model, program(whole))) or ""

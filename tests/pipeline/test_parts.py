@@ -134,6 +134,7 @@ def test_departure_is_where_the_curve_has_left_its_tangent() -> None:
         tension_fx=[],
         tangent=100.0,
         critical=1.0,
+        plane="in-plane",
         failure="",
     )
     one, five = departures("solid FE", path, x, fx, 100.0)
