@@ -18,6 +18,7 @@ import numpy as np
 from vjm.frames import Array
 from vjm.mechanism import ElasticChain, Mechanism
 from vjm.newton import negative_pivots, solve_each
+from vjm.work import note
 
 
 @dataclass(frozen=True, eq=False)
@@ -178,6 +179,7 @@ def all_rows(
 ) -> tuple[ChainRows, ...]:
     """`chain_rows` of every chain at unknowns (..., N), memory (..., M), inputs (..., D)."""
     place = layout(mechanism)
+    note(unknowns.size // place.size, place.size)
     parts = zip(
         mechanism.chains,
         rest(mechanism, drives),

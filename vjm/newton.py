@@ -9,7 +9,6 @@ import numpy as np
 
 from vjm.frames import Array
 from vjm.reasons import Reason
-from vjm.work import note
 
 Step = Callable[[np.ndarray], tuple[Array, np.ndarray, np.ndarray]]
 System = Callable[[Array, np.ndarray], tuple[Array, Step]]
@@ -105,7 +104,6 @@ def newton(
     for _ in range(limit):
         if active.size == 0:
             break
-        note(active.size, start.shape[1])
         rows, solve = system(end.unknowns[active], active)
         end.residual[active] = size = np.max(np.abs(rows), axis=-1)
         done = size < tolerance

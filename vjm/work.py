@@ -1,7 +1,7 @@
-"""How much work equilibria took, in steps of Newton's method: the same on every machine, as seconds are not.
+"""How much work equilibria took, in evaluations of their equations: the same on every machine, as seconds are not.
 
-One step of a parallelogram with lumped bars is one; longer bars count by their unknowns, a batch as one step and one
-more for every `MEMBERS` load cases. Counted in each thread by itself.
+That of a parallelogram with lumped bars at one load case is one; longer bars count by their unknowns, a batch as one
+and one more for every `MEMBERS` load cases. Counted in each thread by itself.
 """
 
 from __future__ import annotations
@@ -29,25 +29,25 @@ _count = _Count()
 
 
 def note(members: int, unknowns: int) -> None:
-    """Count a step of so many load cases with so many unknowns each. TooMuch beyond what `at_most` allows."""
+    """Count an evaluation at so many load cases with so many unknowns each. TooMuch beyond what `at_most` allows."""
     _count.steps += unknowns / UNKNOWNS * (1.0 + members / MEMBERS)
     if _count.steps > _count.most:
         raise TooMuch("it would take too long, as many of its load cases have no equilibrium")
 
 
 def spent() -> float:
-    """Steps of this thread so far."""
+    """Evaluations of this thread so far."""
     return _count.steps
 
 
 def elsewhere(steps: float) -> None:
-    """Count steps that another process took for this one."""
+    """Count evaluations that another process took for this one."""
     _count.steps += steps
 
 
 @contextmanager
 def at_most(steps: float) -> Iterator[None]:
-    """Within it, more steps than that raise TooMuch."""
+    """Within it, more evaluations than that raise TooMuch."""
     before = _count.most
     _count.most = min(before, _count.steps + steps)
     try:

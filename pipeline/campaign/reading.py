@@ -7,6 +7,7 @@ import numpy as np
 from pipeline.campaign.complaints import BadCampaign, Complaints
 from pipeline.campaign.description import describe
 from pipeline.campaign.head import Description
+from pipeline.campaign.long_tests import thinned
 from pipeline.campaign.model import Campaign, Data, Noise, Test
 from pipeline.campaign.names import DISPLACEMENTS, TEMPERATURE, WRENCHES, gauge_column, known_columns
 from pipeline.campaign.plausible import judge
@@ -44,6 +45,9 @@ def read(folder: Path) -> Campaign:
         for head in description.heads
     )
     remarks = [*_sigma_remarks(description, tests), *remarks]
+    shorter = [thinned(test, noise, description.gauges) for test in tests]
+    tests = tuple(test for test, _ in shorter)
+    remarks += [said for _, said in shorter if said]
     return Campaign(
         description.name, description.rig, noise, description.gauges, tests, folder, tuple(remarks)
     )

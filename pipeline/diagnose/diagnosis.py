@@ -203,7 +203,10 @@ def answer_of(it: Diagnosis, sentences: tuple[str, ...] = (), found: Fit | None 
             for each in steps
         ),
         tests=changes(before, it.fit, whole),
-        candidates=attempts.get("the table of candidates", lambda: candidates_of(it), ()),
+        # Where nothing is tested no candidate promises anything.
+        candidates=()
+        if it.untested
+        else attempts.get("the table of candidates", lambda: candidates_of(it), ()),
         correlations=tuple(Correlation(first=names[i], second=names[j], value=r) for i, j, r in pairs),
         undetermined=undetermined(values, [[names[k] for k in group] for group in together]),
         confusable=confusable(names, pairs) + _alike(it),

@@ -29,8 +29,8 @@ MOST = 5
 """Effects in a set."""
 ENOUGH = 24
 """Fits after which a search that has found nothing good goes on no further."""
-WORK = 12000.0
-"""Steps of Newton's method (`vjm.work`) after which a search of no row begins no further fit, a multiple of it where
+WORK = 6000.0
+"""Work (`vjm.work`) after which a search of no row begins no further fit, a multiple of it where
 there are more: a third more than the longest search of 600 benches took."""
 FAR, SLOW = 2.0, 0.7
 """Sigmas from which an explanation is far from one; growth that leaves more than this part of chi-square is slow. What

@@ -24,6 +24,8 @@ from vjm.effects.base import Effect
 from vjm.work import TooMuch, spent
 
 Names = frozenset[str]
+AT_ONCE = 8
+"""Sets that are begun together: between groups a search may end."""
 FEW_READINGS = 24
 """Readings up to which a set has no numbers that they do not see: two of the largest effects would take them all."""
 
@@ -98,14 +100,16 @@ class Shelf:
 
     def _fit_all(self, new: Mapping[Names, Mapping[str, float]]) -> None:
         # What takes longest is begun first: rows that choose their side, then other kinks.
-        order = sorted(new, key=self._quickness)
-        if order:
-            more = f" and {len(order) - 1} more" if len(order) > 1 else ""
+        every = sorted(new, key=self._quickness)
+        for first in range(0, len(every), AT_ONCE):
+            order = every[first : first + AT_ONCE]
+            more = f" and {len(every) - first - 1} more" if len(every) - first > 1 else ""
             self._begun(self._title(order[0]) + more)
-        calls = [(self._model(names), partial(self._fitted, names, new[names])) for names in order]
-        made = dict(zip(order, fits_at_once(calls, self.whole), strict=True))
-        for names in new:
-            self._keep(names, self._no_worse(names, made[names]))
+            calls = [(self._model(names), partial(self._fitted, names, new[names])) for names in order]
+            made = dict(zip(order, fits_at_once(calls, self.whole), strict=True))
+            for names in new:
+                if names in made:
+                    self._keep(names, self._no_worse(names, made[names]))
 
     def fit_again(self, wanted: Sequence[Names], larger: Names) -> None:
         """Fit sets from where a set that holds them stands, and keep the better fit of each that has one."""

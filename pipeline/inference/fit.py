@@ -45,10 +45,10 @@ HELD = 0.1
 LATE = 10
 """A fit that is far above noise ends when so many evaluations took nothing."""
 TINY = 1e-12
-WORK, ROWS = 2000.0, 25
-"""Steps of Newton's method (`vjm.work`) after which a fit of no row ends where it is, and the rows for which it takes
-as many again. The longest fits of 600 benches take half of that; where rows have no equilibrium each evaluation takes a
-hundred times as long."""
+WORK, ROWS = 1500.0, 36
+"""Work (`vjm.work`) after which a fit of no row ends where it is, and the rows for which it takes
+as many again. The longest fits of 600 benches take nine tenths of that; where rows have no equilibrium each evaluation
+takes a hundred times as long."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -126,18 +126,19 @@ def fit(
     start: Prediction | None = None,
     watch: Callable[[str], None] | None = None,
     plausible: float = np.inf,
+    share: float = 1.0,
 ) -> Fit:
     """The best fit that is found from the model's own values.
 
     plausible: typical sizes from null that stand for one sigma of a weak pull towards null: numbers that the data
-    say nothing about stay there. Chi-square is that of the data alone.
+    say nothing about stay there. Chi-square is that of the data alone. share: of the work that a fit may take.
     """
     (rows, own), *others = program.by_role
     begin = start if start is None or not others else at_rows(start, program, own, rows)
     aim = Objective(model, own, begin)
     values = model.values
     if model.free:
-        values = _descend(aim, watch, plausible)
+        values = _descend(aim, watch, plausible, share)
     prediction, there = aim.at(values)
     if not others:
         return Fit(model.at(values), prediction, there, aim.count)
@@ -199,7 +200,7 @@ class _Pulled:
         return np.vstack([self.aim.jacobian(values) * self.scale, self.pull])
 
 
-def _descend(aim: Objective, watch: Callable[[str], None] | None, plausible: float) -> Array:
+def _descend(aim: Objective, watch: Callable[[str], None] | None, plausible: float, share: float) -> Array:
     """Values (P,) of least chi-square near those of the model: Levenberg-Marquardt in a box.
 
     Each step solves the linear problem within the bounds exactly (P. B. Stark, R. L. Parker, Computational
@@ -212,7 +213,7 @@ def _descend(aim: Objective, watch: Callable[[str], None] | None, plausible: flo
     pulled = _Pulled.of(aim, plausible)
     scale, values = pulled.scale, np.clip(aim.model.values, *bounds)
     damping, least, settled, losses, past, stale = 0.0, 0.0, 0, 0, list[float](), True
-    ends = spent() + WORK * allowance(aim.program)
+    ends = spent() + share * WORK * allowance(aim.program)
     ground = Ground(aim, pulled.total)
     ground.begin(values)
     here, slopes, lost, place = pulled.residuals(values), pulled.jacobian(values), aim.lost, aim.place

@@ -65,7 +65,11 @@ def best_fit(
         begins = [each for found, _ in ladders for each in found][:MINIMA]
         spent += sum(count for _, count in ladders)
     # Another process has nobody to watch it.
-    calls = [partial(fit, it, program, start, None if k else watch, plausible) for k, it in enumerate(begins)]
+    share = 1.0 / len(begins)
+    calls = [
+        partial(fit, it, program, start, None if k else watch, plausible, share)
+        for k, it in enumerate(begins)
+    ]
     fits = fits_at_once(list(zip(begins, calls, strict=True)), program)
     if not kinked and _doubtful(fits[0], program, new):
         there = _typical(fits[0].model, new)

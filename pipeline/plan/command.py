@@ -30,8 +30,8 @@ from vjm.effects.sized import all_sized
 from vjm.work import at_most
 
 LARGE = "bar_geometric_nonlinearity"
-WORK = 4000.0
-"""Steps of Newton's method (`vjm.work`) that the next test may take to be found."""
+WORK = 5000.0
+"""Work (`vjm.work`) that the next test may take to be found."""
 
 
 def plan_of(campaign: Campaign, model: Model, known: Mapping[str, Effect], say: Say = lambda _: None) -> Plan:

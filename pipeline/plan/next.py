@@ -11,6 +11,8 @@ from pipeline.campaign import Campaign
 from pipeline.diagnose.menu import Choice, menu
 from pipeline.diagnose.signatures import Say
 from pipeline.inference.model import Model
+from pipeline.inference.prediction import predict
+from pipeline.inference.program import program
 from pipeline.plan.isolability import Visible, visible
 from pipeline.plan.seen import Seen, seen
 from vjm.effects.base import Effect
@@ -35,7 +37,7 @@ def best_next(
     campaign: Campaign, model: Model, candidates: Mapping[str, Effect], so_far: Seen, say: Say
 ) -> Worth | None:
     """The best of the menu; None if none adds anything."""
-    choices = menu(campaign)
+    choices = _borne(menu(campaign), campaign, model)
     if not choices:
         return None
     offered = seen(replace(campaign, tests=tuple(c.test for c in choices)), model, candidates, say)
@@ -48,6 +50,15 @@ def best_next(
         if after > (here if best is None else best.after) + 0.01:
             best = Worth(choice, _newly(now, then), here, after)
     return best
+
+
+def _borne(choices: list[Choice], campaign: Campaign, model: Model) -> list[Choice]:
+    """Those tests of which the model has an equilibrium at every step: of others nothing can be foretold."""
+    if not choices:
+        return []
+    cases = program(replace(campaign, tests=tuple(c.test for c in choices)))
+    lost = set(cases.test[predict(model, cases, slopes=False, order=0).lost].tolist())
+    return [choice for number, choice in enumerate(choices) if number not in lost]
 
 
 def _newly(now: list[Visible], then: list[Visible]) -> tuple[str, ...]:

@@ -20,6 +20,7 @@ from vjm.manipulator.loops import LoopedLeg, Path, looped
 from vjm.manipulator.parts import Manipulator
 from vjm.manipulator.posture import Postures
 from vjm.manipulator.rest import pseudo_rigid_springs
+from vjm.work import note
 
 
 @dataclass(frozen=True, eq=False)
@@ -158,6 +159,7 @@ def system(manipulator: Manipulator, at: Postures, inputs: Inputs | None = None)
 
 def gradient_and_hessian(of: System, u: Array) -> tuple[Array, Array]:
     """Gradient (B, size) and Hessian (B, size, size) of L at u (B, size), without external load."""
+    note(len(u), of.size)
     gradient, hessian = np.zeros_like(u), np.zeros((*u.shape, u.shape[-1]))
     pose = of.platform
     for k, (leg, x) in enumerate(zip(of.legs, of.coordinates, strict=True)):
