@@ -29,9 +29,9 @@ MOST = 5
 """Effects in a set."""
 ENOUGH = 24
 """Fits after which a search that has found nothing good goes on no further."""
-WORK = 6000.0
+WORK = 4000.0
 """Work (`vjm.work`) after which a search of no row begins no further fit, a multiple of it where
-there are more: a third more than the longest search of 600 benches took."""
+there are more: the longest search of 600 benches took three quarters of that."""
 FAR, SLOW = 2.0, 0.7
 """Sigmas from which an explanation is far from one; growth that leaves more than this part of chi-square is slow. What
 is far from explained and falls slowly is not explained by more effects: so it ends as unknown."""

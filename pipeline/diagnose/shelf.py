@@ -24,7 +24,7 @@ from vjm.effects.base import Effect
 from vjm.work import TooMuch, spent
 
 Names = frozenset[str]
-AT_ONCE = 8
+AT_ONCE = 4
 """Sets that are begun together: between groups a search may end."""
 FEW_READINGS = 24
 """Readings up to which a set has no numbers that they do not see: two of the largest effects would take them all."""
@@ -188,7 +188,7 @@ class Shelf:
             if effect.parameters and effect.name not in found.model.names:
                 self.say(f"{effect.name} at its typical size")
                 model = Model((*found.model.terms, Term(effect, effect.typicals)), found.model.fixed)
-                there = predict(model, self.whole, slopes=False)
+                there = predict(model, self.whole, slopes=False, start=found.prediction)
                 out[effect.name] = Fit(model, there, residual(self.whole, there), 1).chi_square
         return out
 

@@ -18,6 +18,7 @@ from scipy.linalg import qr
 from pipeline.diagnose.evidence import PLAUSIBLE
 from pipeline.inference.fit import Fit
 from pipeline.inference.model import Model
+from pipeline.inference.parts import at_rows
 from pipeline.inference.prediction import Prediction, predict
 from pipeline.inference.program import Program
 from pipeline.inference.residual import residual, whitening
@@ -116,7 +117,8 @@ def smooth_signatures(found: Fit, effects: Sequence[Effect], at: Look) -> list[S
 def _columns(found: Fit, effects: Sequence[Effect], at: Look) -> list[Array]:
     """(N, p) of each effect."""
     model = found.model.with_effects(effects)
-    predicted = predict(model, at.program, shift=found.prediction.shift[at.rows], order=ROUGHLY)
+    start = at_rows(found.prediction, found.residual.program, at.program, at.rows)
+    predicted = predict(model, at.program, start=start, shift=start.shift, order=ROUGHLY)
     slopes = residual(at.program, predicted).slopes
     used = at.program.predicted & at.program.fitted[:, None]
     out = []

@@ -76,16 +76,26 @@ def driven(group: Group) -> Mask:
 
 
 def branched(
-    mechanism: Rig, group: Group, sight: Sight, inputs: dict[str, Array], state: Equilibrium
+    mechanism: Rig,
+    group: Group,
+    sight: Sight,
+    inputs: dict[str, Array],
+    state: Equilibrium,
+    begun: Equilibrium | None = None,
 ) -> Equilibrium:
     """The states (T, S) of a group without memory, those of rows beyond a bifurcation on their branch, and the reasons
-    of those that stay lost."""
+    of those that stay lost.
+
+    begun: states of a like model that these were solved from: rows that it lost have no branch that this way finds.
+    """
     missing = lost(state) & group.real
     if not missing.any():
         return state
     again = neutral_is_stable(state.member(np.nonzero(missing)))
     state = state.with_members(np.nonzero(missing), again)
     beyond = lost(state) & group.real & driven(group)
+    if begun is not None:
+        beyond &= ~lost(begun)
     drives = np.broadcast_to(drive_values(mechanism, inputs), (*group.rise.shape, state.drives.shape[-1]))
     for number in np.unique(group.numbers[beyond.any(axis=1)]):
         rows = np.nonzero(beyond & (group.numbers == number)[:, None])

@@ -18,7 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.stats import norm
 
-from pipeline.inference.fit import Fit
+from pipeline.inference.fit import WORK, Fit, allowance
 from pipeline.inference.inputs import linearised
 from pipeline.inference.landscape import BLIND, CLOSE, NEARLY, RISE, STEPS, Landscape, Range
 from pipeline.inference.model import Free, Model
@@ -28,6 +28,7 @@ from pipeline.inference.program import Program
 from pipeline.inference.residual import Residual
 from pipeline.inference.sides import sided
 from pipeline.processors import at_once
+from vjm.work import at_most
 
 Array = NDArray[np.float64]
 Out = TypeVar("Out")
@@ -68,7 +69,12 @@ def landscape(best: Fit, program: Program) -> Landscape:
     rows, own = program.by_role[0]
     near = at_rows(best.prediction, program, own, rows)
     return Landscape(
-        _Near(best.model, near, own), best.model.values, ranges, best.residual.aimed, best.residual.aimed_by
+        _Near(best.model, near, own),
+        best.model.values,
+        ranges,
+        best.residual.aimed,
+        best.residual.aimed_by,
+        most=WORK * allowance(own),
     )
 
 
@@ -136,7 +142,8 @@ def _at_once(land: Landscape, calls: Sequence[Callable[[], Out]]) -> list[Out]:
 
 def _counted(land: Landscape, call: Callable[[], Out]) -> tuple[Out, int]:
     before = land.evaluations
-    return call(), land.evaluations - before
+    with at_most(land.most):
+        return call(), land.evaluations - before
 
 
 def _looked(land: Landscape, k: int) -> Interval | dict[int, float]:

@@ -62,7 +62,8 @@ class Range:
 
 @dataclass(eq=False)
 class Landscape:
-    """A sum of squares about its minimum at values (P,): ridges, profiles. ranges: of each number."""
+    """A sum of squares about its minimum at values (P,): ridges, profiles. ranges: of each number. most: work
+    (`vjm.work`) that one look may take."""
 
     problem: LeastSquares
     values: Array
@@ -70,6 +71,7 @@ class Landscape:
     residuals: Array
     jacobian: Array
     evaluations: int = 0
+    most: float = np.inf
     bounds: Array = field(init=False)
     least: float = field(init=False)
     active: NDArray[np.bool_] = field(init=False)

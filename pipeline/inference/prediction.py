@@ -237,7 +237,7 @@ def _of_bench(
         state = equilibrium(mechanism, group.targets, group.channels[:, None], begin, drives=inputs)
         state = _branched(mechanism, group, inputs, state)
         if bent:
-            state = branched(mechanism, group, Sight.of(program, rows), inputs, state)
+            state = branched(mechanism, group, Sight.of(program, rows), inputs, state, begin)
         by, change = _changes(by_parameters, state, asked, order)
     stops, slides = _stops(state, change, DRIVE in drives)
     values = state.readings.copy()

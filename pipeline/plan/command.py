@@ -30,7 +30,7 @@ from vjm.effects.sized import all_sized
 from vjm.work import at_most
 
 LARGE = "bar_geometric_nonlinearity"
-WORK = 5000.0
+WORK = 4000.0
 """Work (`vjm.work`) that the next test may take to be found."""
 
 

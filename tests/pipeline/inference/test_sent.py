@@ -22,6 +22,7 @@ from pipeline.inference.program import program
 from pipeline.inference.sent import fits_at_once
 from pipeline.processors import may_use
 from tests.pipeline.inference import manipulators
+from vjm import work
 from vjm.effects import catalogue
 
 pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="forks are made on Linux alone")
@@ -102,3 +103,14 @@ def test_a_diagnosis_is_that_of_one_processor(two: None) -> None:
     both = answer()
     may_use(1)
     assert answer() == both and both.verdict == "identified"
+
+
+def test_work_is_that_of_one_processor(two: None) -> None:
+    def taken() -> float:
+        before = work.spent()
+        fits()
+        return work.spent() - before
+
+    both = taken()
+    may_use(1)
+    assert taken() == pytest.approx(both, rel=1e-12) and both > 0.0
