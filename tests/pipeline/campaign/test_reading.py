@@ -182,6 +182,6 @@ def test_a_long_file_is_read_in_seconds(tmp_path: Path) -> None:
     csv = CSV + "".join(row.format(k) for k in range(10, 100_010))
     folder = laid(tmp_path, csv=csv)
     start = perf_counter()
-    assert read(folder).tests[0].data.steps.size == 100_003
+    assert any("of 100003 rows" in said for said in read(folder).remarks)
     # About two seconds; a cost that grows with the square of the rows would take hours.
     assert perf_counter() - start < 60.0
