@@ -26,12 +26,12 @@ check: $(STAMP)
 test: setup check
 	$(ALONE) $(PYTHON) -m pytest -n 2 -m "not long"
 
-proofs: $(STAMP)
+proofs: setup
 	$(ALONE) $(PYTHON) -m pytest -n 2 -m long
 
 # Every command on two thousand small random tables.
 .PHONY: fuzz
-fuzz: $(STAMP)
+fuzz: setup
 	$(ALONE) $(PYTHON) -m pytest -n 2 --dist load -m long tests/fuzz
 
 # Many benches for every effect: hours; what was finished is kept, so that it may be stopped and started again.

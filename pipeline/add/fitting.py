@@ -18,7 +18,7 @@ from pipeline.campaign import Campaign
 from pipeline.diagnose.shelf import Shelf
 from pipeline.errors import InputError
 from pipeline.inference.claims import trusted
-from pipeline.inference.fit import Fit, fit, unfitted
+from pipeline.inference.fit import SETTLED, Fit, fit, unfitted
 from pipeline.inference.intervals import correlations, intervals, landscape, only_together, straight
 from pipeline.inference.model import Model, at_bound
 from pipeline.inference.model_file import Uncertainty
@@ -128,7 +128,11 @@ def _compared(
     say("intervals")
     attempts = Attempts()
     land = landscape(after, cases)
-    ends = attempts.get("intervals", lambda: intervals(land), None) or straight(land)
+    # Of a model that leaves much, a rise of chi-square by 3.841 says nothing that many solutions would be worth.
+    near = after.rms < SETTLED
+    ends = attempts.get("intervals", lambda: intervals(land) if near else straight(land), None) or straight(
+        land
+    )
     values = {
         name: it.model_copy(update={"interval": "undetermined"}) if name in unseen else it
         for name, it in values_of(after.model, ends).items()

@@ -255,14 +255,15 @@ def candidates_of(it: Diagnosis) -> tuple[Candidate, ...]:
     """Every effect that was tried: what it promised, what it did, how it does in tests it did not see."""
     shelf, best = it.shelf, it.found.best
     root = frozenset(name for name in best if not shelf.candidates[name].parameters)
-    about = shelf.picture(root)
+    # After a search that took too long there is no time for what was not looked at.
+    about = shelf.pictures.get(root) if it.found.ended else shelf.picture(root)
     least = _bic(shelf, best)
     out = []
     for name in shelf.candidates:
         mine = [names for names in shelf.fits if name in names]
         top = min(mine, key=lambda names: _bic(shelf, names), default=None)
         screen = cross = None
-        if name in about.signatures:
+        if about is not None and name in about.signatures:
             left = about.fit.chi_square - about.gain([name]).value
             screen = float(np.sqrt(max(left, 0.0) / max(about.fit.degrees, 1)))
             cross = crossvalidated_with(about, name)
