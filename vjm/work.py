@@ -18,7 +18,7 @@ MEMBERS = 50
 
 
 class TooMuch(RuntimeError):
-    """More work than was allowed: many load cases without an equilibrium, each approached in vain."""
+    """More work than was allowed: load cases without an equilibrium, each approached in vain, take most of it."""
 
 
 class _Count(local):
@@ -32,7 +32,7 @@ def note(members: int, unknowns: int) -> None:
     """Count an evaluation at so many load cases with so many unknowns each. TooMuch beyond what `at_most` allows."""
     _count.steps += unknowns / UNKNOWNS * (1.0 + members / MEMBERS)
     if _count.steps > _count.most:
-        raise TooMuch("it would take too long, as many of its load cases have no equilibrium")
+        raise TooMuch("it would take too long, as load cases at or beyond the loss of equilibrium do")
 
 
 def spent() -> float:

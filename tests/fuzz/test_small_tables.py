@@ -9,7 +9,7 @@ from tests.fuzz.tables import Files, files
 # A manipulator takes seconds where a bar takes tenths.
 KINDS = (*("bar", "parallelogram") * 12, "manipulator")
 # The quick ones are of one test and two rows: a search over a dozen rows takes a minute and more.
-QUICK, PARTS, PER_PART = 25, 40, 50
+QUICK, PARTS, PER_PART = 12, 40, 50
 health = [HealthCheck.too_slow, HealthCheck.data_too_large, HealthCheck.large_base_example]
 
 

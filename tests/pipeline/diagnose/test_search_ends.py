@@ -20,11 +20,9 @@ def found(most: float, monkeypatch: pytest.MonkeyPatch) -> Diagnosis:
 def test_what_was_not_compared_with_all_is_not_named(monkeypatch: pytest.MonkeyPatch) -> None:
     whole = found(search.WORK, monkeypatch)
     assert whole.verdict == "identified" and not whole.found.ended
-    for most in (0.0, 5.0, 50.0, 100.0, 200.0):
+    for most in (0.0, 50.0):
         it = found(most, monkeypatch)
-        if not it.found.ended:
-            break
+        assert it.found.ended
         assert it.verdict == "unknown" and len(it.shelf.fits) <= len(whole.shelf.fits)
         said = " ".join(sentences(it))
         assert "each takes long" in said
-    assert most > 0.0
