@@ -6,6 +6,7 @@ bench of two dials and one load cell (n_...), and from tables drawn at random th
 
 from __future__ import annotations
 
+import json
 from functools import cache
 from pathlib import Path
 
@@ -142,6 +143,25 @@ def test_a_constant_of_one_channel_is_first_a_zero(name: str, first: str) -> Non
 def test_a_dial_that_was_not_zeroed_names_no_effect() -> None:
     found = answer("n_f_gauge")
     assert found.verdict == "unknown" and found.effects == ()
+
+
+@pytest.mark.long
+def test_the_shipped_bench_without_one_column_of_the_wrench(tmp_path: Path) -> None:
+    """The verdict that it has with it; the tests that `plan` proposes are judged by the sensors that remain."""
+    source = Path(__file__).parents[2] / "examples" / "bench"
+    rows = [line.split(",") for line in (source / "measurements.csv").read_text().splitlines()]
+    gone = rows[0].index("mz_Nmm")
+    lines = [",".join(cell for k, cell in enumerate(row) if k != gone) for row in rows]
+    (tmp_path / "measurements.csv").write_text("\n".join([*lines, ""]))
+    head = (source / "campaign.toml").read_text().splitlines()
+    (tmp_path / "campaign.toml").write_text("\n".join(line for line in head if "mz_Nmm" not in line))
+    campaign, known = read(tmp_path), known_effects(())
+    found = answered(diagnose(campaign, Model(), known.effects))
+    whole = answered(diagnose(read(source), Model(), known.effects))
+    assert found.verdict == whole.verdict == "identified" and found.effects == whole.effects
+    made = plan_of(campaign, Model(), known.effects)
+    assert not made.not_done and made.next_test is not None
+    assert json.dumps(made.model_dump(mode="json"), allow_nan=False)
 
 
 def test_the_next_test_reads_sensors_that_exist() -> None:

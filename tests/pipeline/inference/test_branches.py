@@ -17,11 +17,14 @@ from fem.frame.errors import Errors
 from fem.frame.rig import STEEPEST_DEG
 from pipeline.campaign import read
 from pipeline.errors import InputError
+from pipeline.inference import branches
 from pipeline.inference.model import Model
 from pipeline.inference.prediction import Prediction, predict
 from pipeline.inference.program import Program, program
 from tests.fem.frame.rigs import parallelogram
+from vjm.bent import Ways
 from vjm.effects import catalogue
+from vjm.reasons import Reason
 
 L, EA, EI = 300.0, 5e6, 416667.0
 CRITICAL = np.pi**2 * EI / L**2
@@ -119,3 +122,23 @@ def test_the_steepest_angle_is_one_for_files_and_frame(tmp_path: Path, degrees: 
     else:
         assert bench.run(parallelogram(), Errors(), [trial])[0].converged.all()
         assert campaign(tmp_path, toml=toml).campaign.tests[0].q_deg == degrees
+
+
+def test_rows_without_a_branch_are_not_looked_for_again(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A fit evaluates a model many times; where the first found no branch the next would take as long in vain."""
+    asked: list[float] = []
+
+    def none(*_: object) -> Ways:
+        asked.append(0.0)
+        return Ways((), Reason.NO_EQUILIBRIUM)
+
+    cases = campaign(tmp_path)
+    monkeypatch.setattr(branches, "leave", none)
+    first = predict(NONLINEAR, cases)
+    assert len(asked) == 1 and first.lost.any()
+    again = predict(NONLINEAR, cases, start=first)
+    assert len(asked) == 1 and np.array_equal(again.lost, first.lost)
+    monkeypatch.undo()
+    assert not predict(NONLINEAR, cases).lost.any()

@@ -13,8 +13,13 @@ from typer.testing import CliRunner
 
 from pipeline.campaign import Campaign, write
 from pipeline.cli import app
+from pipeline.diagnose.menu import menu
+from pipeline.inference.model import Model
+from pipeline.plan.command import LARGE
+from pipeline.plan.next import _borne
 from pipeline.plan.planned import foreseen
 from tests.pipeline.diagnose.bench import AXIAL, bench
+from vjm.effects import catalogue
 
 MIXED = ("axial_held_q+0", "lateral_q+0")
 
@@ -76,3 +81,18 @@ def test_axial_tests_confuse_what_gives_along_the_bars(tmp_path: Path) -> None:
         assert apart is None or apart > sizes(found)[name]["typical"]
     control = found["next_test"]["control"]
     assert found["next_test"]["newly"] and control["y"] == "displacement"
+
+
+def test_tests_that_the_model_cannot_bear_are_not_offered() -> None:
+    """Where a campaign pushed far beyond buckling, a menu that goes as far has no equilibrium to foretell."""
+    whole = bench(ids=AXIAL)
+    mild = [choice for choice in menu(whole) if choice.shape.coordinate == 0]
+    beyond = [
+        replace(
+            choice,
+            test=replace(choice.test, data=replace(choice.test.data, wrench=1e3 * choice.test.data.wrench)),
+        )
+        for choice in mild
+    ]
+    kept = _borne([*mild, *beyond], whole, Model().with_effects([catalogue()[LARGE]]))
+    assert kept == mild
