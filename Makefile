@@ -4,7 +4,7 @@ STAMP := $(VENV)/.ready
 # One thread a process: the arrays of most tests are small, and threads of two processes are in each other's way.
 ALONE := OMP_NUM_THREADS=1 MKL_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1
 
-.PHONY: setup run test proofs coverage check example clean
+.PHONY: setup run test quick proofs coverage check example clean
 
 setup: $(STAMP)
 	@$(PYTHON) -m pipeline.system
@@ -23,7 +23,11 @@ check: $(STAMP)
 	$(VENV)/bin/ruff format --check .
 	$(VENV)/bin/mypy
 
-test: setup check
+# Types are checked beside the tests: alone that would leave one of two processors idle.
+test: setup
+	@$(MAKE) --no-print-directory -j 2 check quick
+
+quick:
 	$(ALONE) $(PYTHON) -m pytest -n 2 -m "not long"
 
 proofs: setup

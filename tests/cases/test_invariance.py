@@ -80,6 +80,7 @@ def test_the_order_of_the_tests_changes_no_verdict() -> None:
         np.testing.assert_allclose(other.model.values, plain().model.values, rtol=1e-3)
 
 
+@pytest.mark.long
 def test_sigmas_a_hundred_thousand_times_too_large_hide_nothing() -> None:
     n = soft().noise
     loose = replace(n, displacement=1e5 * n.displacement, wrench=1e5 * n.wrench, gauges=1e5 * n.gauges)
@@ -103,7 +104,10 @@ def test_a_shifted_channel_is_first_a_zero(channel: int) -> None:
     assert f"{name} starts at" in answer.sentences[0] and 'zero = "fitted"?' in answer.sentences[0]
 
 
-@pytest.mark.parametrize("name", ["c04_dial_softer", "t09_identified_undetermined", "n_B_s4"])
+@pytest.mark.parametrize(
+    "name",
+    ["c04_dial_softer", "t09_identified_undetermined", pytest.param("n_B_s4", marks=pytest.mark.long)],
+)
 def test_a_larger_set_never_leaves_more_than_one_that_it_contains(name: str) -> None:
     shelf = found(read(DATA / name)).shelf
     pairs = 0

@@ -164,6 +164,7 @@ def test_open_add_and_save_with_a_browser_that_is_killed_on_the_way(tmp_path: Pa
     assert requests and outside(requests) == []
 
 
+@pytest.mark.long
 def test_plan_before_measuring_a_dropped_mistake_and_a_manipulator_without_a_mouse(tmp_path: Path) -> None:
     """What is dropped is complained about as on the command line, and what was open stays."""
     write(tmp_path / "ahead", unmeasured())

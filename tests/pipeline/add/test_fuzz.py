@@ -4,6 +4,7 @@ import tempfile
 from collections import Counter
 from pathlib import Path
 
+import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -42,6 +43,7 @@ def verdict(changes: list[tuple[bool, Mutation]]) -> str:
     return said
 
 
+@pytest.mark.long
 def test_damage_is_fitted_or_refused() -> None:
     seen: Counter[str] = Counter()
 

@@ -120,6 +120,7 @@ def test_bad_input_is_one_sentence_and_exit_code_2(tmp_path: Path) -> None:
         assert "error: " in ran.output and len(ran.output) < 600
 
 
+@pytest.mark.long
 def test_absurd_but_valid_numbers_are_lost_or_failed_with_a_reason(tmp_path: Path) -> None:
     """Loads a hundred thousand times those that buckle the bars: reasons, and no number that is none."""
     folder = tmp_path / "campaign"

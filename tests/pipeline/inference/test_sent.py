@@ -47,7 +47,12 @@ def fits() -> list[Fit]:
 
 
 def test_a_fit_comes_back_as_it_was_made(two: None) -> None:
-    for here, other in zip([fit(it, CASES) for it in begun()], fits(), strict=True):
+    begin = work.spent()
+    alone = [fit(it, CASES) for it in begun()]
+    taken = work.spent() - begin
+    both = fits()
+    assert work.spent() - begin == pytest.approx(2.0 * taken, rel=1e-12) and taken > 0.0
+    for here, other in zip(alone, both, strict=True):
         assert other.chi_square == here.chi_square and other.evaluations == here.evaluations
         assert other.model.names == here.model.names and not other.prediction.lost.any()
         np.testing.assert_array_equal(other.model.values, here.model.values)
@@ -103,14 +108,3 @@ def test_a_diagnosis_is_that_of_one_processor(two: None) -> None:
     both = answer()
     may_use(1)
     assert answer() == both and both.verdict == "identified"
-
-
-def test_work_is_that_of_one_processor(two: None) -> None:
-    def taken() -> float:
-        before = work.spent()
-        fits()
-        return work.spent() - before
-
-    both = taken()
-    may_use(1)
-    assert taken() == pytest.approx(both, rel=1e-12) and both > 0.0
