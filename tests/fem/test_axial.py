@@ -87,6 +87,7 @@ def test_central_differences_of_the_condensed_stiffness(name: str) -> None:
     np.testing.assert_allclose(bar_p.entries(found(name).at(PULL)), bar_p.entries(ahead), rtol=1e-6)
 
 
+@pytest.mark.long
 def test_nonlinear_states_of_the_pulled_bar() -> None:
     """Tangents of the large-displacement solid at two uniaxially stretched equilibria give the same derivative.
 

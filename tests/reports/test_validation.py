@@ -95,6 +95,7 @@ def test_all_files_are_drawn(drawn: tuple[Path, list[Path]]) -> None:
     assert all(p.read_bytes().startswith(b"\x89PNG") for p in files if p.suffix == ".png")
 
 
+@pytest.mark.long
 def test_the_same_result_gives_the_same_bytes(drawn: tuple[Path, list[Path]]) -> None:
     folder, files = drawn
     first = {path: path.read_bytes() for path in files}

@@ -54,6 +54,7 @@ def test_held_out_tests_tell_of_physics_that_the_fitted_ones_do_not_show() -> No
     assert softer.verdict == "unknown"
 
 
+@pytest.mark.long
 def test_numbers_of_what_explains_little_are_worth_no_solutions() -> None:
     """An offset of the load, of which only a misalignment is known: it helps, and noise is far."""
     tests = bench("load_offset.y_mm", 9.0, ids=("swing_q+0", "lateral_q+0", "axial_guided_q+0"))
@@ -85,6 +86,7 @@ def test_friction_is_named() -> None:
     assert any("Only tests at q = 0° show it (swing_q+0):" in said for said in sentences(it))
 
 
+@pytest.mark.long
 def test_what_several_angles_show_is_there_at_all_of_them() -> None:
     everywhere = found(
         bench("joint_friction.torque_Nmm", 200.0, ("swing_q+0", "swing_q+30", "axial_held_q+0"))

@@ -47,6 +47,7 @@ def test_a_play_twenty_times_the_noise_is_told() -> None:
     assert excluded(it, CONTACT, PLAY) and not excluded(it, PLAY, CONTACT)
 
 
+@pytest.mark.long
 def test_a_play_is_looked_for_at_all_sizes_whatever_a_probe_found() -> None:
     it = shelf(6e-4)
     bent: Names = frozenset({BENT})

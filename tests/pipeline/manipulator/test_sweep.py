@@ -96,6 +96,7 @@ def test_two_processes_write_the_same_file(orthoglide: Description, whole: Path,
     assert (tmp_path / RESULT).read_bytes() == (whole / RESULT).read_bytes()
 
 
+@pytest.mark.long
 def test_a_dask_cluster_writes_the_same_file(orthoglide: Description, whole: Path, tmp_path: Path) -> None:
     pytest.importorskip("distributed")
     with executor(workers=2, dask="local") as (pool, count):
@@ -186,6 +187,7 @@ def test_every_reason_has_a_number(orthoglide: Description) -> None:
     assert numbers_of(["news"], reasons).tolist() == [len(reasons) - 1]
 
 
+@pytest.mark.long
 def test_critical_forces_between_nodes(orthoglide: Description) -> None:
     """The coarse map is interpolated: at points off its nodes it meets the direct figure to 0.5 %."""
     nodes = coarse(Grid(GRID.low, GRID.high, (40, 40, 40)))
