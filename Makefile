@@ -27,7 +27,7 @@ check: $(STAMP)
 test: setup
 	@$(MAKE) --no-print-directory -j 2 check quick
 
-quick:
+quick: $(STAMP)
 	$(ALONE) $(PYTHON) -m pytest -n 2 -m "not long"
 
 proofs: setup

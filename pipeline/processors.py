@@ -21,6 +21,8 @@ from multiprocessing.sharedctypes import Synchronized
 from pickle import PicklingError
 from typing import Any, TypeVar
 
+from vjm import work
+
 Out = TypeVar("Out")
 Found = dict[int, Any]
 _DEATH_OF_PARENT = 1
@@ -63,7 +65,9 @@ def at_once(calls: Sequence[Callable[[], Out]]) -> list[Out]:
         if forks:
             found |= _work(calls, taken)
         for _, answer in forks:
-            found |= _received(answer)
+            there, steps = _received(answer)
+            found |= there
+            work.elsewhere(steps)
         return [found[k] if k in found else call() for k, call in enumerate(calls)]
     finally:
         for process, answer in forks:
@@ -106,22 +110,24 @@ def _serve(
     if os.getppid() != parent:
         return
     ours.close()
+    begun = work.spent()
     answer: tuple[Found, Exception | None]
     try:
         answer = (_work(calls, taken), None)
     except Exception as error:
         answer = ({}, error)
     try:
-        theirs.send_bytes(ForkingPickler.dumps(answer))
+        theirs.send_bytes(ForkingPickler.dumps((*answer, work.spent() - begun)))
     except (PicklingError, AttributeError, TypeError):
-        theirs.send(({}, None))
+        theirs.send(({}, None, 0.0))
 
 
-def _received(answer: Connection) -> Found:
+def _received(answer: Connection) -> tuple[Found, float]:
+    """What a fork found, and the work that it took; nothing of one that was killed: that is done again here."""
     try:
-        found, error = answer.recv()
+        found, error, steps = answer.recv()
     except EOFError:
-        return {}
+        return {}, 0.0
     if error is not None:
         raise error
-    return dict(found)
+    return dict(found), steps

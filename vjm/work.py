@@ -18,7 +18,7 @@ MEMBERS = 50
 
 
 class TooMuch(RuntimeError):
-    """More work than was allowed: load cases without an equilibrium, each approached in vain, take most of it."""
+    """More work than was allowed; load cases without an equilibrium, each approached in vain, take most of it."""
 
 
 class _Count(local):
@@ -30,9 +30,7 @@ _count = _Count()
 
 def note(members: int, unknowns: int) -> None:
     """Count an evaluation at so many load cases with so many unknowns each. TooMuch beyond what `at_most` allows."""
-    _count.steps += unknowns / UNKNOWNS * (1.0 + members / MEMBERS)
-    if _count.steps > _count.most:
-        raise TooMuch("it would take too long, as load cases at or beyond the loss of equilibrium do")
+    elsewhere(unknowns / UNKNOWNS * (1.0 + members / MEMBERS))
 
 
 def spent() -> float:
@@ -41,8 +39,10 @@ def spent() -> float:
 
 
 def elsewhere(steps: float) -> None:
-    """Count evaluations that another process took for this one."""
+    """Count work that another process took for this one; as `note`."""
     _count.steps += steps
+    if _count.steps > _count.most:
+        raise TooMuch("it would take too long")
 
 
 @contextmanager

@@ -18,7 +18,7 @@ from pipeline.campaign import Campaign
 from pipeline.diagnose.shelf import Shelf
 from pipeline.errors import InputError
 from pipeline.inference.claims import trusted
-from pipeline.inference.fit import SETTLED, Fit, fit, unfitted
+from pipeline.inference.fit import Fit, fit, unfitted
 from pipeline.inference.intervals import correlations, intervals, landscape, only_together, straight
 from pipeline.inference.model import Model, at_bound
 from pipeline.inference.model_file import Uncertainty
@@ -128,9 +128,11 @@ def _compared(
     say("intervals")
     attempts = Attempts()
     land = landscape(after, cases)
-    # Of a model that leaves much, a rise of chi-square by 3.841 says nothing that many solutions would be worth.
-    near = after.rms < SETTLED
-    ends = attempts.get("intervals", lambda: intervals(land) if near else straight(land), None) or straight(
+    nothing = untested(before, numbers) or untested(after)
+    judged = None if nothing else judge(after)
+    # As in a diagnosis.
+    surely = judged is not None and judged.noise
+    ends = attempts.get("intervals", lambda: intervals(land) if surely else straight(land), None) or straight(
         land
     )
     values = {
@@ -140,8 +142,6 @@ def _compared(
     pairs = attempts.get("correlations of the numbers", lambda: correlations(land), [])
     together = attempts.get("what is seen only together", lambda: only_together(land), [])
     names = [each.name for each in after.model.free]
-    nothing = untested(before, numbers) or untested(after)
-    judged = None if nothing else judge(after)
     errors = (error_of(before, cases, numbers), error_of(after, cases, len(after.model.free), judged))
     answer = Answer(
         campaign=cases.campaign.name,

@@ -62,6 +62,9 @@ def ruled(found: Found, judgement: Judgement, attempts: Attempts) -> Ruling:
             # What a sensor's zero hides is named when that is settled.
             return Ruling("unknown", (zero.without,), shelf.fit(zero.without), (), zero)
         return Ruling("unknown", (best,), here, (), zero, alike, bounded, out)
+    if found.ended and best:
+        because = "the search ended before all that might explain it as well was looked at, as it takes long"
+        return Ruling("unknown", (best,), here, (), zero, alike, bounded, out, because)
     instead = attempts.get("what a sensor's fault would explain", lambda: faults_instead(found), ())
     rivals = _with_equals(found, alike, bounded)
     if zero is not None:
@@ -69,12 +72,6 @@ def ruled(found: Found, judgement: Judgement, attempts: Attempts) -> Ruling:
     sets = tuple(sorted(dict.fromkeys((best, *rivals)), key=lambda n: _simplicity(shelf, n)))
     if not best and zero is None and not rivals:
         return Ruling("within_noise", (best,), here, (), None, alike, (), out)
-    if found.ended:
-        because = (
-            "not all that might explain it as well could be looked at: each takes long, as rows are lost"
-        )
-        bounded = at_bound(shelf.fit(sets[0]).model)
-        return Ruling("unknown", sets[:1], shelf.fit(sets[0]), (), None, alike, bounded, out, because)
     if len(sets) > 1 or instead:
         return Ruling(
             "ambiguous",

@@ -77,7 +77,7 @@ def _verdict(it: Diagnosis) -> Iterator[str]:
         sets = " or ".join([*(_and(names) for names in it.sets), *fault])
         yield f"ambiguous: {asked}{sets}; these tests cannot tell; {fall}."
     elif it.ruling.because:
-        yield f"unknown: {_and(it.sets[0])} would explain the misfit, {fall}, but {it.ruling.because}."
+        yield f"unknown: {asked}{_and(it.sets[0])} would explain the misfit, {fall}, but {it.ruling.because}."
     elif it.sets[0]:
         rest = "what is left is no noise and nothing known explains it"
         yield f"unknown: {asked}{_and(it.sets[0])} help, {fall}, but {rest}."
@@ -137,8 +137,8 @@ def _left(it: Diagnosis) -> Iterator[str]:
     if it.verdict == "unknown":
         if it.found.ended and not it.ruling.because:
             yield (
-                f"The search ended after {len(it.shelf.fits)} fits, as each takes long where rows have no equilibrium: "
-                "what was not looked at may explain more."
+                f"The search ended after {len(it.shelf.fits)} fits, as it takes long: what was not looked at may "
+                "explain more."
             )
         yield from _why_not(it)
         yield from _described(it)

@@ -46,9 +46,9 @@ LATE = 10
 """A fit that is far above noise ends when so many evaluations took nothing."""
 TINY = 1e-12
 WORK, ROWS = 1000.0, 20
-"""Work (`vjm.work`) after which a fit of no row ends where it is, and the rows for which it takes
-as many again. The longest fits of 600 benches take eight tenths of that; where rows have no equilibrium each evaluation
-takes a hundred times as long."""
+"""Work (`vjm.work`) after which a fit of no row ends where it is, and the rows for which it takes as many again. The
+longest fits of eleven of the slowest benches take three quarters of that; where rows have no equilibrium each
+evaluation takes a hundred times as long."""
 
 
 @dataclass(frozen=True, eq=False)

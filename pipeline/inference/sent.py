@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 from functools import partial
@@ -18,7 +17,6 @@ from pipeline.inference.prediction import Prediction
 from pipeline.inference.program import Group, Program
 from pipeline.inference.residual import residual
 from pipeline.processors import at_once
-from vjm import work
 from vjm.equilibrium import Equilibrium
 
 Bare = States | list[np.ndarray]
@@ -28,16 +26,8 @@ Numbers = tuple[NDArray[np.float64], Prediction, list[Bare], int]
 
 def fits_at_once(calls: Sequence[tuple[Model, Callable[[], Fit]]], program: Program) -> list[Fit]:
     """Fits of models to the tests of a program, each with the call that makes it; same as one after the other."""
-    found = at_once([partial(_counted, call) for _, call in calls])
-    work.elsewhere(sum(steps for _, steps, process in found if process != os.getpid()))
-    return [_fit(model, each, program) for (model, _), (each, _, _) in zip(calls, found, strict=True)]
-
-
-def _counted(call: Callable[[], Fit]) -> tuple[Numbers, float, int]:
-    """A fit, the work that it took and the process that did it."""
-    begun = work.spent()
-    numbers = _numbers(call)
-    return numbers, work.spent() - begun, os.getpid()
+    found = at_once([partial(_numbers, call) for _, call in calls])
+    return [_fit(model, each, program) for (model, _), each in zip(calls, found, strict=True)]
 
 
 def _numbers(call: Callable[[], Fit]) -> Numbers:

@@ -14,6 +14,7 @@ import pytest
 
 from pipeline import processors
 from pipeline.processors import at_once, available, may_use
+from vjm import work
 
 pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="forks are made on Linux alone")
 
@@ -127,3 +128,17 @@ def alive(number: int) -> bool:
             return file.read().rpartition(")")[2].split()[0] != "Z"
     except FileNotFoundError:
         return False
+
+
+def test_work_counts_wherever_it_was_done() -> None:
+    def busy(steps: float) -> float:
+        work.elsewhere(steps)
+        # As long as the other call, so that each process has one.
+        time.sleep(0.2)
+        return steps
+
+    before = work.spent()
+    assert at_once([partial(busy, 3.0), partial(busy, 4.0)]) == [3.0, 4.0]
+    assert work.spent() == before + 7.0
+    with work.at_most(5.0), pytest.raises(work.TooMuch):
+        at_once([partial(busy, 3.0), partial(busy, 4.0)])
