@@ -83,10 +83,12 @@ def add(campaign: Campaign, model: Model, effects: Sequence[Effect], say: Say = 
             shelf.fit(frozenset(new[: count + 1]))
         after = shelf.fit(frozenset(new))
         # Without the pull of plausible sizes: intervals are about the least chi-square itself, and where only
-        # combinations of numbers are seen, it may be elsewhere on their ridge.
-        polished = fit(after.model, cases, after.prediction)
-        anew = best_fit(model.with_effects(effects), cases, new, predict(model, cases, slopes=False), say)
-        after = min(polished, anew, key=lambda each: each.order)
+        # combinations of numbers are seen, it may be elsewhere on their ridge. One that ran out of its work would
+        # do so again.
+        if not any(each.ended for each in shelf.fits.values()):
+            polished = fit(after.model, cases, after.prediction)
+            anew = best_fit(model.with_effects(effects), cases, new, predict(model, cases, slopes=False), say)
+            after = min(polished, anew, key=lambda each: each.order)
     else:
         after = unfitted(model.with_effects(effects), cases)
     return _compared(cases, (before, after), len(model.free), new, say, start, shelf.unseen if new else ())
@@ -103,6 +105,7 @@ def remove(campaign: Campaign, model: Model, names: Sequence[str], say: Say = la
             there = ", ".join(model.names) or "none"
             raise InputError(f"{name} is not in the model, allowed are its effects: {there}")
     model = sized_model(model, campaign)
+    check_suitable([term.effect for term in model.terms], campaign)
     whole = trusted(completed(campaign), model)
     cases = program(whole)
     say("the model as it was")

@@ -27,7 +27,7 @@ from pipeline.inference.prediction import Prediction, moved_along, predict
 from pipeline.inference.program import Program, program
 from pipeline.inference.residual import residual
 from pipeline.inference.sigmas import completed
-from pipeline.inference.suitable import sized_model
+from pipeline.inference.suitable import check_suitable, sized_model
 from pipeline.provenance import commit, versions
 from vjm.effects.bar_geometric_nonlinearity import BarGeometricNonlinearity
 
@@ -50,10 +50,11 @@ def compare_models(campaign: Campaign, saved: Model | None = None, say: Say = la
 
     A model that cannot be solved at all has its reason in `failed`; rows that cannot, in `lost`. FEA is given the
     tangent of virtual springs with refined bars, for the noise of its inputs. InputError for a sigma that is
-    missing and cannot be estimated.
+    missing and cannot be estimated, and for an effect that the rig cannot have.
     """
     start = perf_counter()
     saved = None if saved is None else sized_model(saved, campaign)
+    check_suitable([term.effect for term in saved.terms] if saved else [], campaign)
     whole = trusted(completed(campaign), saved or Model())
     cases = program(whole)
     none = np.zeros_like(cases.input_sigma)

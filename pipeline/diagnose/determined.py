@@ -9,7 +9,7 @@ import numpy as np
 
 from pipeline.diagnose.evidence import PLAUSIBLE
 from pipeline.inference.fit import Fit, fit
-from pipeline.inference.intervals import landscape
+from pipeline.inference.intervals import has_an_end, landscape
 from pipeline.inference.model import Model
 from pipeline.inference.program import Program
 
@@ -20,11 +20,7 @@ RISE = 2.0
 def undetermined(found: Fit, whole: Program) -> tuple[str, ...]:
     """Names effect.parameter of the free numbers about which the data say nothing by themselves."""
     land = landscape(found, whole)
-    return tuple(
-        each.name
-        for k, each in enumerate(found.model.free)
-        if not np.sqrt(land.ridge(k)[1]) < land.ranges[k].high - land.ranges[k].low
-    )
+    return tuple(each.name for k, each in enumerate(found.model.free) if not has_an_end(land, k))
 
 
 def determined(found: Fit, whole: Program) -> Fit:

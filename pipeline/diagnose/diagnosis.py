@@ -110,8 +110,8 @@ def diagnose(
     """Look for what the model lacks. InputError for a campaign that cannot be judged or a model that it cannot have."""
     begin = perf_counter()
     model, known = sized_model(model, campaign), all_sized(known, scale_for(campaign))
+    check_suitable([term.effect for term in model.terms], campaign)
     whole = trusted(completed(campaign), model)
-    check_suitable([term.effect for term in model.terms], whole)
     candidates, refused = suitable(whole, model, known)
     cases, attempts = program(whole), Attempts()
     shelf = Shelf(cases, model, candidates, say)

@@ -11,7 +11,7 @@ import numpy as np
 from pipeline.diagnose.evidence import PLAUSIBLE
 from pipeline.diagnose.picture import Picture, picture
 from pipeline.diagnose.signatures import Look, Probe, Say, hidden, look, probed, probes, signatures
-from pipeline.inference.fit import Fit, fit, unfitted
+from pipeline.inference.fit import WORK, Fit, allowance, fit, unfitted
 from pipeline.inference.model import Model, Term
 from pipeline.inference.parts import at_rows
 from pipeline.inference.prediction import Prediction, predict
@@ -24,8 +24,6 @@ from vjm.effects.base import Effect
 from vjm.work import TooMuch, spent
 
 Names = frozenset[str]
-AT_ONCE = 4
-"""Sets that are begun together: between groups a search may end."""
 FEW_READINGS = 24
 """Readings up to which a set has no numbers that they do not see: two of the largest effects would take them all."""
 
@@ -101,10 +99,11 @@ class Shelf:
     def _fit_all(self, new: Mapping[Names, Mapping[str, float]]) -> None:
         # What takes longest is begun first: rows that choose their side, then other kinks.
         every = sorted(new, key=self._quickness)
-        for first in range(0, len(every), AT_ONCE):
-            order = every[first : first + AT_ONCE]
-            more = f" and {len(every) - first - 1} more" if len(every) - first > 1 else ""
-            self._begun(self._title(order[0]) + more)
+        while every:
+            self._begun(self._title(every[0]) + (f" and {len(every) - 1} more" if len(every) > 1 else ""))
+            # No more at once than there is work left for: where one ends the search, none runs beside it in vain.
+            count = max(1.0, min(len(every), (self.ends - spent()) / (WORK * allowance(self.whole))))
+            order, every = every[: int(count)], every[int(count) :]
             calls = [(self._model(names), partial(self._fitted, names, new[names])) for names in order]
             made = dict(zip(order, fits_at_once(calls, self.whole), strict=True))
             for names in new:

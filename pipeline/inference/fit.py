@@ -55,13 +55,14 @@ evaluation takes a hundred times as long."""
 class Fit:
     """A model at its best fit to the tests that may be fitted.
 
-    prediction, residual: there. evaluations: of the whole campaign.
+    prediction, residual: there. evaluations: of the whole campaign. ended: whether its work ran out before.
     """
 
     model: Model
     prediction: Prediction
     residual: Residual
     evaluations: int
+    ended: bool = False
 
     @cached_property
     def whitened(self) -> Array:
@@ -136,12 +137,12 @@ def fit(
     (rows, own), *others = program.by_role
     begin = start if start is None or not others else at_rows(start, program, own, rows)
     aim = Objective(model, own, begin)
-    values = model.values
+    values, ended = model.values, False
     if model.free:
-        values = _descend(aim, watch, plausible, share)
+        values, ended = _descend(aim, watch, plausible, share)
     prediction, there = aim.at(values)
     if not others:
-        return Fit(model.at(values), prediction, there, aim.count)
+        return Fit(model.at(values), prediction, there, aim.count, ended)
     pieces = [(rows, own, prediction)]
     for rest, apart in others:
         near = None if start is None else at_rows(start, program, apart, rest)
@@ -149,7 +150,7 @@ def fit(
         held.again(values)
         pieces.append((rest, apart, held.at(values)[0]))
     whole = joined(program, pieces)
-    return Fit(model.at(values), whole, residual(program, whole), aim.count)
+    return Fit(model.at(values), whole, residual(program, whole), aim.count, ended)
 
 
 SETTLED = 3.0
@@ -200,8 +201,11 @@ class _Pulled:
         return np.vstack([self.aim.jacobian(values) * self.scale, self.pull])
 
 
-def _descend(aim: Objective, watch: Callable[[str], None] | None, plausible: float, share: float) -> Array:
-    """Values (P,) of least chi-square near those of the model: Levenberg-Marquardt in a box.
+def _descend(
+    aim: Objective, watch: Callable[[str], None] | None, plausible: float, share: float
+) -> tuple[Array, bool]:
+    """Values (P,) of least chi-square near those of the model, and whether the work ended before: Levenberg-Marquardt
+    in a box.
 
     Each step solves the linear problem within the bounds exactly (P. B. Stark, R. L. Parker, Computational
     Statistics 10, 1995), so that effects leave the bound where they begin at once. With residuals in sigmas the
@@ -258,7 +262,7 @@ def _descend(aim: Objective, watch: Callable[[str], None] | None, plausible: flo
         over = spent() > ends or drags(past, here.size)
         if vain or damping > 1e6 or losses == LOSSES or ground.circling or over:
             break
-    return ground.end(place, values)
+    return ground.end(place, values), spent() > ends
 
 
 def _reach(it: Parameter) -> tuple[float, float]:

@@ -127,9 +127,15 @@ def _straight(land: Landscape, k: int) -> Interval:
     value, span = float(land.values[k]), land.ranges[k]
     std = float(np.sqrt(land.ridge(k)[1]))
     low, high = (value + side * Z * std for side in (-1, 1))
-    ends = (low if low > span.low else span.end(-1), high if high < span.high else span.end(1))
     seen = std < span.high - span.low
-    return Interval(value, std if seen else np.inf, *ends, "wald" if seen else "undetermined")
+    open_ends = low <= span.low and high >= span.high
+    return Interval(
+        value,
+        std if seen else np.inf,
+        low if low > span.low else span.end(-1),
+        high if high < span.high else span.end(1),
+        "wald" if seen and not open_ends else "undetermined",
+    )
 
 
 def _at_once(land: Landscape, calls: Sequence[Callable[[], Out]]) -> list[Out]:
@@ -229,6 +235,23 @@ def _shift(land: Landscape, k: int, side: int, guess: float, room: float, way: A
         if outside - inside < CLOSE * outside:
             return step
     return step
+
+
+def has_an_end(land: Landscape, k: int) -> bool:
+    """Whether the interval of a number ends before its bounds on any side, without a search for where."""
+    value, span = float(land.values[k]), land.ranges[k]
+    way, variance = land.ridge(k)
+    std, width = float(np.sqrt(variance)), span.high - span.low
+    if not std < width:
+        return False
+    rooms = {side: span.room(value, side) for side in (-1, 1)}
+    if max(rooms.values()) > FARTHER * Z * std:
+        return True
+    for side, room in rooms.items():
+        most = RISE + (0.0 if span.end(side) is None else span.doubt)
+        if room > 1e-6 * width and land.rise(k, side * room, way, most)[0] > most:
+            return True
+    return False
 
 
 def holds_null(land: Landscape, k: int) -> bool:

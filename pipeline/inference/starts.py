@@ -71,7 +71,8 @@ def best_fit(
         for k, it in enumerate(begins)
     ]
     fits = fits_at_once(list(zip(begins, calls, strict=True)), program)
-    if not kinked and _doubtful(fits[0], program, new):
+    # One that ran out of its work would do so again.
+    if not kinked and not fits[0].ended and _doubtful(fits[0], program, new):
         there = _typical(fits[0].model, new)
         spent += 1
         # Where the linear step from there promises no more there is nothing to find.

@@ -13,6 +13,7 @@ from scipy.optimize import brentq, least_squares
 from pipeline.inference.intervals import (
     Interval,
     correlations,
+    has_an_end,
     holds_null,
     intervals,
     only_together,
@@ -208,6 +209,32 @@ def test_what_the_data_do_not_see_is_undetermined() -> None:
     assert found[2].low == 0.0 and found[2].high is None
     assert only_together(there) == [(2, 3)]
     assert correlations(there) == []
+
+
+@pytest.mark.parametrize(
+    ("std", "range_", "kind"),
+    [
+        (0.1, Range(-1.0, 1.0, 0.0), "wald"),
+        # 1.96 standard errors reach one bound, both, and past the whole range.
+        (0.5, Range(-0.5, 3.0, 0.0), "profile"),
+        (0.8, Range(-1.0, 1.0, 0.0), "undetermined"),
+        (3.0, Range(-1.0, 1.0, 0.0), "undetermined"),
+        (0.5, Range(0.0, 1.2, 0.0, one_sided=True), "undetermined"),
+        (0.5, Range(0.0, 2.0, 0.0, one_sided=True), "profile"),
+    ],
+)
+def test_a_number_has_an_end_where_its_interval_has_one(std: float, range_: Range, kind: str) -> None:
+    there = land(linear(np.array([[1.0 / std]]), np.array([0.3 / std])), np.array([0.2]), [range_])
+    assert has_an_end(there, 0) is (kind != "undetermined")
+    assert intervals(there)[0].kind == kind
+    assert (straight(there)[0].kind == "undetermined") is (kind == "undetermined")
+
+
+def test_an_interval_on_one_branch_has_no_end_though_its_parabola_has() -> None:
+    """A residual that levels off: tanh(4 a) = 0 ± 1 rises to 1 at any a, where the parabola sees ± 0.25."""
+    toy = Toy(lambda v: np.tanh(4.0 * v), lambda v: np.atleast_2d(4.0 / np.cosh(4.0 * v) ** 2))
+    there = land(toy, np.array([0.0]), [Range(-1.4, 1.4, 0.0)])
+    assert intervals(there)[0].kind == "undetermined" and not has_an_end(there, 0)
 
 
 def test_correlations_are_those_of_the_inverse() -> None:

@@ -131,7 +131,7 @@ def test_no_step_of_a_fit_goes_most_of_the_way_to_where_an_effect_is_strongest()
         return residuals(values)
 
     aim.residuals = seen  # type: ignore[method-assign]
-    assert _descend(aim, None, np.inf)[0] == pytest.approx(0.00215, rel=0.01)
+    assert _descend(aim, None, np.inf, 1.0)[0][0] == pytest.approx(0.00215, rel=0.01)
     low = model.free[0].bounds[0]
     assert all(value >= low + 0.499 * (before - low) for before, value in pairwise(tried))
     assert min(tried) < low + 0.501 * (max(tried) - low), "the first step would have gone farther"
