@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from functools import lru_cache
+
 import numpy as np
 from numpy.typing import ArrayLike
 
@@ -19,9 +21,16 @@ def stiffness_matrix(name: str, value: ArrayLike) -> Array:
 
     Tested after scaling to a unit diagonal, so that N/mm and N·mm/rad weigh the same.
     """
-    k = np.array(value, dtype=float)
+    k = np.asarray(value, dtype=float)
     if k.shape != (6, 6):
         raise ValueError(f"{name} must be a 6x6 matrix, got shape {k.shape}")
+    return _checked(name, k.tobytes())
+
+
+@lru_cache(maxsize=4096)
+def _checked(name: str, values: bytes) -> Array:
+    """The same of a matrix by its values: a mechanism is altered many times, its matrices seldom."""
+    k = np.frombuffer(values).reshape(6, 6)
     if not np.all(np.isfinite(k)):
         raise ValueError(f"{name} must have finite entries")
     if np.any(np.diag(k) <= 0):

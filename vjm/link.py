@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Hashable
 from dataclasses import dataclass, field, replace
+from functools import cached_property
 
 import numpy as np
 
@@ -53,9 +55,24 @@ class Link:
         """The bar with its stiffness scaled."""
         return replace(self, stiffness=scale * self.stiffness)
 
+    @cached_property
+    def by_value(self) -> ByValue:
+        """The bar as a key, equal to that of every bar of the same shape and stiffness."""
+        arrays = (self.stiffness, self.base_give, self.tip_give)
+        return ByValue((self.length, *(each.tobytes() for each in arrays), *self.bow, self.fibres), self)
+
     @property
     def give(self) -> Array:
         """(6, 6) compliance at the tip of what stands between bar and hinges."""
         lever = np.eye(6)
         lever[1, 5], lever[2, 4] = self.length, -self.length
         return lever @ self.base_give @ lever.T + self.tip_give
+
+
+@dataclass(frozen=True)
+class ByValue:
+    """A bar by what its model is made of: all but its slides and what it grows by. For a cache: fits build the same bar
+    a hundred times for one that differs."""
+
+    values: tuple[Hashable, ...]
+    link: Link = field(compare=False)

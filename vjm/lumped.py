@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import Literal
 
 import numpy as np
@@ -10,7 +11,7 @@ import numpy as np
 from vjm.bars import Limb, check_station, compliance_at_tip, spring_joints
 from vjm.chain import Element, Fixed, Mark
 from vjm.frames import Array, move_stiffness
-from vjm.link import Link
+from vjm.link import ByValue, Link
 from vjm.refined import Refined
 
 SpringAt = Literal["tip", "middle", "base"]
@@ -57,11 +58,14 @@ class Lumped:
         """(6, 6) of bar, bow and ends together; that of the bar untouched where there is nothing else."""
         if not (np.any(link.bow) or np.any(link.base_give) or np.any(link.tip_give)):
             return link.stiffness
-        if np.any(link.bow):
-            compliance = compliance_at_tip(Refined(_BOWED).limb(link))
-        else:
-            compliance = np.linalg.inv(link.stiffness) + link.give
+        compliance = _bowed(link.by_value) if np.any(link.bow) else np.linalg.inv(link.stiffness) + link.give
         return np.asarray(np.linalg.inv(0.5 * (compliance + compliance.T)), dtype=np.float64)
+
+
+@lru_cache(maxsize=1024)
+def _bowed(key: ByValue) -> Array:
+    """(6, 6) compliance at the tip of a bowed bar and its ends."""
+    return compliance_at_tip(Refined(_BOWED).limb(key.link))
 
 
 def _ahead(distance: float) -> Fixed:

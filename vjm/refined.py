@@ -28,6 +28,7 @@ phi. The segments in series are the bar, to rounding.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 
@@ -36,7 +37,7 @@ from vjm.chain import Element, Fixed, Joint, Mark, Role
 from vjm.fibres import Fibres
 from vjm.frames import Array, exp
 from vjm.laws import BeamColumn, Law, Spring
-from vjm.link import Link
+from vjm.link import ByValue, Link
 from vjm.section import Section
 from vjm.yielding import Yielding, strain_rates
 
@@ -65,43 +66,50 @@ class Refined:
             raise ValueError(f"a bar has one segment or more, got {self.segments}")
 
     def limb(self, link: Link) -> Limb:
-        n, parts = self.segments, self._parts(link)
-        start, end = _bowed_ends(link)
-        pieces = [_segment(k, parts) for k in range(n)]
-        elements = [*start, *(e for piece in pieces for e in piece), *end]
-        full = np.zeros((6 * n, 6 * n))
-        for k, matrix in enumerate(parts.stiffness):
-            full[6 * k : 6 * k + 6, 6 * k : 6 * k + 6] = matrix[_ORDER[:, None], _ORDER]
-        numbers = (6 * np.arange(n)[:, None] + _ORDER).ravel()
-        shape = bowed_shape(link, parts)
-        law = BeamColumn(parts.stiffness, parts.curvature, parts.softening, parts.coupling, shape)
-        laws: tuple[Law, ...] = (law,)
-        if link.fibres is not None:
-            laws = (law, yielding(link.length, link.stiffness, link.fibres, parts, shape))
-        stretch = np.zeros((n, 6))
-        stretch[:, 0] = 1.0 / n
-        return Limb(
-            tuple(elements),
-            full,
-            shape[:, _ORDER].ravel(),
-            stretch[:, _ORDER].ravel(),
-            tuple(Spring(tuple(numbers.tolist()), each) for each in laws),
-            _stations(start, pieces, parts.size),
-        )
+        return _limb(self, link.by_value)
 
     def reach(self, link: Link, station: float) -> tuple[Element, ...]:
         check_station(station)
-        parts = self._parts(link)
+        parts = self.shares(link)
         last = min(int(station * self.segments), self.segments - 1)
         before = [e for k in range(last) for e in _segment(k, parts)]
         bent = _bent(last, parts, station * self.segments - last)
         return (*_bowed_ends(link)[0], *before, *bent)
 
-    def _parts(self, link: Link) -> Shares:
+    def shares(self, link: Link) -> Shares:
+        """What each segment gets, with the ends of the bar as they give."""
         parts = share_out(link.length, link.stiffness, self.segments)
         parts.curvature[:, 3] = self.polar_radius**2 * self.segments / link.length
         _give_way(parts, link)
         return parts
+
+
+@lru_cache(maxsize=128)
+def _limb(model: Refined, key: ByValue) -> Limb:
+    link = key.link
+    n, parts = model.segments, model.shares(link)
+    start, end = _bowed_ends(link)
+    pieces = [_segment(k, parts) for k in range(n)]
+    elements = [*start, *(e for piece in pieces for e in piece), *end]
+    full = np.zeros((6 * n, 6 * n))
+    for k, matrix in enumerate(parts.stiffness):
+        full[6 * k : 6 * k + 6, 6 * k : 6 * k + 6] = matrix[_ORDER[:, None], _ORDER]
+    numbers = (6 * np.arange(n)[:, None] + _ORDER).ravel()
+    shape = bowed_shape(link, parts)
+    law = BeamColumn(parts.stiffness, parts.curvature, parts.softening, parts.coupling, shape)
+    laws: tuple[Law, ...] = (law,)
+    if link.fibres is not None:
+        laws = (law, yielding(link.length, link.stiffness, link.fibres, parts, shape))
+    stretch = np.zeros((n, 6))
+    stretch[:, 0] = 1.0 / n
+    return Limb(
+        tuple(elements),
+        full,
+        shape[:, _ORDER].ravel(),
+        stretch[:, _ORDER].ravel(),
+        tuple(Spring(tuple(numbers.tolist()), each) for each in laws),
+        _stations(start, pieces, parts.size),
+    )
 
 
 @dataclass(frozen=True, eq=False)
@@ -259,6 +267,7 @@ def _segment(number: int, parts: Shares) -> tuple[Element, ...]:
     return (*_turn(number, (X, Y, Z)), ahead, *_moved(number, moves), *_turn(number, (Z, Y, X)))
 
 
+@lru_cache(maxsize=1024)
 def _turn(number: int, axes: tuple[tuple[float, float, float], ...]) -> tuple[Joint, ...]:
     """Half of the segment's rotation; in the reverse order the other half, which makes the whole symmetric."""
     return tuple(Joint("rotation", axis, Role.VIRTUAL, f"r{axis.index(1.0)}.{number}", 0.5) for axis in axes)

@@ -24,6 +24,7 @@ from vjm.effects.base import Parameter
 from vjm.work import spent
 
 Array = NDArray[np.float64]
+Watch = Callable[[str], None]
 STEPS = 40
 PROMISE = 1e-3
 """Of chi-square, of which noise makes one for every number, a step of 0.03 standard errors; where the model leaves
@@ -125,7 +126,7 @@ def fit(
     model: Model,
     program: Program,
     start: Prediction | None = None,
-    watch: Callable[[str], None] | None = None,
+    watch: Watch | None = None,
     plausible: float = np.inf,
     share: float = 1.0,
 ) -> Fit:
@@ -201,11 +202,8 @@ class _Pulled:
         return np.vstack([self.aim.jacobian(values) * self.scale, self.pull])
 
 
-def _descend(
-    aim: Objective, watch: Callable[[str], None] | None, plausible: float, share: float
-) -> tuple[Array, bool]:
-    """Values (P,) of least chi-square near those of the model, and whether the work ended before: Levenberg-Marquardt
-    in a box.
+def _descend(aim: Objective, watch: Watch | None, plausible: float, share: float) -> tuple[Array, bool]:
+    """Values (P,) near the model's of least chi-square, and whether the work ran out: Levenberg-Marquardt in a box.
 
     Each step solves the linear problem within the bounds exactly (P. B. Stark, R. L. Parker, Computational
     Statistics 10, 1995), so that effects leave the bound where they begin at once. With residuals in sigmas the

@@ -63,7 +63,7 @@ class Range:
 @dataclass(eq=False)
 class Landscape:
     """A sum of squares about its minimum at values (P,): ridges, profiles. ranges: of each number. most: work
-    (`vjm.work`) that one look may take."""
+    (`vjm.work`) that its intervals may take."""
 
     problem: LeastSquares
     values: Array

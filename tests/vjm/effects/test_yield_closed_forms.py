@@ -14,7 +14,7 @@ import pytest
 from scipy.integrate import quad
 from scipy.optimize import brentq
 
-from vjm import yielding
+from vjm import refined, yielding
 from vjm.effects import catalogue
 from vjm.effects.base import Rig
 from vjm.equilibrium import load_path
@@ -117,7 +117,13 @@ def test_the_stations_resolve_the_edge_of_the_plastic_zone(monkeypatch: pytest.M
     places, shares = lobatto(4 * yielding.STATIONS)
     for name, value in (("STATIONS", len(places)), ("_PLACES", places), ("_SHARES", shares)):
         monkeypatch.setattr(yielding, name, value)
-    np.testing.assert_allclose(deflection(bar()), found, rtol=0, atol=1e-3 * plastic.max())
+    # What was made of the bar is remembered by its values, which the stations are none of.
+    refined._limb.cache_clear()
+    try:
+        closer = deflection(bar())
+    finally:
+        refined._limb.cache_clear()
+    np.testing.assert_allclose(closer, found, rtol=0, atol=1e-3 * plastic.max())
 
 
 def test_unloading_is_elastic_and_leaves_a_set() -> None:
