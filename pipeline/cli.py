@@ -1,6 +1,5 @@
 """The command line: wiring only. Exit codes: 0 done, 2 bad input, 3 the numerics failed, 130 interrupted."""
 
-import shlex
 import sys
 from collections.abc import Callable
 from dataclasses import replace
@@ -11,6 +10,7 @@ import typer
 
 from pipeline.errors import InputError
 from pipeline.system import missing_libraries
+from pipeline.typed import typed
 
 app = typer.Typer(
     add_completion=False,
@@ -311,11 +311,6 @@ def sweep(
     asked = Asked(manipulator, out, low, high, points, workers, dask, chunk, quiet)
     asked = replace(asked, effects=effect or (), effects_from=effects_from or (), wrench=wrench, rise=rise)
     guarded(lambda: run_sweep(replace(asked, pictures=pictures)))
-
-
-def typed() -> str:
-    """The command line that was given."""
-    return shlex.join(["python", "-m", "pipeline", *sys.argv[1:]])
 
 
 def guarded(work: Callable[[], object]) -> None:

@@ -6,7 +6,8 @@ from pathlib import Path
 
 from pipeline.errors import InputError
 from pipeline.progress import Progress
-from pipeline.system import require_libraries
+from pipeline.system import require
+from pipeline.typed import INSTALLED
 from pipeline.validation.case import load_case
 from pipeline.validation.detail import COARSE, DEFAULT, FINE
 
@@ -19,14 +20,14 @@ def validate(name: str, coarse: bool, fine: bool, out: Path | None, quiet: bool,
     """The whole validation of a case, and its report; `typed` is the command line."""
     detail = COARSE if coarse else FINE if fine else DEFAULT
     case = load_case(name, max(detail.study))
-    require_libraries()
+    require("solid")
     from pipeline.validation.result import write_result
     from pipeline.validation.run import run
     from pipeline.validation.workshop import Workshop
 
     progress = Progress(quiet)
     # Only the default look at the paper's case replaces the report that is kept with the project.
-    kept = name == "orthoglide" and detail is DEFAULT
+    kept = name == "orthoglide" and detail is DEFAULT and not INSTALLED
     folder = out or (KEPT if kept else OWN / f"{case.name}-{detail.name}")
     usable(folder, f"--out {folder}")
     usable(WORKSHOP, f"the folder for intermediate results, {WORKSHOP},")
@@ -53,7 +54,7 @@ def redraw(folder: Path, quiet: bool) -> None:
         first = error.errors()[0]
         place = ".".join(map(str, first["loc"])) or "the file"
         raise InputError(f"{path} is not a saved result: {place}: {first['msg']}") from error
-    require_libraries()
+    require("solid")
     print(f"report: {draw(folder, Progress(quiet))}")
 
 

@@ -10,6 +10,7 @@ from signal import SIG_IGN, SIGINT, signal
 from typing import Any, TypeVar
 
 from pipeline.errors import InputError
+from pipeline.system import require
 from pipeline.threads import EVERY
 
 Out = TypeVar("Out")
@@ -66,10 +67,8 @@ def _deaf() -> None:
 
 @contextmanager
 def _dask(workers: int, address: str) -> Iterator[Any]:
-    try:
-        distributed = import_module("dask.distributed")
-    except ImportError:
-        raise InputError("--dask needs the package distributed: pip install '.[distributed]'") from None
+    require("distributed")
+    distributed = import_module("dask.distributed")
     if address == "local":
         cluster = distributed.LocalCluster(n_workers=workers, threads_per_worker=1, dashboard_address=None)
         with cluster, distributed.Client(cluster) as client:

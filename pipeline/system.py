@@ -5,8 +5,10 @@ import os
 import shutil
 import subprocess
 import sys
+from importlib.util import find_spec
 
 from pipeline.errors import InputError
+from pipeline.typed import INSTALLED, NAME
 
 # Debian's package of each; without libEGL pyvista's first picture ends the process without a word.
 NEEDED = {
@@ -18,6 +20,29 @@ NEEDED = {
     "libXft.so.2": "libxft2",
     "libXinerama.so.1": "libxinerama1",
 }
+
+
+EXTRAS = {
+    "solid": ("gmsh", "meshio", "pyvista"),
+    "studio": ("pyvista", "trame", "trame_plotly", "trame_pyvista", "trame_vtk", "trame_vuetify"),
+    "distributed": ("dask", "distributed"),
+}
+"""Parts of the program that are installed on demand, by the name of the extra, with the packages that each brings."""
+
+
+def require(extra: str) -> None:
+    """Raise InputError that names what to install, packages and libraries of the system, for such a part."""
+    missing = [name for name in EXTRAS[extra] if find_spec(name) is None]
+    packages = missing_packages() if extra in ("solid", "studio") else []
+    if not missing and not packages:
+        return
+    if not missing:
+        raise InputError(missing_libraries())
+    install = f"pip install '{NAME}[{extra}]'" if INSTALLED else "make setup"
+    system = f" and apt-get install -y {' '.join(packages)} (names of Debian and Ubuntu)" if packages else ""
+    raise InputError(
+        f"this needs {', '.join(missing)}, which are not installed; install them with: {install}{system}"
+    )
 
 
 def require_libraries() -> None:

@@ -200,7 +200,8 @@ READING: Sequence[str] = (
 
 def record(result: Json) -> Section:
     """How to read the report, and how to make it again."""
-    commands = f"{result['command']}\npython -m pipeline report DIR"
+    program = str(result["command"]).partition(" run")[0]
+    commands = f"{result['command']}\n{program} report DIR"
     return Section(
         "reading",
         "How to read this report",

@@ -15,6 +15,7 @@ from pipeline.inference.model_reading import read_model_file
 from pipeline.inference.suitable import Known, known_effects, named_effects
 from pipeline.progress import Progress
 from pipeline.provenance import commit, versions
+from pipeline.typed import command
 
 
 def add_effects(
@@ -57,9 +58,9 @@ def add_effects(
         answer.write(json)
     if out is not None:
         answer.write(out / "answer.json")
-    following = [f"python -m pipeline compare {folder}"]
+    following = [command("compare", folder)]
     if answer.verdict != "within_noise":
-        following.append(f"python -m pipeline diagnose {folder}")
+        following.append(command("diagnose", folder))
     show(answer, str(folder / NAME) if saved else f"not saved, {found.keep}", following, quiet)
 
 
@@ -86,7 +87,7 @@ def remove_effects(
     save(folder / NAME, found, campaign, known)
     if json is not None:
         found.answer.write(json)
-    show(found.answer, str(folder / NAME), [f"python -m pipeline compare {folder}"], quiet)
+    show(found.answer, str(folder / NAME), [command("compare", folder)], quiet)
 
 
 def starting_model(

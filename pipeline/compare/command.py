@@ -17,6 +17,7 @@ from pipeline.inference.model import Model
 from pipeline.inference.model_reading import read_model_file
 from pipeline.inference.suitable import known_effects
 from pipeline.progress import Progress
+from pipeline.typed import command
 
 MODEL = "model.toml"
 RESULT = "comparison.json"
@@ -53,7 +54,7 @@ def compare(
         show(result)
         shown = result.model_of(result.shown)
         if not shown.within_noise and not shown.untested:
-            print(f"next: python -m pipeline diagnose {folder}")
+            print(f"next: {command('diagnose', folder)}")
     return result
 
 

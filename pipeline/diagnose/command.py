@@ -14,6 +14,7 @@ from pipeline.diagnose.table import show
 from pipeline.diagnose.words import answered
 from pipeline.inference.suitable import known_effects
 from pipeline.progress import Progress
+from pipeline.typed import command
 
 
 def diagnose_campaign(
@@ -48,5 +49,5 @@ def diagnose_campaign(
 
 def _following(answer: Answer, folder: Path) -> list[str]:
     if answer.verdict == "identified":
-        return [f"python -m pipeline add {folder} {' '.join(answer.added)}"]
+        return [command("add", folder, *answer.added)]
     return []

@@ -14,6 +14,7 @@ from pipeline.diagnose.diagnosis import Diagnosis
 from pipeline.diagnose.table import STEP
 from pipeline.improve.steps import Step
 from pipeline.terminal import cell, lean, terminal
+from pipeline.typed import command
 from reports.quantities import sigma
 
 
@@ -43,17 +44,13 @@ def closing(answer: Answer, found: Diagnosis, saved: str, following: Iterable[st
     else:
         out.print("Nothing was added: no effect is certain.")
     if not quiet:
-        for command in following:
-            out.print(f"next: {escape(command)}", soft_wrap=True)
+        for each in following:
+            out.print(f"next: {escape(each)}", soft_wrap=True)
 
 
 def following(answer: Answer, verdict: Verdict, folder: Path, out: Path | None) -> list[str]:
     """Commands to go on with, or back."""
-    some = (
-        [f"python -m pipeline remove {folder} {answer.added[-1]}   (undoes the last step)"]
-        if answer.added
-        else []
-    )
+    some = [f"{command('remove', folder, answer.added[-1])}   (undoes the last step)"] if answer.added else []
     if verdict == "ambiguous":
-        some.append(f"python -m pipeline plan {folder}")
+        some.append(command("plan", folder))
     return some

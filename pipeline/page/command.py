@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import shlex
 from collections.abc import Sequence
 from pathlib import Path
 
@@ -24,6 +23,7 @@ from pipeline.page.collect import Subject, collect
 from pipeline.page.isolability import attempted_isolability, isolability_anew
 from pipeline.page.record import NAME, Page
 from pipeline.progress import Progress, Stage
+from pipeline.typed import command
 
 RESULTS, RESULT = Path("results"), "result.json"
 
@@ -165,11 +165,11 @@ def _commands(
     folder: Path, model: Path | None, effects: Sequence[Path], diagnosing: bool, answer: Path | None
 ) -> tuple[str, ...]:
     """The command line that makes the page again; the campaign's name of its folder, not where it lies."""
-    parts = ["python", "-m", "pipeline", "report", str(folder)]
+    parts = ["report", str(folder)]
     for option, value in (
         ("--model", model),
         *(("--effects-from", e) for e in effects),
         ("--answer", answer),
     ):
         parts += [] if value is None else [option, str(value)]
-    return (shlex.join([*parts, *(["--diagnose"] if diagnosing else [])]),)
+    return (command(*parts, *(["--diagnose"] if diagnosing else [])),)

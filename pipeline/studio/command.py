@@ -4,22 +4,18 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Sequence
-from importlib.util import find_spec
 from pathlib import Path
 
 from pipeline.campaign import read
 from pipeline.errors import InputError
-
-PACKAGES = ("trame", "trame_plotly", "trame_pyvista", "trame_vtk", "trame_vuetify")
+from pipeline.system import require
 
 
 def studio(folder: Path | None, port: int, browser: bool, effects_from: Sequence[Path] = ()) -> None:
     """Serve. InputError for a campaign that cannot be read, or where the studio's packages are missing."""
     if folder is not None:
         read(folder)
-    for name in PACKAGES:
-        if find_spec(name) is None:
-            raise InputError(f"the studio needs the package {name}: make setup installs it")
+    require("studio")
     from pipeline.studio.view import Studio
     from reports.errors import ReportError
 

@@ -23,6 +23,7 @@ from pipeline.page.record import Isolability, Page
 from pipeline.plan.command import plan_of
 from pipeline.plan.record import Plan
 from pipeline.provenance import commit, versions
+from pipeline.typed import command
 
 Say = Callable[[str], None]
 Kind = Literal["open", "add", "remove", "diagnose", "plan", "export"]
@@ -116,5 +117,5 @@ def _exported(task: Task, subject: Subject, say: Say) -> Done:
     fits = answer is not None and set(answer.effects) == set(subject.model.names)
     shown = replace(subject, answer=answer, isolability=task.isolability) if fits else subject
     assert task.out is not None
-    commands = (f"python -m pipeline report {task.folder}",)
+    commands = (command("report", task.folder),)
     return Done("export", written=write_page(collect(shown, commands, say), task.out))

@@ -7,10 +7,12 @@ import importlib.util
 import inspect
 import pkgutil
 import sys
+import warnings
 from pathlib import Path
 from types import ModuleType
 
 from vjm.effects.base import Effect
+from vjm.effects.checkout_names import ABOVE, install
 
 
 def catalogue() -> dict[str, Effect]:
@@ -36,6 +38,7 @@ def from_file(path: Path) -> dict[str, Effect]:
     module = importlib.util.module_from_spec(spec)
     # Dataclasses of the file look their own module up.
     sys.modules[module.__name__] = module
+    elsewhere = install() if ABOVE else None
     try:
         spec.loader.exec_module(module)
         found = {effect.name: effect for effect in defined_in(module)}
@@ -43,7 +46,11 @@ def from_file(path: Path) -> dict[str, Effect]:
         del sys.modules[module.__name__]
         raise ValueError(f"{path}: {type(error).__name__}: {error}") from error
     if not found:
-        raise ValueError(f"{path}: found no class that inherits from vjm.effects.base.Effect")
+        raise ValueError(f"{path}: found no class that inherits from parastiff.Effect")
+    if elsewhere and elsewhere.asked:
+        elsewhere.asked = False
+        said = f"{path}: imports from vjm, its name in a checkout; write: from parastiff import Effect, Parameter"
+        warnings.warn(said, FutureWarning, stacklevel=2)
     return found
 
 
