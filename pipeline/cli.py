@@ -13,7 +13,6 @@ from pipeline.system import missing_libraries
 from pipeline.typed import typed
 
 app = typer.Typer(
-    add_completion=False,
     no_args_is_help=True,
     pretty_exceptions_enable=False,
     help="Stiffness of parallelogram linkages: virtual springs, finite elements, and where they disagree.",
@@ -123,6 +122,19 @@ def compare(
     from pipeline.compare.command import compare
 
     guarded(lambda: compare(campaign, model, json, out, quiet, effects_from or []))
+
+
+@app.command()
+def demo(
+    out: Annotated[
+        Path, typer.Argument(metavar="OUT", help="Folder for the copy; it must not be there.")
+    ] = Path("parastiff-demo"),
+    quiet: Quiet = False,
+) -> None:
+    """The shipped campaign, copied: compare it, find what is missing, add it, compare again."""
+    from pipeline.demo import demo
+
+    guarded(lambda: demo(out, quiet))
 
 
 @app.command()

@@ -11,6 +11,7 @@ from pipeline.campaign.complaints import Complaints, shown
 from pipeline.campaign.control import controls
 from pipeline.campaign.head import Description, Head
 from pipeline.campaign.manipulator_table import ManipulatorTable, reached
+from pipeline.campaign.mapped.sources import Sources
 from pipeline.campaign.model import Gauge, Rig, Vector
 from pipeline.campaign.names import (
     DISPLACEMENT,
@@ -39,10 +40,11 @@ def describe(text: str, complaints: Complaints, folder: FilePath | None = None) 
     gauges = reader.gauges(top.gauges, rig)
     noise = reader.noise(top.noise)
     heads = reader.heads(top.tests, top.rig, rig)
+    sources = Sources(reader.raw, reader.gauge_names, reader.checked, reader.say).found()
     complaints.check()
     if rig is None:
         raise AssertionError("a rig that cannot be used has raised a complaint")
-    return Description(top.name, rig, noise, gauges, heads)
+    return Description(top.name, rig, noise, gauges, heads, sources)
 
 
 class _Reader:
@@ -63,9 +65,9 @@ class _Reader:
     def top(self) -> Top:
         version = self.raw.get("schema", 1)
         if type(version) is int and version != 1:
-            self._say(("schema",), f"is {shown(version)}, allowed is 1")
+            self.say(("schema",), f"is {shown(version)}, allowed is 1")
             self.complaints.check()
-        top = self._checked(Top, self.raw, (), "")
+        top = self.checked(Top, self.raw, (), "")
         if top is None:
             self.complaints.check()
             raise AssertionError("a table that cannot be used has raised a complaint")
@@ -74,16 +76,16 @@ class _Reader:
     def rig(self, raw: Raw) -> Rig | None:
         if raw.get("kind") == "manipulator":
             return self._manipulator(raw)
-        table = self._checked(RigTable, raw, ("rig",), "rig")
+        table = self.checked(RigTable, raw, ("rig",), "rig")
         return None if table is None else table.rig()
 
     def _manipulator(self, raw: Raw) -> Rig | None:
-        described = self._checked(ManipulatorTable, raw, ("rig",), "rig")
+        described = self.checked(ManipulatorTable, raw, ("rig",), "rig")
         try:
             return None if described is None else described.rig(self.folder)
         except InputError as error:
             for said in str(error).splitlines():
-                self._say(("rig", "file"), said, "rig.file")
+                self.say(("rig", "file"), said, "rig.file")
         return None
 
     def gauges(self, raw: list[Raw], rig: Rig | None) -> tuple[Gauge, ...]:
@@ -93,21 +95,21 @@ class _Reader:
         for k, entry in enumerate(raw):
             name = entry.get("name")
             place = f"gauge {shown(name)}" if isinstance(name, str) else f"gauges.{k}"
-            table = self._checked(GaugeTable, entry, ("gauges", k), place)
+            table = self.checked(GaugeTable, entry, ("gauges", k), place)
             if table is None:
                 continue
             if table.name in (gauge.name for gauge in gauges):
-                self._say(("gauges", k, "name"), "is there twice, allowed is each name once", place)
+                self.say(("gauges", k, "name"), "is there twice, allowed is each name once", place)
             elif gauge_column(table.name) in known_columns(()) or table.name in (
                 DISPLACEMENT,
                 FORCE,
                 SUPPORT,
             ):
-                self._say(("gauges", k, "name"), "is taken, allowed is a name of its own", place)
+                self.say(("gauges", k, "name"), "is taken, allowed is a name of its own", place)
             elif rig is not None and rig.kind == "manipulator":
-                self._say(("gauges", k), "is on a manipulator, whose campaigns have no gauges yet", place)
+                self.say(("gauges", k), "is on a manipulator, whose campaigns have no gauges yet", place)
             elif rig is not None and rig.kind == "bar" and table.bar != 1:
-                self._say(("gauges", k, "bar"), f"bar is {table.bar}, a rig of one bar allows 1", place)
+                self.say(("gauges", k, "bar"), f"bar is {table.bar}, a rig of one bar allows 1", place)
             else:
                 gauges.append(Gauge(table.name, table.station, table.direction, table.bar))
         return tuple(gauges)
@@ -119,13 +121,13 @@ class _Reader:
         for column, value in raw.items():
             path = ("noise", column)
             if column not in known or column in KEYS:
-                self._say(path, wrong_column(column, known), f"noise.{shown(column)[1:-1]}")
+                self.say(path, wrong_column(column, known), f"noise.{shown(column)[1:-1]}")
                 continue
             try:
                 noise[column] = adapter.validate_python(value)
             except ValidationError as error:
                 for _, said in sentences(error, Top):
-                    self._say(path, said, f"noise.{column}")
+                    self.say(path, said, f"noise.{column}")
         return noise
 
     def heads(self, raw: list[Raw], base: Raw, rig: Rig | None) -> tuple[Head, ...]:
@@ -135,28 +137,28 @@ class _Reader:
             name = entry.get("id")
             place = f"test {shown(name)}" if isinstance(name, str) else f"tests.{k}"
             if isinstance(name, str) and name in seen:
-                self._say(("tests", k, "id"), "is there twice, allowed is each id once", place)
+                self.say(("tests", k, "id"), "is there twice, allowed is each id once", place)
             seen.add(str(name))
-            table = self._checked(TestTable, entry, ("tests", k), place)
+            table = self.checked(TestTable, entry, ("tests", k), place)
             if table is None:
                 continue
             own = _stand_in(base) if rig is None else self._own_rig(table, base, rig, ("tests", k), place)
             if own is not None:
                 heads.append(self._head(table, own, ("tests", k), place))
         if all(entry.get("role") == "holdout" for entry in raw):
-            self._say(("tests", 0), 'no test has role = "fit", allowed are one or more', "tests")
+            self.say(("tests", 0), 'no test has role = "fit", allowed are one or more', "tests")
         return tuple(heads)
 
     def _head(self, table: TestTable, rig: Rig, path: Path, place: str) -> Head:
         if rig.kind == "parallelogram" and table.q_deg is None:
-            self._say(path, "q_deg is missing, a parallelogram needs it", place)
+            self.say(path, "q_deg is missing, a parallelogram needs it", place)
         rig = self._posture(table, rig, path, place)
         if rig.kind == "bar" and table.q_deg:
             said = f"q_deg is {shown(table.q_deg)}, a bar lies along x and allows 0"
-            self._say((*path, "q_deg"), said, place)
+            self.say((*path, "q_deg"), said, place)
         held, mistakes = controls(table.control, rig, self.gauge_names)
         for said in mistakes:
-            self._say((*path, "control"), said, f"{place}, control")
+            self.say((*path, "control"), said, f"{place}, control")
         line = self.lines.of(*path)
         return Head(table.id, table.q_deg or 0.0, table.role, held, table.zero, rig, line)
 
@@ -164,17 +166,15 @@ class _Reader:
         """The rig with its manipulator at the point of the test; the same object for tests at the same point."""
         if rig.kind != "manipulator":
             if table.at_mm is not None:
-                self._say((*path, "at_mm"), 'at_mm is given, allowed only with kind = "manipulator"', place)
+                self.say((*path, "at_mm"), 'at_mm is given, allowed only with kind = "manipulator"', place)
             return rig
         if table.q_deg is not None:
-            self._say((*path, "q_deg"), "q_deg is given, a manipulator has at_mm instead", place)
+            self.say((*path, "q_deg"), "q_deg is given, a manipulator has at_mm instead", place)
         if table.at_mm is None:
-            self._say(
-                path, "at_mm is missing, a manipulator needs the point where its platform stands", place
-            )
+            self.say(path, "at_mm is missing, a manipulator needs the point where its platform stands", place)
             return rig
         if rig.manipulator is not None and (why := reached(rig, table.at_mm)):
-            self._say((*path, "at_mm"), f"is {list(table.at_mm)}: {why}", f"{place}, at_mm")
+            self.say((*path, "at_mm"), f"is {list(table.at_mm)}: {why}", f"{place}, at_mm")
         return self.postures.setdefault(table.at_mm, replace(rig, point=table.at_mm))
 
     def _own_rig(self, table: TestTable, base: Raw, rig: Rig, path: Path, place: str) -> Rig | None:
@@ -184,11 +184,11 @@ class _Reader:
             return rig
         if rig.kind == "manipulator":
             said = "is given, tests of a manipulator differ in at_mm only"
-            self._say((*path, "rig"), said, f"{place}, rig")
+            self.say((*path, "rig"), said, f"{place}, rig")
             return None
         where, place = (*path, "rig"), f"{place}, rig"
         if own.get("kind", rig.kind) != rig.kind:
-            self._say(where, f"kind is {shown(own['kind'])}, a test keeps that of the campaign", place)
+            self.say(where, f"kind is {shown(own['kind'])}, a test keeps that of the campaign", place)
             return None
         raw = dict(base)
         if "bar" in own or "bar_stiffness" in own:
@@ -198,22 +198,24 @@ class _Reader:
         stretched = own.get("length_mm", rig.length) != rig.length
         if stretched and "bar_stiffness" in raw and "bar_stiffness" not in own:
             said = "length_mm is overridden, allowed only where the bar is given by bar: a 6x6 has its length"
-            self._say(where, said, place)
+            self.say(where, said, place)
             return None
-        merged = self._checked(RigTable, raw, where, place)
+        merged = self.checked(RigTable, raw, where, place)
         return None if merged is None else merged.rig()
 
-    def _checked(self, model: type[Model], raw: Raw, path: Path, place: str) -> Model | None:
+    def checked(self, model: type[Model], raw: Raw, path: Path, place: str) -> Model | None:
+        """The table; None, with complaints, where it is none."""
         try:
             return model.model_validate(raw)
         except ValidationError as error:
             for loc, said in sentences(error, model):
                 key = ".".join(shown(step)[1:-1] if isinstance(step, str) else str(step) for step in loc)
                 dot = "." if place == "rig" or place.startswith(("gauges.", "tests.")) else ", "
-                self._say((*path, *loc), said, dot.join(filter(None, [place, key])))
+                self.say((*path, *loc), said, dot.join(filter(None, [place, key])))
         return None
 
-    def _say(self, path: Path, said: str, place: str | None = None) -> None:
+    def say(self, path: Path, said: str, place: str | None = None) -> None:
+        """A complaint about a key. place: how it is named, default the key itself."""
         where = ".".join(map(str, path)) if place is None else place
         self.complaints.add(where, said, self.lines.of(*path))
 

@@ -2,6 +2,7 @@
 
 from dataclasses import dataclass
 
+from pipeline.campaign.mapped.mapping import Source
 from pipeline.campaign.model import Gauge, Rig, Role, Zero
 
 
@@ -20,10 +21,14 @@ class Head:
 
 @dataclass(frozen=True)
 class Description:
-    """What campaign.toml says; `noise` is one sigma a column."""
+    """What campaign.toml says; `noise` is one sigma a column.
+
+    sources: of files that are read as they are declared; none where measurements.csv is as the contract has it.
+    """
 
     name: str
     rig: Rig
     noise: dict[str, float]
     gauges: tuple[Gauge, ...]
     heads: tuple[Head, ...]
+    sources: tuple[Source, ...] = ()

@@ -8,10 +8,12 @@ from pipeline.campaign.complaints import BadCampaign, Complaints
 from pipeline.campaign.description import describe
 from pipeline.campaign.head import Description
 from pipeline.campaign.long_tests import thinned
+from pipeline.campaign.mapped.assemble import measured as assembled
+from pipeline.campaign.measured import Measured
 from pipeline.campaign.model import Campaign, Data, Noise, Test
 from pipeline.campaign.names import DISPLACEMENTS, TEMPERATURE, WRENCHES, gauge_column, known_columns
 from pipeline.campaign.plausible import judge
-from pipeline.campaign.rows import data_by_test
+from pipeline.campaign.rows import data_by_test, measured_of
 from pipeline.campaign.sheet import sheet
 
 DESCRIPTION, MEASUREMENTS = "campaign.toml", "measurements.csv"
@@ -25,17 +27,13 @@ def read(folder: Path) -> Campaign:
     BadCampaign, an InputError, names file, line, key or column, what was found and what is allowed, for every
     mistake in campaign.toml, or if it has none for every mistake in measurements.csv.
     """
-    texts = _texts(folder)
-    description = describe(texts[DESCRIPTION], Complaints(str(folder / DESCRIPTION)), folder)
+    described, table = _texts(folder)
+    description = describe(described, Complaints(str(folder / DESCRIPTION)), folder)
     complaints = Complaints(str(folder / MEASUREMENTS))
-    known = known_columns(gauge.name for gauge in description.gauges)
-    frame = sheet(texts[MEASUREMENTS], known, complaints)
-    columns = set(frame.columns)
-    if not {"test", "step"} <= columns:
-        complaints.check()
-    data = data_by_test(frame, description, complaints)
+    measured, remarks = _readings(folder, description, table, complaints)
+    columns = {*measured.values, "test", "step"}
+    data = data_by_test(measured, description, complaints)
     noise = _noise(description)
-    remarks: list[str] = []
     for head in description.heads:
         if head.id in data:
             remarks += judge(head, data[head.id], description.gauges, noise, columns, complaints)
@@ -53,29 +51,50 @@ def read(folder: Path) -> Campaign:
     )
 
 
-def _texts(folder: Path) -> dict[str, str]:
-    """The text of both files; complaints about all that cannot be read."""
+def _texts(folder: Path) -> tuple[str, str | BadCampaign]:
+    """The text of both files, or what is wrong with the table: it is not needed where another file is declared."""
     if not folder.is_dir():
         found = "is a file" if folder.exists() else "does not exist"
         allowed = f"allowed is a folder with {DESCRIPTION} and {MEASUREMENTS}"
         raise BadCampaign((f"{folder}: {found}, {allowed}",))
-    texts: dict[str, str] = {}
-    sentences: list[str] = []
-    for name in (DESCRIPTION, MEASUREMENTS):
-        complaints = Complaints(str(folder / name))
-        try:
-            texts[name] = _text(folder / name, LARGEST[name], complaints)
-            complaints.check()
-        except OSError as error:
-            missing = isinstance(error, FileNotFoundError)
-            sentences.append(
-                f"{folder / name}: {'is missing' if missing else f'cannot be read: {error.strerror}'}"
-            )
-        except BadCampaign as error:
-            sentences += error.complaints
-    if sentences:
-        raise BadCampaign(tuple(sentences))
-    return texts
+    described, table = (_tried(folder / name) for name in (DESCRIPTION, MEASUREMENTS))
+    if isinstance(described, BadCampaign):
+        more = table.complaints if isinstance(table, BadCampaign) else ()
+        raise BadCampaign((*described.complaints, *more))
+    return described, table
+
+
+def _tried(path: Path) -> str | BadCampaign:
+    """The text of a file, or every complaint about it."""
+    complaints = Complaints(str(path))
+    try:
+        text = _text(path, LARGEST[path.name], complaints)
+        complaints.check()
+    except OSError as error:
+        missing = isinstance(error, FileNotFoundError)
+        return BadCampaign((f"{path}: {'is missing' if missing else f'cannot be read: {error.strerror}'}",))
+    except BadCampaign as error:
+        return error
+    return text
+
+
+def _readings(
+    folder: Path, description: Description, table: str | BadCampaign, complaints: Complaints
+) -> tuple[Measured, list[str]]:
+    """The readings, and how they were converted; complaints about those of measurements.csv as the contract has it."""
+    names = [gauge.name for gauge in description.gauges]
+    if description.sources:
+        ids = [head.id for head in description.heads]
+        found, words, said = assembled(folder, MEASUREMENTS, description.sources, ids, names)
+        if said:
+            raise BadCampaign(tuple(said))
+        return found, [f"read as declared: {each}" for each in words]
+    if isinstance(table, BadCampaign):
+        raise table
+    frame = sheet(table, known_columns(names), complaints)
+    if not {"test", "step"} <= set(frame.columns):
+        complaints.check()
+    return measured_of(frame, names, complaints), []
 
 
 def _text(path: Path, largest: int, complaints: Complaints) -> str:

@@ -1,11 +1,14 @@
 """From the table of cells to the data of each test, and what is wrong with them."""
 
+from collections.abc import Iterable
+
 import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
 from pipeline.campaign.complaints import Complaints, lines_named, shown
 from pipeline.campaign.head import Description, Head
+from pipeline.campaign.measured import Measured
 from pipeline.campaign.model import Array, Data
 from pipeline.campaign.names import DISPLACEMENTS, TEMPERATURE, WRENCHES, gauge_column, unknown_name
 from pipeline.campaign.sheet import numbers
@@ -13,24 +16,32 @@ from pipeline.campaign.sheet import numbers
 _DIGITS = 9
 
 
-def data_by_test(frame: pd.DataFrame, description: Description, complaints: Complaints) -> dict[str, Data]:
+def measured_of(frame: pd.DataFrame, gauges: Iterable[str], complaints: Complaints) -> Measured:
+    """The readings of a table of cells; complaints about those that are none."""
+    columns = (*DISPLACEMENTS, *WRENCHES, *map(gauge_column, gauges), TEMPERATURE)
+    values = {c: numbers(frame, c, complaints) for c in columns if c in frame.columns}
+    tests = tuple(frame["test"].str.strip())
+    return Measured(tests, _steps(frame, complaints), frame.index.to_numpy(dtype=np.int64), values)
+
+
+def data_by_test(measured: Measured, description: Description, complaints: Complaints) -> dict[str, Data]:
     """Data of every test that has rows, by its id; complaints about rows and steps that make no sense."""
     names = [gauge_column(gauge.name) for gauge in description.gauges]
     columns = (*DISPLACEMENTS, *WRENCHES, *names, TEMPERATURE)
-    values = np.column_stack([numbers(frame, column, complaints) for column in columns])
-    steps = _steps(frame, complaints)
-    lines = frame.index.to_numpy(dtype=np.int64)
-    rows = _rows_by_test(frame, [head.id for head in description.heads], complaints)
+    values = np.column_stack([measured.of(column) for column in columns])
+    lines = measured.lines
+    rows = _rows_by_test(measured, [head.id for head in description.heads], complaints)
     found = {}
     for head in description.heads:
         mine = rows.get(head.id)
         if mine is None:
             complaints.add(f"test {shown(head.id)}", "has no rows, allowed are one or more")
             continue
-        _rising(head, steps[mine], lines[mine], complaints)
+        steps = np.arange(mine.size, dtype=float) if measured.steps is None else measured.steps[mine]
+        _rising(head, steps, lines[mine], complaints)
         temperature = values[mine, -1]
         found[head.id] = Data(
-            np.nan_to_num(steps[mine]).astype(np.int64),
+            np.nan_to_num(steps).astype(np.int64),
             values[mine, :6],
             values[mine, 6:12],
             values[mine, 12:-1],
@@ -41,13 +52,12 @@ def data_by_test(frame: pd.DataFrame, description: Description, complaints: Comp
 
 
 def _rows_by_test(
-    frame: pd.DataFrame, known: list[str], complaints: Complaints
+    measured: Measured, known: list[str], complaints: Complaints
 ) -> dict[str, NDArray[np.int64]]:
     """Numbers of the rows of each known test, in their order."""
-    ids = frame["test"].str.strip()
-    places = pd.Series(np.arange(len(frame)), index=frame.index)
+    places = pd.Series(np.arange(len(measured.tests)), index=measured.lines)
     found = {}
-    for name, mine in places.groupby(ids.to_numpy(), sort=False):
+    for name, mine in places.groupby(np.array(measured.tests, dtype=object), sort=False):
         if name in known:
             found[str(name)] = mine.to_numpy(dtype=np.int64)
             continue

@@ -49,6 +49,10 @@ class Top(Table):
     rig: dict[str, Any]
     noise: dict[str, Any] = {}
     gauges: list[dict[str, Any]] = []
+    file: dict[str, Any] = {}
+    columns: dict[str, dict[str, Any]] = {}
+    cell: dict[str, Any] | None = None
+    derived: dict[str, dict[str, Any]] = {}
     tests: Annotated[list[dict[str, Any]], Field(min_length=1)]
 
     _name = field_validator("name")(printable)
@@ -162,6 +166,8 @@ class TestTable(Table):
     control: dict[str, str]
     zero: Zero = "nominal"
     rig: dict[str, Any] = {}
+    file: dict[str, Any] = {}
+    columns: dict[str, dict[str, Any]] = {}
 
     _id = field_validator("id")(printable)
 

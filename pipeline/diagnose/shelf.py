@@ -137,11 +137,12 @@ class Shelf:
         if found.order <= smaller.order:
             return found
         model = _valued(self._model(names), smaller.model)
-        again = fit(model, self.whole, smaller.prediction, None, PLAUSIBLE)
-        again = replace(again, evaluations=again.evaluations + found.evaluations)
+        # One that ran out of its work would do so again.
+        again = found if found.ended else fit(model, self.whole, smaller.prediction, None, PLAUSIBLE)
+        count = found.evaluations + (0 if again is found else again.evaluations)
         if again.order <= smaller.order:
-            return again
-        return replace(_at_null(model, smaller), evaluations=again.evaluations)
+            return replace(again, evaluations=count)
+        return replace(_at_null(model, smaller), evaluations=count, ended=again.ended)
 
     def _keep(self, names: Names, found: Fit) -> None:
         old = self.fits.get(names)

@@ -21,7 +21,7 @@ from vjm.equilibrium import Equilibrium
 
 Bare = States | list[np.ndarray]
 """A state without its mechanism: what laws of a user's own are made of may not be sent."""
-Numbers = tuple[NDArray[np.float64], Prediction, list[Bare], int]
+Numbers = tuple[NDArray[np.float64], Prediction, list[Bare], int, bool]
 
 
 def fits_at_once(calls: Sequence[tuple[Model, Callable[[], Fit]]], program: Program) -> list[Fit]:
@@ -37,15 +37,15 @@ def _numbers(call: Callable[[], Fit]) -> Numbers:
         s if isinstance(s, States) else s.arrays
         for s in cast(list[Equilibrium | States], found.prediction.states)
     ]
-    return found.model.values, replace(found.prediction, states=()), bare, found.evaluations
+    return found.model.values, replace(found.prediction, states=()), bare, found.evaluations, found.ended
 
 
 def _fit(model: Model, numbers: Numbers, program: Program) -> Fit:
-    values, prediction, bare, evaluations = numbers
+    values, prediction, bare, evaluations, ended = numbers
     model = model.at(values)
     states = tuple(_state(model, program, *each) for each in zip(program.groups, bare, strict=True))
     prediction = replace(prediction, states=states)
-    return Fit(model, prediction, residual(program, prediction), evaluations)
+    return Fit(model, prediction, residual(program, prediction), evaluations, ended)
 
 
 def _state(model: Model, program: Program, group: Group, bare: Bare) -> Equilibrium:

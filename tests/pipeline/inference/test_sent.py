@@ -20,6 +20,7 @@ from pipeline.inference.intervals import intervals, landscape
 from pipeline.inference.model import Model
 from pipeline.inference.program import program
 from pipeline.inference.sent import fits_at_once
+from pipeline.inference.starts import best_fit
 from pipeline.processors import may_use
 from tests.pipeline.inference import manipulators
 from vjm import work
@@ -62,6 +63,18 @@ def test_a_fit_comes_back_as_it_was_made(two: None) -> None:
         same, kept = linearised(here.model, CASES, start=here.prediction, shift=here.residual.shift)
         np.testing.assert_array_equal(again.values, same.values)
         np.testing.assert_array_equal(left.values, kept.values)
+
+
+def test_that_the_work_ran_out_is_sent_and_the_fit_not_begun_again(
+    two: None, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    assert not any(each.ended for each in fits())
+    monkeypatch.setattr("pipeline.inference.fit.WORK", 0.0)
+    assert all(each.ended for each in fits())
+    # At its bound it would be looked for a second time.
+    model = Model().with_effects([catalogue()[name] for name in (BASE, "joint_torsional_stiffness")])
+    alone, best = fit(model, CASES), best_fit(model, CASES, ["joint_torsional_stiffness"])
+    assert best.ended and best.evaluations == alone.evaluations
 
 
 def test_a_fit_of_a_whole_manipulator_comes_back_as_well(two: None) -> None:

@@ -1,0 +1,91 @@
+"""Text with one row a line: cells parted by commas, semicolons, tabs or blanks."""
+
+from __future__ import annotations
+
+import csv
+import io
+from math import inf
+from pathlib import Path
+
+from pipeline.campaign.mapped.grid import BadTable, Grid
+from pipeline.campaign.mapped.schema import FileTable
+
+SUFFIXES = (".csv", ".txt", ".dat", ".tsv", ".asc", ".lvm", ".log")
+SEPARATORS = {"tab": "\t", "space": " "}
+LOOKED_AT = 200
+"""Rows by which the separator is told where none was declared."""
+
+
+def read(path: Path, how: FileTable) -> tuple[Grid, ...]:
+    """The one table of a text file."""
+    text = _decoded(path.read_bytes(), how.encoding)
+    mark = SEPARATORS.get(how.separator or "", how.separator or "") or _separator(text, how)
+    rows, lines = [], []
+    if mark == " ":
+        for number, line in enumerate(text.splitlines(), start=1):
+            rows.append(tuple(line.split()))
+            lines.append(number)
+        return (Grid(tuple(rows), tuple(lines)),)
+    source = csv.reader(io.StringIO(text, newline=""), delimiter=mark, skipinitialspace=True)
+    start = 1
+    try:
+        for cells in source:
+            rows.append(tuple(cells))
+            lines.append(start)
+            start = source.line_num + 1
+    except csv.Error as error:
+        raise BadTable(f"cannot be split into cells: {error}", start) from error
+    return (Grid(tuple(rows), tuple(lines)),)
+
+
+def _decoded(content: bytes, encoding: str) -> str:
+    if content.startswith((b"\xff\xfe", b"\xfe\xff")):
+        encoding = "utf-16"
+    try:
+        text = content.decode("utf-8-sig" if encoding.lower() in ("utf-8", "utf8") else encoding)
+    except UnicodeDecodeError as error:
+        line = error.object.count(b"\n", 0, error.start) + 1
+        said = f"byte {error.object[error.start]:#04x} is not in the encoding {encoding}; is it cp1252? Write encoding"
+        raise BadTable(f'{said} = "cp1252" under [file]', line) from error
+    except LookupError as error:
+        raise BadTable(
+            f"the encoding {encoding!r} is unknown, allowed is one such as utf-8 or cp1252"
+        ) from error
+    if "\0" in text:
+        raise BadTable("is a binary file, allowed is text", text.count("\n", 0, text.index("\0")) + 1)
+    return text
+
+
+def _separator(text: str, how: FileTable) -> str:
+    """The mark that parts all rows into as many cells, more than one and no more than the header has; a question where
+    several do."""
+    first = max(how.header_row, how.units_row or 0) + how.skip
+    lines = [line for line in text.splitlines()[first : first + LOOKED_AT] if line.strip()]
+    if how.comment:
+        lines = [line for line in lines if not line.startswith(how.comment)]
+    head = text.splitlines()[how.header_row - 1 : how.header_row] if how.header_row else []
+    able = {}
+    for mark in (",", ";", "\t", " "):
+        counts = {len(cells) for cells in _split(lines, mark)}
+        most = len(_split(head, mark)[0]) if head else inf
+        if len(counts) == 1 and 1 < min(counts) <= most:
+            able[mark] = counts.pop()
+    # A comma that is a decimal mark parts cells too where another mark does so.
+    if "," in able and {";", "\t"} & set(able):
+        del able[","]
+    # So does a blank beside a mark that was put there on purpose.
+    if " " in able and len(able) > 1:
+        del able[" "]
+    if len(able) == 1:
+        return next(iter(able))
+    names = {"\t": "tab", " ": "space"}
+    if not able:
+        return ","
+    found = " or ".join(f'"{names.get(mark, mark)}"' for mark in able)
+    raise BadTable(f"cells may be parted by {found}, write separator = ... under [file]")
+
+
+def _split(lines: list[str], mark: str) -> list[list[str]]:
+    if mark == " ":
+        return [line.split() for line in lines]
+    return list(csv.reader(lines, delimiter=mark))

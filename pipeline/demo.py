@@ -1,0 +1,33 @@
+"""`demo`: the shipped campaign is copied, and the way from readings to a model that explains them is gone once."""
+
+from __future__ import annotations
+
+import shutil
+from pathlib import Path
+
+from pipeline.command import usable
+from pipeline.errors import InputError
+from pipeline.typed import command
+
+SHIPPED = Path(__file__).resolve().parents[1] / "examples" / "bench"
+
+
+def demo(folder: Path, quiet: bool = False) -> None:
+    """Copy the campaign and show what each command says of it. InputError where the folder is there already."""
+    if folder.exists():
+        raise InputError(f"{folder} is there already, allowed is a folder that is not")
+    usable(folder, f"the folder {folder}")
+    shutil.copytree(SHIPPED, folder)
+    from pipeline.compare.command import compare
+    from pipeline.improve.command import improve_campaign
+
+    print(
+        f"{folder}: a copy of a bench with two bars and four hinges, 66 settled load steps, made by finite elements"
+    )
+    print(f"\n$ {command('compare', folder)}", flush=True)
+    compare(folder, quiet=quiet)
+    print(f"\n$ {command('improve', folder)}", flush=True)
+    improve_campaign(folder, quiet=quiet)
+    print(f"\n$ {command('compare', folder)}", flush=True)
+    compare(folder, quiet=quiet)
+    print(f"\nnext: {command('report', folder)}", flush=True)
