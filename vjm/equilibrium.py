@@ -281,7 +281,9 @@ def picard(
             matrix[..., x, x] = weight[x, None] * chain.respond(strain, problem.memory[members, past]).tangent
         return rows, dense(rows, matrix, place.scale)
 
-    return record(problem, newton(without_hessians, first, place.scale, tolerance, limit), batch)
+    return record(
+        problem, newton(without_hessians, first, place.scale, tolerance, limit, patience=limit), batch
+    )
 
 
 def load_path(

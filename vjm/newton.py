@@ -22,6 +22,8 @@ RUNNING = f"{Reason.NOT_CONVERGED} within the allowed iterations"
 DIVERGED = f"{Reason.NOT_CONVERGED}: the residual grew beyond bounds"
 SINGULAR = f"{Reason.NOT_CONVERGED}: it met a singular matrix"
 DIVERGED_ABOVE = 1e4
+# Near a solution the residual falls by far more than a half in an iteration; on the way there it may rise for some.
+STALLED = 12
 LARGEST_STEP = 0.5
 # Of the length, or rad: what a solution is improved by when it was nearly known is not a way that it went.
 SMALL_STEP = 1e-3
@@ -90,7 +92,13 @@ def dense(rows: Array, matrix: Array, scale: Array) -> Step:
 
 
 def newton(
-    system: System, start: Array, scale: Array, tolerance: float, limit: int, motion: np.ndarray | None = None
+    system: System,
+    start: Array,
+    scale: Array,
+    tolerance: float,
+    limit: int,
+    motion: np.ndarray | None = None,
+    patience: int = STALLED,
 ) -> Iterate:
     """Iterate every member of a batch until its largest residual is below the tolerance.
 
@@ -101,6 +109,7 @@ def newton(
     """
     end, first = unsolved(start), None
     active = np.arange(len(start))
+    best, since = np.full(len(start), np.inf), np.zeros(len(start), dtype=int)
     for _ in range(limit):
         if active.size == 0:
             break
@@ -115,7 +124,10 @@ def newton(
         end.unknowns[active[moving]] += _shortened(step[moving], motion) * scale
         end.iterations[active] += 1
         end.reason[active[moving & done]] = CONVERGED
-        active = active[moving & ~done]
+        better = size < 0.5 * best[active]
+        best[active] = np.where(better, size, best[active])
+        since[active] = np.where(better, 0, since[active] + 1)
+        active = active[moving & ~done & (since[active] < patience)]
         first = end.unknowns.copy() if first is None else first
     if first is not None:
         part = slice(None) if motion is None else motion

@@ -70,15 +70,17 @@ def test_loaded_stiffness_is_the_slope_of_the_load(
     pose = linkage.unloaded_pose + move
     steps = np.diag(np.repeat([1e-3, 3e-6], 3))
     here = equilibrium(linkage, pose, follow=True)
-    state = equilibrium(linkage, np.stack([pose + steps, pose - steps]), start=here, follow=True)
-    assert np.all(state.converged)
     # Near a critical load, and past it, the slope changes too fast for a difference to follow.
-    assume(here.unstable == 0 and np.all(state.unstable == 0))
+    assume(here.unstable == 0)
+    state = equilibrium(linkage, np.stack([pose + steps, pose - steps]), start=here, follow=True)
+    assume(np.all(state.unstable <= 0))
+    assert np.all(state.converged)
     numerical = ((state.load[0] - state.load[1]) / (2 * np.diag(steps))[:, None]).T
     loaded = stiffness.loaded_stiffness(here)
     scaled = ROTATION_RADIUS[:, None] * np.stack([loaded, numerical, loaded.T]) * ROTATION_RADIUS
     size = np.max(np.abs(scaled[0]))
-    assert np.max(np.abs(scaled[1] - scaled[0])) < 1e-6 * size
+    # A difference of these steps is off by its third derivative, which grows towards a critical load.
+    assert np.max(np.abs(scaled[1] - scaled[0])) < 1e-5 * size
     assert np.max(np.abs(scaled[2] - scaled[0])) < 1e-11 * size
 
 
