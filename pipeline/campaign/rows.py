@@ -83,17 +83,11 @@ def _steps(frame: pd.DataFrame, complaints: Complaints) -> Array:
 
 
 def _rising(head: Head, steps: Array, lines: NDArray[np.int64], complaints: Complaints) -> None:
-    """Complaints about steps that are there twice or go back."""
+    """Complaints about steps that go back; equal steps, one after the other, are repeats of one reading."""
     place = f"test {shown(head.id)}"
-    first: dict[float, int] = {}
     highest = -1.0
     for step, line in zip(steps.tolist(), lines.tolist(), strict=True):
-        if np.isnan(step):
-            continue
-        if step in first:
-            complaints.add(place, f"step {step:.0f} is there already, in line {first[step]}", line)
-        elif step < highest:
+        if step < highest:
             said = f"step {step:.0f} comes after step {highest:.0f}, allowed is the order of the measurement"
             complaints.add(place, said, line)
-        first.setdefault(step, line)
-        highest = max(highest, step)
+        highest = max(highest, step) if step == step else highest

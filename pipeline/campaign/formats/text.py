@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import io
+import re
 from math import inf
 from pathlib import Path
 
@@ -12,6 +13,7 @@ from pipeline.campaign.mapped.schema import FileTable
 
 SUFFIXES = (".csv", ".txt", ".dat", ".tsv", ".asc", ".lvm", ".log")
 SEPARATORS = {"tab": "\t", "space": " "}
+_PLAIN = re.compile(r"[+-]?\d*[.,]?\d*(?:[eE][+-]?\d+)?|[^\s,;]+")
 LOOKED_AT = 200
 """Rows by which the separator is told where none was declared."""
 
@@ -57,32 +59,28 @@ def _decoded(content: bytes, encoding: str) -> str:
 
 
 def _separator(text: str, how: FileTable) -> str:
-    """The mark that parts all rows into as many cells, more than one and no more than the header has; a question where
-    several do."""
+    """The mark that parts all rows into as many cells, more than one and no more than the header has, and of several
+    that under which most cells are numbers or words; a question where two do so alike."""
     first = max(how.header_row, how.units_row or 0) + how.skip
-    lines = [line for line in text.splitlines()[first : first + LOOKED_AT] if line.strip()]
+    every = text.splitlines()
+    lines = [line for line in every[first : first + LOOKED_AT] if line.strip()]
     if how.comment:
         lines = [line for line in lines if not line.startswith(how.comment)]
-    head = text.splitlines()[how.header_row - 1 : how.header_row] if how.header_row else []
-    able = {}
+    head = every[how.header_row - 1 : how.header_row] if how.header_row else []
+    shares: dict[str, float] = {}
     for mark in (",", ";", "\t", " "):
-        counts = {len(cells) for cells in _split(lines, mark)}
+        rows = _split(lines, mark)
+        counts = {len(cells) for cells in rows}
         most = len(_split(head, mark)[0]) if head else inf
         if len(counts) == 1 and 1 < min(counts) <= most:
-            able[mark] = counts.pop()
-    # A comma that is a decimal mark parts cells too where another mark does so.
-    if "," in able and {";", "\t"} & set(able):
-        del able[","]
-    # So does a blank beside a mark that was put there on purpose.
-    if " " in able and len(able) > 1:
-        del able[" "]
-    if len(able) == 1:
-        return next(iter(able))
-    names = {"\t": "tab", " ": "space"}
-    if not able:
-        return ","
-    found = " or ".join(f'"{names.get(mark, mark)}"' for mark in able)
-    raise BadTable(f"cells may be parted by {found}, write separator = ... under [file]")
+            cells = [cell.strip() for row in rows for cell in row]
+            shares[mark] = sum(bool(_PLAIN.fullmatch(cell)) for cell in cells) / len(cells)
+    best = [mark for mark, share in shares.items() if share == max(shares.values())]
+    if len(best) > 1:
+        names = {"\t": "tab", " ": "space"}
+        found = " or ".join(f'"{names.get(mark, mark)}"' for mark in best)
+        raise BadTable(f"cells may be parted by {found}, write separator = ... under [file]")
+    return best[0] if best else ","
 
 
 def _split(lines: list[str], mark: str) -> list[list[str]]:

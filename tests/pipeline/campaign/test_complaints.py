@@ -143,7 +143,6 @@ MEASUREMENTS = {
     "column without name": ("temperature_C\n", "\n", "line 1: column 10 has no name"),
     "empty controlled": ("2,0.01,", "2,,", "line 3, column x_mm: is empty, but test 'axial_q+30' controls x by disp"),
     "empty gauge": ("9.5,0.25", "9.5,", "line 6, column mid_mm: is empty, but test 'lateral' controls y by gauge mid"),
-    "step twice": ("q+30,5", "q+30,2", "line 4, test 'axial_q+30': step 2 is there already, in line 3"),
     "steps unsorted": ("q+30,2", "q+30,7", "line 4, test 'axial_q+30': step 5 comes after step 7"),
     "step is no number": ("q+30,2", "q+30,two", "line 3, column step: holds 'two', allowed is a whole number"),
     "step is a fraction": ("q+30,2", "q+30,2.5", "line 3, column step: holds '2.5'"),
