@@ -141,6 +141,7 @@ class Answer(Record):
     seed: int | None = None
     commit: str = ""
     versions: dict[str, str] = {}  # noqa: RUF012 (pydantic copies it)
+    data: dict[str, str] = {}  # noqa: RUF012
 
     def text(self) -> str:
         """JSON; what is not finite is null."""

@@ -163,6 +163,7 @@ def _compared(
         seconds=round(perf_counter() - start, 3),
         commit=commit(),
         versions=versions(),
+        data=dict(cases.campaign.digests),
     )
     keep = _keeps(before, after, numbers, nothing) if new else ""
     said = sentences(answer, cases.campaign.remarks, nothing or "", in_units(after), keep)

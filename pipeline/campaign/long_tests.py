@@ -32,7 +32,7 @@ def thinned(test: Test, noise: Noise, gauges: tuple[Gauge, ...]) -> tuple[Test, 
         return test, ""
     rows = kept(test.inputs(gauges), _sigma(test, noise, gauges))
     said = (
-        f"measurements.csv, test {test.id}: of {count} rows {len(rows)} are used: the ends, where the loading turns, "
+        f"test {test.id}: of {count} rows {len(rows)} are used: the ends, where the loading turns, "
         "and between them rows at equal distances along it"
     )
     return replace(test, data=_part(test.data, rows)), said

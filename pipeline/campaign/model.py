@@ -167,7 +167,11 @@ class Test:
 
 @dataclass(frozen=True, eq=False)
 class Campaign:
-    """A measurement campaign; `remarks` are sentences on what was accepted but may deserve a look."""
+    """A measurement campaign.
+
+    remarks: sentences on what was accepted but may deserve a look. digests: (name, SHA-256) of each file it was read
+    from.
+    """
 
     name: str
     rig: Rig
@@ -176,3 +180,4 @@ class Campaign:
     tests: tuple[Test, ...]
     folder: Path | None = None
     remarks: tuple[str, ...] = ()
+    digests: tuple[tuple[str, str], ...] = ()

@@ -1,5 +1,6 @@
 """A campaign folder: two files in, a frozen Campaign out, or every complaint about them. Nothing is written."""
 
+from hashlib import sha256
 from pathlib import Path
 
 import numpy as np
@@ -30,7 +31,7 @@ def read(folder: Path) -> Campaign:
     described, table = _texts(folder)
     description = describe(described, Complaints(str(folder / DESCRIPTION)), folder)
     complaints = Complaints(str(folder / MEASUREMENTS))
-    measured, remarks = _readings(folder, description, table, complaints)
+    measured, remarks, files = _readings(folder, description, table, complaints)
     columns = {*measured.values, "test", "step"}
     data = data_by_test(measured, description, complaints)
     noise = _noise(description)
@@ -46,9 +47,16 @@ def read(folder: Path) -> Campaign:
     shorter = [thinned(test, noise, description.gauges) for test in tests]
     tests = tuple(test for test, _ in shorter)
     remarks += [said for _, said in shorter if said]
+    files = [folder / DESCRIPTION, *files]
+    digests = tuple((_named(path, folder), sha256(path.read_bytes()).hexdigest()) for path in files)
     return Campaign(
-        description.name, description.rig, noise, description.gauges, tests, folder, tuple(remarks)
+        description.name, description.rig, noise, description.gauges, tests, folder, tuple(remarks), digests
     )
+
+
+def _named(path: Path, folder: Path) -> str:
+    """A file as it is named from the campaign's folder."""
+    return path.relative_to(folder).as_posix() if path.is_relative_to(folder) else str(path)
 
 
 def _texts(folder: Path) -> tuple[str, str | BadCampaign]:
@@ -80,21 +88,22 @@ def _tried(path: Path) -> str | BadCampaign:
 
 def _readings(
     folder: Path, description: Description, table: str | BadCampaign, complaints: Complaints
-) -> tuple[Measured, list[str]]:
-    """The readings, and how they were converted; complaints about those of measurements.csv as the contract has it."""
+) -> tuple[Measured, list[str], list[Path]]:
+    """The readings, how they were converted, and from which files; complaints about measurements.csv, where that
+    is as the contract has it."""
     names = [gauge.name for gauge in description.gauges]
     if description.sources:
         ids = [head.id for head in description.heads]
-        found, words, said = assembled(folder, MEASUREMENTS, description.sources, ids, names)
+        found, words, said, files = assembled(folder, MEASUREMENTS, description.sources, ids, names)
         if said:
             raise BadCampaign(tuple(said))
-        return found, [f"read as declared: {each}" for each in words]
+        return found, [f"read as declared: {each}" for each in words], files
     if isinstance(table, BadCampaign):
         raise table
     frame = sheet(table, known_columns(names), complaints)
     if not {"test", "step"} <= set(frame.columns):
         complaints.check()
-    return measured_of(frame, names, complaints), []
+    return measured_of(frame, names, complaints), [], [folder / MEASUREMENTS]
 
 
 def _text(path: Path, largest: int, complaints: Complaints) -> str:

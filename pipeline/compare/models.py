@@ -86,6 +86,7 @@ def compare_models(campaign: Campaign, saved: Model | None = None, say: Say = la
         models=tuple(found),
         seconds=round(perf_counter() - start, 3),
         versions=versions(),
+        data=dict(whole.digests),
         commit=commit(),
     )
 

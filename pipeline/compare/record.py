@@ -112,6 +112,7 @@ class Comparison(Record):
     models: tuple[ModelError, ...]
     seconds: float
     versions: dict[str, str]
+    data: dict[str, str] = {}  # noqa: RUF012 (pydantic copies it)
     commit: str
 
     def model_of(self, key: str) -> ModelError:

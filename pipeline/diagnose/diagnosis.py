@@ -222,6 +222,7 @@ def answer_of(it: Diagnosis, sentences: tuple[str, ...] = (), found: Fit | None 
         seconds=it.seconds,
         commit=commit(),
         versions=versions(),
+        data=dict(it.campaign.digests),
     )
 
 

@@ -26,20 +26,22 @@ LARGEST = 2**30
 
 def measured(
     folder: Path, default: str, sources: Sequence[Source], ids: Sequence[str], gauges: Iterable[str]
-) -> tuple[Measured, tuple[str, ...], list[str]]:
-    """All readings, how they were converted, and complaints. default: the file where none is named."""
+) -> tuple[Measured, tuple[str, ...], list[str], list[Path]]:
+    """All readings, how they were converted, complaints, and the files. default: the one where none is named."""
     names = tuple(gauges)
     parts: list[Measured] = []
     words: dict[str, None] = {}
     said: list[str] = []
+    files: list[Path] = []
     for source in sources:
         for path in _paths(folder, source.declared.file.path or default, said):
             complaints = Complaints(str(path))
+            files.append(path)
             for part, how in _of_file(path, source, ids, names, complaints):
                 parts.append(part)
                 words |= dict.fromkeys(how)
             said += complaints.sentences()
-    return _joined(parts), tuple(words), said
+    return _joined(parts), tuple(words), said, list(dict.fromkeys(files))
 
 
 def _paths(folder: Path, pattern: str, said: list[str]) -> list[Path]:

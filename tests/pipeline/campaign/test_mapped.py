@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import io
+from hashlib import sha256
 from pathlib import Path
 
 import numpy as np
@@ -296,6 +297,15 @@ def test_a_sheet_a_file_or_a_block_of_rows_for_each_test(tmp_path: Path, how: st
     assert [test.id for test in found.tests] == ["load", "again"]
     agrees(found)
     agrees(found, test=1)
+
+
+def test_the_files_are_told_by_their_digests(tmp_path: Path) -> None:
+    for name in ("load", "again"):
+        (tmp_path / f"{name}.dat").write_text(table(["Travel", "Load"], Z, FZ))
+    layout = '[file]\npath = "*.dat"\ntest_from = "file"\n' + SIMPLE.format(z="mm", fz="N")
+    found = dict(campaign(tmp_path, layout, tests=TWO).digests)
+    assert list(found) == ["campaign.toml", "again.dat", "load.dat"]
+    assert found["load.dat"] == sha256((tmp_path / "load.dat").read_bytes()).hexdigest()
 
 
 def test_channels_of_a_group(tmp_path: Path) -> None:

@@ -12,7 +12,7 @@ from pipeline.campaign import Campaign, read, write
 from pipeline.errors import InputError
 from tests.pipeline.campaign.example import BAR, BAR_CSV, CSV, TOML, laid
 
-OWN_PLACE = {"folder", "lines", "remarks"}
+OWN_PLACE = {"folder", "lines", "remarks", "digests"}
 
 
 def same(a: object, b: object) -> bool:
