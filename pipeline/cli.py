@@ -125,6 +125,30 @@ def compare(
 
 
 @app.command()
+def init(
+    out: Annotated[
+        Path, typer.Argument(metavar="OUT", help="Folder for the campaign; it must not have one.")
+    ],
+    file: Annotated[
+        Path | None, typer.Argument(metavar="FILE", help="Readings: a text, a workbook, TDMS.")
+    ] = None,
+    kind: Annotated[str, typer.Option(help="Of the rig: bar, parallelogram.")] = "bar",
+) -> None:
+    """A campaign to fill in, commented; what a file of readings says by itself is filled in already."""
+    from pipeline.init.command import init
+
+    guarded(lambda: init(out, file, kind))
+
+
+@app.command()
+def check(campaign: CampaignFolder) -> None:
+    """What a campaign's files say, as they are read; every complaint about them, with its line."""
+    from pipeline.check import check
+
+    guarded(lambda: check(campaign))
+
+
+@app.command()
 def demo(
     out: Annotated[
         Path, typer.Argument(metavar="OUT", help="Folder for the copy; it must not be there.")

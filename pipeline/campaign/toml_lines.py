@@ -3,7 +3,7 @@
 import re
 
 _HEADER = re.compile(r"\s*(\[\[?)\s*([A-Za-z0-9_.\"' -]+?)\s*\]\]?\s*(#.*)?$")
-_KEY = re.compile(r"\s*([A-Za-z0-9_-]+)\s*[=.]")
+_KEY = re.compile(r'\s*(?:([A-Za-z0-9_-]+)|"((?:[^"\\]|\\.)*)")\s*[=.]')
 
 
 class TomlLines:
@@ -25,7 +25,7 @@ class TomlLines:
                     table = (name, counts[name])
                 self._lines.setdefault(table, number)
             elif key := _KEY.match(line):
-                self._lines.setdefault((*table, key[1]), number)
+                self._lines.setdefault((*table, key[1] or _unescaped(key[2])), number)
 
     def of(self, *path: str | int) -> int | None:
         """Line, counted from 1, of the innermost part of the path that can be found."""
@@ -33,3 +33,8 @@ class TomlLines:
             if (line := self._lines.get(path[:length])) is not None:
                 return line
         return None
+
+
+def _unescaped(text: str) -> str:
+    """A quoted key without its backslashes, as far as these are those of quotes."""
+    return text.replace('\\"', '"').replace("\\\\", "\\")

@@ -68,7 +68,7 @@ def report_campaign(
     """Collect and draw; returns the page. InputError for bad input, or a place inside the campaign."""
     known = known_effects(effects_from)
     campaign = read(folder)
-    out = out or RESULTS / campaign.name
+    out = out or _own_place(folder)
     _outside(out, folder)
     usable(out, f"--out {out}")
     model, known = starting_model(campaign, folder, model_file, known)
@@ -85,6 +85,13 @@ def report_campaign(
     with progress.stage("curves") as stage:
         page = collect(subject, _commands(folder, model_file, effects_from, diagnosing, answer), stage.say)
     return write_page(page, out, progress)
+
+
+def _own_place(folder: Path) -> Path:
+    """By the folder: copies of a campaign have one name, and would overwrite each other."""
+    name = folder.resolve().name
+    place = RESULTS / name
+    return RESULTS / f"{name}-report" if place.resolve() == folder.resolve() else place
 
 
 def write_page(page: Page, out: Path, progress: Progress | None = None) -> Path:

@@ -20,7 +20,7 @@ LOOKED_AT = 200
 
 def read(path: Path, how: FileTable) -> tuple[Grid, ...]:
     """The one table of a text file."""
-    text = _decoded(path.read_bytes(), how.encoding)
+    text = decoded(path.read_bytes(), how.encoding)
     mark = SEPARATORS.get(how.separator or "", how.separator or "") or _separator(text, how)
     rows, lines = [], []
     if mark == " ":
@@ -40,7 +40,8 @@ def read(path: Path, how: FileTable) -> tuple[Grid, ...]:
     return (Grid(tuple(rows), tuple(lines)),)
 
 
-def _decoded(content: bytes, encoding: str) -> str:
+def decoded(content: bytes, encoding: str) -> str:
+    """The text of a file. BadTable where it is in another encoding, or no text."""
     if content.startswith((b"\xff\xfe", b"\xfe\xff")):
         encoding = "utf-16"
     try:
@@ -69,9 +70,9 @@ def _separator(text: str, how: FileTable) -> str:
     head = every[how.header_row - 1 : how.header_row] if how.header_row else []
     shares: dict[str, float] = {}
     for mark in (",", ";", "\t", " "):
-        rows = _split(lines, mark)
+        rows = split(lines, mark)
         counts = {len(cells) for cells in rows}
-        most = len(_split(head, mark)[0]) if head else inf
+        most = len(split(head, mark)[0]) if head else inf
         if len(counts) == 1 and 1 < min(counts) <= most:
             cells = [cell.strip() for row in rows for cell in row]
             shares[mark] = sum(bool(_PLAIN.fullmatch(cell)) for cell in cells) / len(cells)
@@ -83,7 +84,8 @@ def _separator(text: str, how: FileTable) -> str:
     return best[0] if best else ","
 
 
-def _split(lines: list[str], mark: str) -> list[list[str]]:
+def split(lines: list[str], mark: str) -> list[list[str]]:
+    """The cells of each line, parted by a mark; of blanks any number is one."""
     if mark == " ":
         return [line.split() for line in lines]
     return list(csv.reader(lines, delimiter=mark))

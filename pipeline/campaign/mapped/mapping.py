@@ -49,33 +49,39 @@ def quantities(gauges: Iterable[str]) -> dict[str, tuple[str, str]]:
 
 def mistakes(name: str, it: ColumnTable, known: Mapping[str, tuple[str, str]]) -> list[str]:
     """What is wrong with an entry of `[columns]`, each a sentence without its place."""
-    if it.what == OPEN:
-        choice = ", ".join([*known, "test", "step", IGNORED])
-        return [f'is = "?" is not decided yet, write what {shown(name)} is: {choice}']
-    if it.what.startswith(LATER):
-        instead = (
-            "one sigma for each column under [noise]" if it.what.startswith("sigma") else "at_mm in each test"
-        )
-        return [f"is = {shown(it.what)} is not read yet, write {instead}"]
-    if it.what in ("test", "step", IGNORED):
-        return [f"has a unit, {it.what} has none"] if it.unit is not None and it.what != IGNORED else []
-    if it.what not in known:
-        near = get_close_matches(it.what, list(known), n=1)
-        hint = (
-            f"did you mean {near[0]!r}?"
-            if near
-            else f"allowed are {', '.join([*known, 'test', 'step', IGNORED])}"
-        )
-        return [f"is = {shown(it.what)} is unknown, {hint}"]
     out = []
-    if it.sign not in (1, -1):
+    if it.sign == OPEN:
+        out.append('sign = "?" is not decided yet, write 1, or -1 where the column grows against the axis')
+    elif it.sign not in (1, -1):
         out.append(f"sign is {it.sign}, allowed is 1 or -1")
-    if it.unit is not None:
+    if said := _no_quantity(name, it, known):
+        return [said, *out]
+    if it.unit is not None and it.what in known:
         try:
             unit(it.unit, known[it.what][0])
         except NoUnit as error:
             out.append(f"unit: {error}")
     return out
+
+
+def _no_quantity(name: str, it: ColumnTable, known: Mapping[str, tuple[str, str]]) -> str:
+    """Why what a column is declared to be cannot be used; empty where it can."""
+    choice = ", ".join([*known, "test", "step", IGNORED])
+    if it.what == OPEN:
+        return f'is = "?" is not decided yet, write what {shown(name)} is: {choice}'
+    if it.what.startswith(LATER):
+        instead = (
+            "one sigma for each column under [noise]" if it.what.startswith("sigma") else "at_mm in each test"
+        )
+        return f"is = {shown(it.what)} is not read yet, write {instead}"
+    if it.what in ("test", "step"):
+        return "" if it.unit is None else f"has a unit, {it.what} has none"
+    if it.what == IGNORED or it.what in known:
+        return ""
+    near = get_close_matches(it.what, list(known), n=1)
+    return f"is = {shown(it.what)} is unknown, " + (
+        f"did you mean {near[0]!r}?" if near else f"allowed are {choice}"
+    )
 
 
 def unit_of(it: ColumnTable, name: str, beside: str, inside: str, quantity: str, contract: str) -> Unit | str:

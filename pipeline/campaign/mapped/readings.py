@@ -119,8 +119,9 @@ def _column(
         return None
     read = numbers(layout, name, marks, declared.file.missing, complaints)
     zero = 0.0 if it.zero == "first_row" else float(it.zero)
-    values = it.sign * (read - zero) * found.factor + found.offset
-    words = f"{it.what} = {'-' if it.sign < 0 else ''}{shown(name)}"
+    sign = -1.0 if it.sign == -1 else 1.0
+    values = sign * (read - zero) * found.factor + found.offset
+    words = f"{it.what} = {'-' if it.sign == -1 else ''}{shown(name)}"
     words += (
         " less its first row in each test" if it.zero == "first_row" else f" less {zero:g}" if zero else ""
     )

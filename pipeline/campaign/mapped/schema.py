@@ -11,7 +11,7 @@ from pipeline.campaign.tables import Number, Place, Table, Text
 Row = Annotated[int, Field(strict=True, ge=1, le=10_000_000)]
 Name = Annotated[str, Field(min_length=1, max_length=200)]
 Turn = Annotated[Number, Field(ge=-360.0, le=360.0)]
-Sign = Annotated[int, Field(strict=True)]
+Sign = Annotated[int, Field(strict=True)] | Literal["?"]
 
 
 class FileTable(Table):
@@ -50,7 +50,7 @@ class CellTable(Table):
 
     at_mm: tuple[Place, Place, Place] = (0.0, 0.0, 0.0)
     turned_deg: tuple[Turn, Turn, Turn] = (0.0, 0.0, 0.0)
-    sign: Sign = 1
+    sign: Literal[1, -1] = 1
 
 
 class DerivedTable(Table):

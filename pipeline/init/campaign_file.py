@@ -1,0 +1,129 @@
+"""The text of a campaign to fill in: every key explained, what only its owner knows a question mark."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Sequence
+
+from pipeline.campaign.mapped.layout import header_unit
+from pipeline.campaign.names import COORDINATES, known_columns
+from pipeline.init.found import Found
+from pipeline.init.words import quantity_of
+
+CHOICES = {
+    "length": "x, y or z, or the name of a gauge",
+    "angle": "rx, ry or rz",
+    "force": "fx, fy or fz",
+    "moment": "mx, my or mz",
+}
+"""What a column of each quantity may be; the axis is never guessed, nor the sign."""
+SIMPLE = {"temperature": "temperature", "time": "time", "step": "step", "test": "test"}
+KINDS = ("bar", "parallelogram")
+
+RIG = {
+    "parallelogram": """kind = "parallelogram"       # two bars between four hinges; or "bar"
+length_mm = "?"              # between the hinge axes
+width_mm = "?"               # between the bars
+bar = { EA_N = "?", EIy_Nmm2 = "?", EIz_Nmm2 = "?", GJ_Nmm2 = "?" }   # of one bar
+""",
+    "bar": """kind = "bar"                 # one bar along x; or "parallelogram"
+length_mm = "?"
+bar = { EA_N = "?", EIy_Nmm2 = "?", EIz_Nmm2 = "?", GJ_Nmm2 = "?" }
+base = "clamped"             # or "pinned"
+tip = "free"                 # or "pinned", "guided"
+""",
+}
+MORE = """# bar_stiffness = [[...], ...]   the 6x6 of one bar at its tip instead of `bar`; N, mm, rad
+# gravity = [0, 0, -1]           direction of gravity; with line_weight_N_per_mm, platform_weight_N
+# reference_temperature_C = 20.0 needed where a temperature was measured
+# fibre_y_mm, fibre_z_mm         outermost fibres of the bar, for the effect material_yield
+"""
+NOISE = """
+[noise]                      # one sigma of each sensor, in N, mm, rad, N·mm; what is left out is estimated
+# z_mm = 0.001
+# fz_N = 0.5
+"""
+
+
+def campaign_text(name: str, kind: str, file: str = "", found: Found | None = None) -> str:
+    """campaign.toml. file: beside it, of which `found` was found; without it measurements.csv is to be written."""
+    head = f"schema = 1\nname = {_quoted(name)}\n\n[rig]\n{RIG[kind]}{MORE}{NOISE}"
+    tables = "" if found is None else _file(file, found) + _columns(found)
+    return head + tables + _test(kind)
+
+
+def _file(file: str, found: Found) -> str:
+    lines = ["", "[file]", f"path = {_quoted(file)}"]
+    if found.sheet is not None:
+        lines.append(f"sheet = {_quoted(found.sheet)}")
+    if found.separator is not None:
+        lines.append(f"separator = {_quoted(found.separator)}")
+        lines.append(f'encoding = "{found.encoding}"')
+        decimal = f'decimal = "{found.decimal}"' if found.decimal else f'decimal = "?"    # {found.question}'
+        lines.append(decimal)
+    lines.append(
+        f"header_row = {found.header_row}"
+        + ("" if found.header_row else "           # none: columns are #1, #2")
+    )
+    if found.units_row is not None:
+        lines.append(f"units_row = {found.units_row}")
+    if found.skip:
+        lines.append(f"skip = {found.skip}                     # rows below these that are no data")
+    # The time is the order of the rows; it is no quantity of the model.
+    lines += [f"time_column = {_quoted(name)}" for name in _times(found)[:1]]
+    if found.merged:
+        lines.append(
+            f"fill_down = [{', '.join(map(_quoted, found.merged))}]      # empty cells repeat the one above"
+        )
+    lines.append(
+        '# test_from = "blank_row"    or "file", "sheet"; test_column = "...": of a file with several tests'
+    )
+    return "\n".join(lines) + "\n"
+
+
+def _columns(found: Found) -> str:
+    lines = []
+    times = _times(found)[:1]
+    for name, beside in zip(found.names, found.units, strict=True):
+        # A name of the contract says what it is, its axis and its unit.
+        if not name or name in times or name in known_columns(()):
+            continue
+        what = quantity_of(name, beside)
+        unit = header_unit(name)[1] or beside
+        if what in CHOICES:
+            said = "" if unit else ', unit = "?"'
+            lines.append(f'{_quoted(name)} = {{ is = "?", sign = "?"{said} }}   # {CHOICES[what]}')
+        elif what in SIMPLE:
+            lines.append(f'{_quoted(name)} = {{ is = "{SIMPLE[what] if what != "time" else "ignore"}" }}')
+        else:
+            lines.append(f'{_quoted(name)} = {{ is = "?" }}   # what it is, or "ignore"')
+    head = "\n[columns]                    # value = sign * (reading - zero), in its unit\n"
+    return head + "\n".join(lines) + "\n" if lines else ""
+
+
+def _times(found: Found) -> list[str]:
+    return [n for n, beside in zip(found.names, found.units, strict=True) if quantity_of(n, beside) == "time"]
+
+
+def _test(kind: str) -> str:
+    angle = 'q_deg = "?"                  # angle of the bars\n' if kind == "parallelogram" else ""
+    # A parallelogram swings along z unless something holds it there.
+    held = {"z"} if kind == "parallelogram" else set()
+    control = ", ".join(f'{c} = "{"displacement" if c in held else "force"}"' for c in COORDINATES)
+    return f"""
+[[tests]]                    # one for each run of the bench, from the unloaded state
+id = "test-1"
+{angle}role = "fit"                 # or "holdout": kept to look at the result with
+# zero = "nominal"           or "first_row" (sensors zeroed there), "fitted" (offsets not known)
+# "displacement" for what was moved or held, "force" for what was pushed or left free (an empty cell is no force)
+control = {{ {control} }}
+"""
+
+
+def _quoted(text: str) -> str:
+    return json.dumps(text, ensure_ascii=False)
+
+
+def plain_header(columns: Sequence[str]) -> str:
+    """The header of measurements.csv; columns that were not measured are left out by hand."""
+    return ",".join(columns) + "\n"

@@ -1,0 +1,50 @@
+"""`init` from the command line: a folder with campaign.toml to fill in, and the readings beside it."""
+
+from __future__ import annotations
+
+import shutil
+from pathlib import Path
+
+from pipeline.campaign.mapped.grid import BadTable
+from pipeline.campaign.names import known_columns
+from pipeline.campaign.reading import DESCRIPTION, MEASUREMENTS
+from pipeline.command import usable
+from pipeline.errors import InputError
+from pipeline.init.campaign_file import KINDS, campaign_text, plain_header
+from pipeline.init.found import Found, looked
+from pipeline.typed import command
+
+
+def init(folder: Path, file: Path | None, kind: str) -> None:
+    """Write the campaign. InputError where there is one, or for a file that holds no table."""
+    if kind not in KINDS:
+        raise InputError(f"--kind is {kind!r}, allowed are {', '.join(KINDS)}")
+    if (folder / DESCRIPTION).exists():
+        raise InputError(f"{folder / DESCRIPTION} is there already, allowed is a folder without one")
+    usable(folder, f"the folder {folder}")
+    found = None if file is None else _found(file)
+    folder.mkdir(parents=True, exist_ok=True)
+    if file is not None and found is not None:
+        if not (folder / file.name).exists():
+            shutil.copyfile(file, folder / file.name)
+        text = campaign_text(file.stem, kind, file.name, found)
+    else:
+        text = campaign_text(folder.resolve().name, kind)
+        if not (folder / MEASUREMENTS).exists():
+            (folder / MEASUREMENTS).write_text(plain_header(known_columns(())), encoding="utf-8")
+    (folder / DESCRIPTION).write_text(text, encoding="utf-8")
+    print(f"{folder / DESCRIPTION}: written; fill in what is a question mark")
+    if found is not None and found.question:
+        print(f"{file}: {found.question}")
+    print(f"next: {command('check', folder)}")
+
+
+def _found(file: Path) -> Found:
+    try:
+        return looked(file)
+    except FileNotFoundError:
+        raise InputError(f"{file} is missing, allowed is a file of readings") from None
+    except BadTable as error:
+        raise InputError(f"{file}: {error}") from error
+    except OSError as error:
+        raise InputError(f"{file} cannot be read: {error.strerror}") from error

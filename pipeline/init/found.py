@@ -1,0 +1,156 @@
+"""What a file of readings says by itself: its separator, where header, units and data are, how numbers are written."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+from itertools import groupby
+from pathlib import Path
+
+from pipeline.campaign.formats import by_suffix, grids
+from pipeline.campaign.formats.text import decoded, split
+from pipeline.campaign.mapped.grid import BadTable, Cell
+from pipeline.campaign.mapped.numbers import Marks, decimal_of
+from pipeline.campaign.mapped.schema import FileTable
+from pipeline.campaign.mapped.units import NoUnit, unit
+
+MARKS = (";", "\t", ",", " ")
+"""In the order in which they are preferred where they part a file alike."""
+NAMES = {"\t": "tab", " ": "space"}
+ENCODINGS = ("utf-8", "cp1252")
+LOOKED_AT = 2000
+"""Lines."""
+_NUMBER = re.compile(r"[+-]?(?:\d+(?:[.,' ]\d+)*|[.,]\d+)(?:[eE][+-]?\d+)?")
+
+
+@dataclass(frozen=True)
+class Found:
+    """Of a file.
+
+    separator: None where the format has none. header_row, units_row: counted from 1, 0 and None where there is none.
+    skip: rows below these before the data. names, units: of the columns. decimal: None where the numbers allow two
+    readings. question: what to ask then. merged: columns with a word in their first row and nothing in most others.
+    """
+
+    encoding: str
+    separator: str | None
+    sheet: str | None
+    header_row: int
+    units_row: int | None
+    skip: int
+    names: tuple[str, ...]
+    units: tuple[str, ...]
+    decimal: str | None
+    question: str = ""
+    merged: tuple[str, ...] = ()
+
+
+def looked(path: Path) -> Found:
+    """What is found. BadTable for a file without a row of numbers."""
+    if path.suffix.lower() not in by_suffix():
+        raise BadTable(
+            f"has the ending {path.suffix or 'none'}, allowed are {', '.join(sorted(by_suffix()))}"
+        )
+    if path.suffix.lower() in by_suffix() and by_suffix()[path.suffix.lower()].__name__.endswith(".text"):
+        return _of_text(path)
+    book = grids(path, FileTable(header_row=0, sheet=1))
+    rows = [tuple(row) for row in book[0].rows]
+    return _of_rows(rows, "utf-8", None, book[0].name)
+
+
+def _of_text(path: Path) -> Found:
+    content, text, used = path.read_bytes(), "", ""
+    for encoding in ENCODINGS:
+        try:
+            text, used = decoded(content, encoding), encoding
+            break
+        except BadTable:
+            continue
+    if not used:
+        raise BadTable("is no text in UTF-8 or cp1252")
+    lines = text.splitlines()[:LOOKED_AT]
+    best: tuple[int, list[tuple[Cell, ...]], str] | None = None
+    for mark in MARKS:
+        rows: list[tuple[Cell, ...]] = [tuple(cells) for cells in split(lines, mark)]
+        size = _data(rows)[2]
+        if size and (best is None or size > best[0]):
+            best = (size, rows, mark)
+    if best is None:
+        raise BadTable("has no rows of numbers, allowed is a table with two columns or more")
+    return _of_rows(best[1], used, NAMES.get(best[2], best[2]), None)
+
+
+def _of_rows(rows: list[tuple[Cell, ...]], encoding: str, separator: str | None, sheet: str | None) -> Found:
+    first, width, size = _data(rows)
+    if not size:
+        raise BadTable("has no rows of numbers, allowed is a table with two columns or more")
+    above = [k for k in range(first) if _texts(rows[k], width)]
+    units_at = above[-1] if above and _are_units(rows[above[-1]]) else None
+    header_at = next((k for k in reversed(above) if k != units_at), None)
+    names = tuple(f"#{k + 1}" for k in range(width)) if header_at is None else _padded(rows[header_at], width)
+    units = ("",) * width if units_at is None else _padded(rows[units_at], width)
+    below = max((header_at if header_at is not None else -1), (units_at if units_at is not None else -1)) + 1
+    cells = [c for row in rows[first:] for c in row if isinstance(c, str) and _NUMBER.fullmatch(c.strip())]
+    marks = decimal_of(cells, None, None)
+    return Found(
+        encoding,
+        separator,
+        sheet,
+        0 if header_at is None else header_at + 1,
+        None if units_at is None else units_at + 1,
+        first - below,
+        names,
+        units,
+        marks.decimal if isinstance(marks, Marks) else None,
+        marks if isinstance(marks, str) else "",
+        tuple(
+            names[k]
+            for k in range(width)
+            if names[k] and _merged([row[k] for row in rows[first:] if len(row) > k])
+        ),
+    )
+
+
+def _merged(column: list[Cell]) -> bool:
+    empty = sum(isinstance(c, str) and not c.strip() for c in column)
+    return 2 * empty > len(column) and isinstance(column[0], str) and bool(column[0].strip())
+
+
+def _data(rows: list[tuple[Cell, ...]]) -> tuple[int, int, int]:
+    """Of the longest run of rows alike in width with numbers: where it begins, its width, its cells with numbers."""
+    best = (0, 0, 0)
+    place = 0
+    for width, run in groupby(rows, lambda row: len(row) if len(row) > 1 and _numbers(row) else 0):
+        members = list(run)
+        size = sum(map(_numbers, members))
+        if width and size > best[2]:
+            best = (place, width, size)
+        place += len(members)
+    return best
+
+
+def _numbers(row: tuple[Cell, ...]) -> int:
+    return sum(isinstance(c, float) or bool(_NUMBER.fullmatch(c.strip())) for c in row)
+
+
+def _texts(row: tuple[Cell, ...], width: int) -> bool:
+    """Whether a row may be a header: as wide as the data, with more than one word and no number."""
+    filled = [c for c in row[:width] if not (isinstance(c, str) and not c.strip())]
+    return len(filled) > 1 and not _numbers(tuple(filled)) and len(row) >= width
+
+
+def _are_units(row: tuple[Cell, ...]) -> bool:
+    words = [str(c).strip() for c in row if str(c).strip()]
+    known = 0
+    for word in words:
+        try:
+            unit(word)
+            known += 1
+        except NoUnit as error:
+            known += "is no unit" not in str(error)
+    return bool(words) and 2 * known > len(words)
+
+
+def _padded(row: tuple[Cell, ...], width: int) -> tuple[str, ...]:
+    words = [" ".join(str(c).split()) for c in row[:width]]
+    return tuple(words + [""] * (width - len(words)))

@@ -1,0 +1,123 @@
+"""Words by which the header of a table says what a column is: the quantity alone, never an axis or a sign."""
+
+from __future__ import annotations
+
+import re
+
+from pipeline.campaign.mapped.layout import header_unit
+from pipeline.campaign.mapped.units import NoUnit, unit
+
+WORDS: dict[str, tuple[str, ...]] = {
+    "force": (
+        *("force", "load", "loadcell", "weight", "thrust", "tension", "compression", "pull"),
+        *(
+            "kraft",
+            "last",
+            "prüfkraft",
+            "zugkraft",
+            "gewicht",
+            "effort",
+            "charge",
+            "fuerza",
+            "carga",
+            "forza",
+            "carico",
+        ),
+        *("力", "荷重", "载荷", "сила", "нагрузка"),
+    ),
+    "length": (
+        *(
+            "displacement",
+            "disp",
+            "extension",
+            "deflection",
+            "travel",
+            "stroke",
+            "position",
+            "dial",
+            "gauge",
+            "crosshead",
+        ),
+        *(
+            "elongation",
+            "lvdt",
+            "indicator",
+            "height",
+            "traverse",
+            "weg",
+            "verschiebung",
+            "dehnweg",
+            "messuhr",
+            "hub",
+        ),
+        *(
+            "durchbiegung",
+            "déplacement",
+            "deplacement",
+            "flèche",
+            "fleche",
+            "course",
+            "desplazamiento",
+            "flecha",
+        ),
+        *("spostamento", "freccia", "变位", "変位", "位移", "перемещение"),
+    ),
+    "moment": ("moment", "torque", "drehmoment", "couple", "par", "coppia", "トルク", "扭矩", "момент"),
+    "angle": (
+        "angle",
+        "rotation",
+        "tilt",
+        "inclination",
+        "winkel",
+        "drehung",
+        "neigung",
+        "ángulo",
+        "angolo",
+        "угол",
+    ),
+    "temperature": ("temperature", "temp", "temperatur", "température", "temperatura", "温度"),
+    "time": (
+        "time",
+        "timestamp",
+        "elapsed",
+        "date",
+        "datetime",
+        "clock",
+        "zeit",
+        "uhrzeit",
+        "datum",
+        "temps",
+        "tiempo",
+    ),
+    "step": ("step", "stage", "index", "row", "schritt", "nr", "no", "point", "sample", "scan", "reading"),
+    "test": ("test", "specimen", "run", "versuch", "prüfling", "probe", "essai"),
+}
+"""In small letters; those of several languages. A word of two quantities stands in none."""
+_WORD = re.compile(r"[^\W\d_]+")
+
+
+def quantity_of(name: str, beside: str = "") -> str | None:
+    """What a column is by its unit, else by its words; None where these say nothing, or differ.
+
+    name: as it stands in the header. beside: its unit in a row of units.
+    """
+    stem, inside = header_unit(name)
+    by_unit = _by_unit(beside) or _by_unit(inside)
+    by_word = {what for what, words in WORDS.items() if set(_parts(stem)) & set(words)}
+    if by_unit is not None:
+        # A word may be of something else than its unit: a load in mm is a question.
+        return by_unit if not by_word or by_unit in by_word or by_word <= {"step", "test"} else None
+    return by_word.pop() if len(by_word) == 1 else None
+
+
+def _by_unit(spelling: str) -> str | None:
+    try:
+        return unit(spelling).quantity if spelling.strip() else None
+    except NoUnit:
+        return None
+
+
+def _parts(name: str) -> list[str]:
+    """Words of a name; what is written together is parted at its capitals."""
+    parted = re.sub(r"(?<=[a-zß-ÿ])(?=[A-ZÄÖÜ])", " ", name)
+    return [word.lower() for word in _WORD.findall(parted)]

@@ -1,0 +1,147 @@
+"""`init` says what a file says by itself and asks what only its owner knows; `check` refuses until that is answered."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from pipeline.campaign import BadCampaign, read
+from pipeline.campaign.mapped.grid import BadTable
+from pipeline.errors import InputError
+from pipeline.init.command import init
+from pipeline.init.found import looked
+from pipeline.init.words import WORDS, quantity_of
+from tests.conftest import Done
+
+DATA = Path(__file__).parents[2] / "cases" / "data"
+ANSWERS = {
+    'length_mm = "?"': "length_mm = 300.0",
+    'EA_N = "?"': "EA_N = 1.3e7",
+    'EIy_Nmm2 = "?"': "EIy_Nmm2 = 1.04e8",
+    'EIz_Nmm2 = "?"': "EIz_Nmm2 = 1.04e9",
+    'GJ_Nmm2 = "?"': "GJ_Nmm2 = 1.56e8",
+    'sign = "?"': "sign = -1",
+}
+
+
+def filled_in(folder: Path, **columns: str) -> None:
+    path = folder / "campaign.toml"
+    text = path.read_text(encoding="utf-8")
+    for question, answer in ANSWERS.items():
+        text = text.replace(question, answer)
+    for name, what in columns.items():
+        text = re.sub(rf'("{name}" = \{{ is = )"\?"', rf"\1{what}", text)
+    path.write_text(text, encoding="utf-8")
+
+
+def test_a_workbook_is_read_once_its_questions_are_answered(
+    tmp_path: Path, pipeline_command: Callable[..., Done]
+) -> None:
+    init(tmp_path, DATA / "c11" / "xlsx" / "measurements.xlsx", "bar")
+    done = pipeline_command("check", str(tmp_path), cwd=tmp_path)
+    assert done.code == 2 and "columns.'Dial': is = \"?\" is not decided yet" in done.err
+    assert 'sign = "?" is not decided yet' in done.err and "rig.length_mm: is '?'" in done.err
+    lines = [line for line in done.err.splitlines() if "columns." in line]
+    assert len({re.search(r"line (\d+)", line)[1] for line in lines}) == 2  # type: ignore[index]
+    filled_in(tmp_path, Dial='"z", unit = "in"', Weight='"fz", unit = "lbf"')
+    path = tmp_path / "campaign.toml"
+    path.write_text(path.read_text().replace('"test-1"', '"load"'))
+    (test,) = read(tmp_path).tests
+    np.testing.assert_allclose(
+        test.data.displacement[:, 2], 25.4 * np.array([0, 0.02, 0.04, 0.06, 0.081, 0.101, 0.12])
+    )
+    done = pipeline_command("check", str(tmp_path), cwd=tmp_path)
+    assert done.code == 0 and "sha256" in done.out and "1 in = 25.4 mm" in done.out, done.err
+
+
+@pytest.mark.parametrize(
+    ("file", "separator", "decimal", "header", "units"),
+    [
+        ("c10_raw_logger_file/measurements.csv", "space", ",", 0, None),
+        ("c10_raw_logger_file/instron_raw/measurements.csv", ",", ".", 1, 2),
+        ("c11/semicolons_comma/measurements.csv", ";", ",", 1, None),
+        ("c11/units_row/measurements.csv", ",", ".", 1, 2),
+        ("c11/spaces_in_header/measurements.csv", ",", ".", 1, None),
+        ("c11/xlsx/measurements.xlsx", None, ".", 4, 5),
+    ],
+)
+def test_the_layout_of_a_file_is_found(
+    file: str, separator: str | None, decimal: str, header: int, units: int | None
+) -> None:
+    found = looked(DATA / file)
+    assert (found.separator, found.decimal, found.header_row, found.units_row) == (
+        separator,
+        decimal,
+        header,
+        units,
+    )
+    assert not found.question
+
+
+def test_titles_another_encoding_and_numbers_of_two_readings(tmp_path: Path) -> None:
+    path = tmp_path / "a.txt"
+    path.write_bytes("Prüfung 3; M. Müller\n\nWeg/µm;Kraft (N)\n1;1.300\n2;2.500\n".encode("cp1252"))
+    found = looked(path)
+    assert (found.encoding, found.header_row, found.names) == ("cp1252", 3, ("Weg/µm", "Kraft (N)"))
+    assert found.decimal is None and "1.300 may be 1.300 or 1300" in found.question
+    init(tmp_path / "out", path, "bar")
+    with pytest.raises(BadCampaign, match="decimal"):
+        read(tmp_path / "out")
+
+
+@pytest.mark.parametrize("content", ["", "a,b\n", "one\ntwo\n", "1\n2\n3\n"])
+def test_a_file_without_a_table_is_said(tmp_path: Path, content: str) -> None:
+    (tmp_path / "a.csv").write_text(content)
+    with pytest.raises(BadTable, match="no rows of numbers"):
+        looked(tmp_path / "a.csv")
+    with pytest.raises(InputError, match=r"a\.csv: has no rows of numbers"):
+        init(tmp_path / "out", tmp_path / "a.csv", "bar")
+    assert not (tmp_path / "out").exists()
+
+
+@pytest.mark.parametrize("kind", ["bar", "parallelogram"])
+def test_an_empty_campaign_asks_for_everything_and_no_more(tmp_path: Path, kind: str) -> None:
+    init(tmp_path, None, kind)
+    with pytest.raises(BadCampaign) as caught:
+        read(tmp_path)
+    assert all("is '?'" in said for said in caught.value.complaints)
+    filled_in(tmp_path)
+    path = tmp_path / "campaign.toml"
+    path.write_text(
+        path.read_text().replace('width_mm = "?"', "width_mm = 80.0").replace('q_deg = "?"', "q_deg = 0.0")
+    )
+    (tmp_path / "measurements.csv").write_text("test,step,z_mm,fz_N\ntest-1,0,0.0,0.0\ntest-1,1,0.1,2.0\n")
+    assert read(tmp_path).rig.kind == kind
+    with pytest.raises(InputError, match="is there already"):
+        init(tmp_path, None, kind)
+
+
+@pytest.mark.parametrize(
+    ("name", "beside", "what"),
+    [
+        ("Kraft Z [N]", "", "force"),
+        ("Load", "kN", "force"),
+        ("LoadCell1", "", "force"),
+        ("Extension (mm)", "", "length"),
+        ("Traverse Position", "", "length"),
+        ("Torque", "N·m", "moment"),
+        ("Zeit", "s", "time"),
+        ("Temp_C", "", "temperature"),
+        # What says nothing, or two things, is asked about.
+        ("CH1", "", None),
+        ("Load", "mm", None),
+        ("Force Moment", "", None),
+        ("Value", "V", None),
+    ],
+)
+def test_a_quantity_is_that_of_the_unit_or_of_the_words(name: str, beside: str, what: str | None) -> None:
+    assert quantity_of(name, beside) == what
+
+
+def test_no_word_is_of_two_quantities() -> None:
+    every = [word for words in WORDS.values() for word in words]
+    assert len(every) == len(set(every)) and all(word == word.lower() for word in every)
