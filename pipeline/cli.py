@@ -9,7 +9,7 @@ from typing import Annotated, NoReturn
 import typer
 
 from pipeline.errors import InputError
-from pipeline.system import missing_libraries
+from pipeline.system import missing_libraries, wanted
 from pipeline.typed import typed
 
 app = typer.Typer(
@@ -361,6 +361,10 @@ def guarded(work: Callable[[], object]) -> None:
     except MemoryError:
         give_up("the memory of this machine is not enough; allowed is a larger mesh size, or --coarse", 3)
     except ImportError as error:
+        try:
+            wanted(error.name or "")
+        except InputError as said_better:
+            give_up(str(said_better), 2)
         give_up(missing_libraries() or str(error), 2)
     except (RuntimeError, ArithmeticError, ValueError, OSError) as error:
         # gmsh without a library of the system is an OSError.

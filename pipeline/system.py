@@ -45,6 +45,13 @@ def require(extra: str) -> None:
     )
 
 
+def wanted(package: str) -> None:
+    """Raise InputError that names what to install for a package that is missing, if it is one of an extra."""
+    for extra, packages in EXTRAS.items():
+        if package.partition(".")[0] in packages:
+            require(extra)
+
+
 def require_libraries() -> None:
     """Raise InputError that names the packages to install, all at once."""
     if said := missing_libraries():

@@ -191,9 +191,9 @@ class _Reader:
             self.say(where, f"kind is {shown(own['kind'])}, a test keeps that of the campaign", place)
             return None
         raw = dict(base)
-        if "bar" in own or "bar_stiffness" in own:
-            raw.pop("bar", None)
-            raw.pop("bar_stiffness", None)
+        if {"bar", "bar_stiffness", "section"} & set(own):
+            for key in ("bar", "bar_stiffness", "section", *(() if "section" in own else ("material",))):
+                raw.pop(key, None)
         raw |= own
         stretched = own.get("length_mm", rig.length) != rig.length
         if stretched and "bar_stiffness" in raw and "bar_stiffness" not in own:

@@ -5,10 +5,13 @@ from typing import Annotated, Any, Literal
 from pydantic import BaseModel, ConfigDict, Field, ValidationError, field_validator, model_validator
 
 from fem.frame.rig import STEEPEST_DEG
+from fem.torsion import torsion_constant
 from pipeline.campaign.complaints import shown
 from pipeline.campaign.matrix import not_a_stiffness, symmetric
 from pipeline.campaign.model import Kind, Rig, Role, UniformBar, Zero
 from pipeline.campaign.names import unknown_name
+from pipeline.validation.case_tables import Material, SectionSize
+from pipeline.validation.geometry import section_of
 from vjm.mechanisms.bar import Base, Tip
 
 Number = Annotated[float, Field(strict=True, allow_inf_nan=False)]
@@ -75,6 +78,8 @@ class RigTable(Table):
     width_mm: Length | None = None
     bar_stiffness: list[list[Entry]] | None = None
     bar: BarTable | None = None
+    section: SectionSize | None = None
+    material: Material | None = None
     base: Base | None = None
     tip: Tip | None = None
     gravity: tuple[Number, Number, Number] | None = None
@@ -102,18 +107,20 @@ class RigTable(Table):
     def consistent(self) -> "RigTable":
         if said := self.contradictions():
             raise ValueError("; ".join(said))
-        if self.bar is not None and (why := not_a_stiffness(self.rig().stiffness.tolist())):
+        if self.bar_stiffness is None and (why := not_a_stiffness(self.rig().stiffness.tolist())):
             raise ValueError(f"the 6x6 of bar at this length cannot be used: {why}")
         return self
 
     def contradictions(self) -> list[str]:
         """What does not go together."""
         said = []
-        if (self.bar_stiffness is None) == (self.bar is None):
-            both = (
-                "neither bar_stiffness nor bar is" if self.bar is None else "both bar_stiffness and bar are"
-            )
-            said.append(f"{both} given, allowed is one of the two")
+        given = [name for name in ("bar_stiffness", "bar", "section") if getattr(self, name) is not None]
+        if len(given) != 1:
+            what = " and ".join(given) + " are" if given else "none of bar_stiffness, bar and section is"
+            said.append(f"{what} given, allowed is one of the three")
+        if (self.section is None) != (self.material is None):
+            there, missing = ("material", "section") if self.section is None else ("section", "material")
+            said.append(f"{there} is given without {missing}, allowed are both together")
         if self.kind == "parallelogram":
             if self.width_mm is None:
                 said.append("width_mm is missing, a parallelogram needs it")
@@ -127,21 +134,38 @@ class RigTable(Table):
 
     def rig(self) -> Rig:
         """The frozen object."""
+        outermost: tuple[float | None, float | None] = (None, None)
+        if self.section is not None:
+            y, z = section_of(self.section).size
+            outermost = (0.5 * y, 0.5 * z)
         matrix = None if self.bar_stiffness is None else symmetric(self.bar_stiffness)
         return Rig(
             self.kind,
             self.length_mm,
             self.width_mm,
             matrix,
-            None if self.bar is None else UniformBar(*self.bar.model_dump().values()),
+            self.uniform(),
             self.base or "clamped",
             self.tip or "free",
             self.gravity,
             self.line_weight_N_per_mm,
             self.platform_weight_N,
             self.reference_temperature_C,
-            self.fibre_y_mm,
-            self.fibre_z_mm,
+            self.fibre_y_mm or outermost[0],
+            self.fibre_z_mm or outermost[1],
+        )
+
+    def uniform(self) -> UniformBar | None:
+        """The rigidities, as they were given or those of a section of a material."""
+        if self.bar is not None:
+            return UniformBar(*self.bar.model_dump().values())
+        if self.section is None or self.material is None:
+            return None
+        section, modulus = section_of(self.section), self.material.E_MPa
+        iy, iz = section.second_moments
+        shear = 0.5 * modulus / (1.0 + self.material.nu)
+        return UniformBar(
+            modulus * section.area, modulus * iy, modulus * iz, shear * torsion_constant(section)
         )
 
 

@@ -1,5 +1,6 @@
 """What a good campaign gives: numbers in their places, overrides merged, remarks where a look is due."""
 
+import re
 from dataclasses import fields, is_dataclass
 from pathlib import Path
 from time import perf_counter
@@ -8,7 +9,7 @@ import numpy as np
 import pytest
 
 from fem.beam import uniform_stiffness
-from pipeline.campaign import Campaign, read, write
+from pipeline.campaign import BadCampaign, Campaign, read, write
 from pipeline.errors import InputError
 from tests.pipeline.campaign.example import BAR, BAR_CSV, CSV, TOML, laid
 
@@ -185,3 +186,28 @@ def test_a_long_file_is_read_in_seconds(tmp_path: Path) -> None:
     assert any("of 100003 rows" in said for said in read(folder).remarks)
     # About two seconds; a cost that grows with the square of the rows would take hours.
     assert perf_counter() - start < 60.0
+
+
+def test_a_bar_may_be_given_by_its_section_and_material(tmp_path: Path) -> None:
+    """A tube of steel: EA, EI and GJ by hand; its outermost fibres are those of the section."""
+    from tests.pipeline.campaign.test_mapped import HEAD, ONE
+
+    bar = 'section = { kind = "tube", outer_diameter_mm = 16.0, wall_mm = 2.0 }\nmaterial = { E_MPa = 2.1e5, nu = 0.3 }'
+    text = re.sub(r"bar = .*", bar, HEAD) + ONE
+    (tmp_path / "campaign.toml").write_text(text)
+    (tmp_path / "measurements.csv").write_text("test,step,z_mm,fz_N\nload,0,0.0,0.0\nload,1,0.1,2.0\n")
+    rig = read(tmp_path).rig
+    area, inertia = np.pi * (8.0**2 - 6.0**2), np.pi / 4.0 * (8.0**4 - 6.0**4)
+    assert rig.bar is not None
+    np.testing.assert_allclose(
+        [rig.bar.EA, rig.bar.EIy, rig.bar.EIz], 2.1e5 * np.array([area, inertia, inertia])
+    )
+    assert pytest.approx(2.1e5 / 2.6 * 2.0 * inertia) == rig.bar.GJ and rig.fibre_y == rig.fibre_z == 8.0
+    for old, new, said in (
+        ("wall_mm = 2.0", "wall_mm = 9.0", "wall"),
+        ("material =", "# material =", "section is given without material"),
+        ("length_mm =", "bar_stiffness = [[1.0]]\nlength_mm =", "bar_stiffness"),
+    ):
+        (tmp_path / "campaign.toml").write_text(text.replace(old, new, 1))
+        with pytest.raises(BadCampaign, match=said):
+            read(tmp_path)
