@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from pipeline.campaign.complaints import Complaints, shown
 from pipeline.campaign.formats import grids
 from pipeline.campaign.mapped.cell import at_platform
+from pipeline.campaign.mapped.chosen import fewer, in_order
 from pipeline.campaign.mapped.grid import BadTable
 from pipeline.campaign.mapped.layout import Layout, laid_out
 from pipeline.campaign.mapped.mapping import FORCES, MOMENTS, Declared, Source, quantities
@@ -102,7 +103,9 @@ def _of_table(
         words.append(f"cell at {list(at)} mm, turned by {list(turned)} degrees, sign {declared.cell.sign}")
     columns = {known[what][1]: column for what, column in values.items() if known[what][1]}
     steps = _steps(layout, declared, complaints)
-    return Measured(tests, steps, np.array(layout.lines, dtype=np.int64), columns), words
+    in_order(layout, declared.file.time_column, tests, complaints)
+    every = Measured(tests, steps, np.array(layout.lines, dtype=np.int64), columns)
+    return fewer(every, declared.file.every), words
 
 
 def _tests(

@@ -299,6 +299,29 @@ def test_a_sheet_a_file_or_a_block_of_rows_for_each_test(tmp_path: Path, how: st
     agrees(found, test=1)
 
 
+def test_of_many_rows_the_ends_and_the_turns_are_kept(tmp_path: Path) -> None:
+    z = np.concatenate([np.linspace(0.0, 1.0, 38), np.linspace(1.0, -0.5, 57)[1:], [-0.4]])
+    content = table(["Travel", "Load"], z, 3.0 * z)
+    found = campaign(tmp_path, "[file]\nevery = 10\n" + SIMPLE.format(z="mm", fz="N"), content)
+    kept = found.tests[0].data.displacement[:, 2]
+    assert (
+        kept[0] == 0.0
+        and kept[-1] == -0.4
+        and {1.0, -0.5} <= set(kept)
+        and len(kept) == len(range(0, 95, 10)) + 3
+    )
+
+
+@pytest.mark.parametrize("times", [["0,0", "0,5", "0,4"], ["11:23:03", "11:23:05", "11:23:04"]])
+def test_a_time_that_goes_back_is_said_and_midnight_is_passed(tmp_path: Path, times: list[str]) -> None:
+    content = table(["t", "Travel", "Load"], times, Z[:3].astype(str), FZ[:3].astype(str), mark=";")
+    layout = '[file]\ntime_column = "t"\n' + SIMPLE.format(z="mm", fz="N")
+    refused(tmp_path, layout, content, f"line 4, column 't': is '{times[2]}', earlier than the row before it")
+    clock = ["23:59:59", "00:00:01", "00:00:02"]
+    midnight = table(["t", "Travel", "Load"], clock, Z[:3].astype(str), FZ[:3].astype(str))
+    agrees(campaign(tmp_path, layout, midnight), Z[:3], FZ[:3])
+
+
 def test_the_files_are_told_by_their_digests(tmp_path: Path) -> None:
     for name in ("load", "again"):
         (tmp_path / f"{name}.dat").write_text(table(["Travel", "Load"], Z, FZ))
