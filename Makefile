@@ -38,6 +38,11 @@ proofs: setup
 fuzz: setup
 	$(ALONE) $(PYTHON) -m pytest -n 2 --dist load -m long tests/fuzz
 
+# The wheel in an environment of its own, and what a new user does first.
+.PHONY: wheel
+wheel: $(STAMP)
+	$(PYTHON) -m tests.parastiff.installed
+
 # Many benches for every effect: hours; what was finished is kept, so that it may be stopped and started again.
 coverage: $(STAMP)
 	$(PYTHON) -m pipeline.coverage
