@@ -23,7 +23,7 @@ WORDS: dict[str, tuple[str, ...]] = {
             "forza",
             "carico",
         ),
-        *("力", "荷重", "载荷", "сила", "нагрузка"),
+        *("力", "荷重", "载荷", "сила", "нагрузка", "kuvvet"),
     ),
     "length": (
         *(
@@ -87,12 +87,15 @@ WORDS: dict[str, tuple[str, ...]] = {
         "uhrzeit",
         "datum",
         "temps",
+        "zaman",
         "tiempo",
     ),
     "step": ("step", "stage", "index", "row", "schritt", "nr", "no", "point", "sample", "scan", "reading"),
     "test": ("test", "specimen", "run", "versuch", "prüfling", "probe", "essai"),
 }
 """In small letters; those of several languages. A word of two quantities stands in none."""
+ENDINGS = {"kraft": "force", "weg": "length", "zeit": "time", "moment": "moment", "winkel": "angle"}
+"""Of German words that are written together: Standardkraft, Traversenweg, Prüfzeit."""
 _WORD = re.compile(r"[^\W\d_]+")
 
 
@@ -103,7 +106,9 @@ def quantity_of(name: str, beside: str = "") -> str | None:
     """
     stem, inside = header_unit(name)
     by_unit = _by_unit(beside) or _by_unit(inside)
-    by_word = {what for what, words in WORDS.items() if set(_parts(stem)) & set(words)}
+    parts = _parts(stem)
+    by_word = {what for what, words in WORDS.items() if set(parts) & set(words)}
+    by_word |= {what for ending, what in ENDINGS.items() for part in parts if part.endswith(ending)}
     if by_unit is not None:
         # A word may be of something else than its unit: a load in mm is a question.
         return by_unit if not by_word or by_unit in by_word or by_word <= {"step", "test"} else None

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+import tomllib
 from collections.abc import Callable
 from pathlib import Path
 
@@ -145,3 +146,13 @@ def test_a_quantity_is_that_of_the_unit_or_of_the_words(name: str, beside: str, 
 def test_no_word_is_of_two_quantities() -> None:
     every = [word for words in WORDS.values() for word in words]
     assert len(every) == len(set(every)) and all(word == word.lower() for word in every)
+
+
+def test_headers_of_real_loggers_are_guessed_or_asked_about_and_never_wrong() -> None:
+    tables = tomllib.loads((Path(__file__).parent / "headers.toml").read_text(encoding="utf-8"))["tables"]
+    found = [(what, quantity_of(name, unit), name) for it in tables for name, unit, what in it["columns"]]
+    assert not [each for each in found if each[1] is not None and each[1] != each[0]]
+    known = [each for each in found if each[0]]
+    guessed = [each for each in known if each[1] is not None]
+    # Of those that say what they are.
+    assert (len(found), len(known), len(guessed)) == (58, 44, 44)
