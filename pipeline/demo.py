@@ -5,6 +5,7 @@ from __future__ import annotations
 import shutil
 from pathlib import Path
 
+from pipeline.campaign.reading import MEASUREMENTS
 from pipeline.command import usable
 from pipeline.errors import InputError
 from pipeline.typed import command
@@ -21,8 +22,9 @@ def demo(folder: Path, quiet: bool = False) -> None:
     from pipeline.compare.command import compare
     from pipeline.improve.command import improve_campaign
 
+    rows = len((folder / MEASUREMENTS).read_text(encoding="utf-8").splitlines()) - 1
     print(
-        f"{folder}: a copy of a bench with two bars and four hinges, 66 settled load steps, made by finite elements"
+        f"{folder}: a bench of two bars and four hinges, {rows} settled load steps, made by finite elements"
     )
     print(f"\n$ {command('compare', folder)}", flush=True)
     compare(folder, quiet=quiet)
