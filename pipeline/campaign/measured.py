@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,13 +17,19 @@ class Measured:
 
     tests: (N,) id of the test of each. steps: (N,) whole numbers, NaN where the cell is none; None where the rows are
     only in order. lines: (N,) of the file. values: (N,) by the column of the contract, NaN where nothing is read.
+    unread: (N,) by column, rows with a word that was declared to be no reading.
     """
 
     tests: tuple[str, ...]
     steps: Array | None
     lines: NDArray[np.int64]
     values: Mapping[str, Array]
+    unread: Mapping[str, NDArray[np.bool_]] = field(default_factory=dict)
 
     def of(self, column: str) -> Array:
         """A column (N,), NaN throughout where there is none."""
         return self.values.get(column, np.full(len(self.tests), np.nan))
+
+    def blank(self, column: str) -> NDArray[np.bool_]:
+        """(N,) where a column holds a word for no reading instead of one, such as an overload."""
+        return self.unread.get(column, np.zeros(len(self.tests), dtype=bool))

@@ -5,14 +5,14 @@ from pathlib import Path
 
 import numpy as np
 
-from pipeline.campaign.complaints import BadCampaign, Complaints
+from pipeline.campaign.complaints import BadCampaign, Complaints, shown
 from pipeline.campaign.description import describe
 from pipeline.campaign.head import Description
 from pipeline.campaign.long_tests import thinned
 from pipeline.campaign.mapped.assemble import measured as assembled
 from pipeline.campaign.measured import Measured
 from pipeline.campaign.model import Campaign, Data, Noise, Test
-from pipeline.campaign.names import DISPLACEMENTS, TEMPERATURE, WRENCHES, gauge_column, known_columns
+from pipeline.campaign.names import DISPLACEMENTS, FORCE, TEMPERATURE, WRENCHES, gauge_column, known_columns
 from pipeline.campaign.plausible import judge
 from pipeline.campaign.rows import data_by_test, measured_of
 from pipeline.campaign.sheet import sheet
@@ -30,10 +30,14 @@ def read(folder: Path) -> Campaign:
     """
     described, table = _texts(folder)
     description = describe(described, Complaints(str(folder / DESCRIPTION)), folder)
-    complaints = Complaints(str(folder / MEASUREMENTS))
+    paths = {source.declared.file.path or MEASUREMENTS for source in description.sources}
+    complaints = Complaints(
+        str(folder / (paths.pop() if len(paths) == 1 else "readings" if paths else MEASUREMENTS))
+    )
     measured, remarks, files = _readings(folder, description, table, complaints)
     columns = {*measured.values, "test", "step"}
     data = data_by_test(measured, description, complaints)
+    _unread(measured, description, complaints)
     noise = _noise(description)
     for head in description.heads:
         if head.id in data:
@@ -93,8 +97,7 @@ def _readings(
     is as the contract has it."""
     names = [gauge.name for gauge in description.gauges]
     if description.sources:
-        ids = [head.id for head in description.heads]
-        found, words, said, files = assembled(folder, MEASUREMENTS, description.sources, ids, names)
+        found, words, said, files = assembled(folder, MEASUREMENTS, description.sources, names)
         if said:
             raise BadCampaign(tuple(said))
         return found, [f"read as declared: {each}" for each in words], files
@@ -129,6 +132,18 @@ def _text(path: Path, largest: int, complaints: Complaints) -> str:
     if not text.strip():
         complaints.add("", "is empty")
     return text
+
+
+def _unread(measured: Measured, description: Description, complaints: Complaints) -> None:
+    """Complaints about loads that were not read though something was there: only an empty cell is no force."""
+    ids = np.array(measured.tests, dtype=object)
+    for head in description.heads:
+        mine = np.flatnonzero(ids == head.id)
+        for column, by in zip(WRENCHES, head.control, strict=True):
+            rows = mine[measured.blank(column)[mine]] if by == FORCE else mine[:0]
+            if rows.size:
+                said = f"has a word for no reading, but test {shown(head.id)} is controlled by it; leave the row out"
+                complaints.add(f"column {column}", said, int(measured.lines[rows[0]]))
 
 
 def _noise(description: Description) -> Noise:

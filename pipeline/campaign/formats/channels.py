@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from itertools import zip_longest
 from pathlib import Path
+
+import numpy as np
 
 from pipeline.campaign.mapped.grid import BadTable, Cell, Grid
 from pipeline.campaign.mapped.schema import FileTable
@@ -34,14 +35,20 @@ def read(path: Path, how: FileTable) -> tuple[Grid, ...]:
 def _grid(group: object) -> Grid:
     channels = group.channels()  # type: ignore[attr-defined]
     columns = [[_cell(value) for value in channel[:]] for channel in channels]
+    name = group.name  # type: ignore[attr-defined]
+    for what, values in (
+        ("lengths", {len(column) for column in columns}),
+        ("time steps", {channel.properties.get("wf_increment") for channel in channels}),
+    ):
+        if len(values) > 1:
+            shown = ", ".join(sorted(map(str, values)))
+            raise BadTable(f"group {name!r} has channels of different {what} ({shown}), which make no rows")
     header: tuple[Cell, ...] = tuple(channel.name for channel in channels)
     units: tuple[Cell, ...] = tuple(str(channel.properties.get("unit_string", "")) for channel in channels)
-    rows = (header, units, *zip_longest(*columns, fillvalue=""))
-    return Grid(rows, tuple(range(1, len(rows) + 1)), group.name)  # type: ignore[attr-defined]
+    rows = (header, units, *zip(*columns, strict=True))
+    return Grid(rows, tuple(range(1, len(rows) + 1)), name)
 
 
 def _cell(value: object) -> Cell:
-    try:
-        return float(value)  # type: ignore[arg-type]
-    except (TypeError, ValueError):
-        return str(value)
+    # Text stays text: its marks and its words for no reading are looked at where it is read.
+    return float(value) if isinstance(value, int | float | np.number) else str(value)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import csv
-import io
 import re
 from math import inf
 from pathlib import Path
@@ -23,20 +22,17 @@ def read(path: Path, how: FileTable) -> tuple[Grid, ...]:
     text = decoded(path.read_bytes(), how.encoding)
     mark = SEPARATORS.get(how.separator or "", how.separator or "") or _separator(text, how)
     rows, lines = [], []
-    if mark == " ":
-        for number, line in enumerate(text.splitlines(), start=1):
-            rows.append(tuple(line.split()))
-            lines.append(number)
-        return (Grid(tuple(rows), tuple(lines)),)
-    source = csv.reader(io.StringIO(text, newline=""), delimiter=mark, skipinitialspace=True)
-    start = 1
-    try:
-        for cells in source:
-            rows.append(tuple(cells))
-            lines.append(start)
-            start = source.line_num + 1
-    except csv.Error as error:
-        raise BadTable(f"cannot be split into cells: {error}", start) from error
+    for number, line in enumerate(text.splitlines(), start=1):
+        if how.comment and line.startswith(how.comment):
+            continue
+        try:
+            rows.append(tuple(split([line], mark)[0]))
+        except csv.Error as error:
+            # Each line is a row: a cell that goes over its end would swallow those below.
+            raise BadTable(
+                f"cannot be split into cells: {error}; is there a lone quote mark?", number
+            ) from error
+        lines.append(number)
     return (Grid(tuple(rows), tuple(lines)),)
 
 
@@ -50,7 +46,7 @@ def decoded(content: bytes, encoding: str) -> str:
         line = error.object.count(b"\n", 0, error.start) + 1
         said = f"byte {error.object[error.start]:#04x} is not in the encoding {encoding}; is it cp1252? Write encoding"
         raise BadTable(f'{said} = "cp1252" under [file]', line) from error
-    except LookupError as error:
+    except (LookupError, ValueError) as error:
         raise BadTable(
             f"the encoding {encoding!r} is unknown, allowed is one such as utf-8 or cp1252"
         ) from error
@@ -70,12 +66,19 @@ def _separator(text: str, how: FileTable) -> str:
     head = every[how.header_row - 1 : how.header_row] if how.header_row else []
     shares: dict[str, float] = {}
     for mark in (",", ";", "\t", " "):
-        rows = split(lines, mark)
+        try:
+            rows, most = split(lines, mark), len(split(head, mark)[0]) if head else inf
+        except csv.Error:
+            continue
         counts = {len(cells) for cells in rows}
-        most = len(split(head, mark)[0]) if head else inf
-        if len(counts) == 1 and 1 < min(counts) <= most:
+        # A mark at the end of every row of data makes one more, empty cell.
+        spare = all(not cells[-1].strip() for cells in rows if cells)
+        if len(counts) == 1 and 1 < min(counts) <= most + spare:
             cells = [cell.strip() for row in rows for cell in row]
             shares[mark] = sum(bool(_PLAIN.fullmatch(cell)) for cell in cells) / len(cells)
+    if {"\t", " "} <= set(shares):
+        # Where tabs part the cells, blanks are parts of them.
+        del shares[" "]
     best = [mark for mark, share in shares.items() if share == max(shares.values())]
     if len(best) > 1:
         names = {"\t": "tab", " ": "space"}
@@ -85,7 +88,9 @@ def _separator(text: str, how: FileTable) -> str:
 
 
 def split(lines: list[str], mark: str) -> list[list[str]]:
-    """The cells of each line, parted by a mark; of blanks any number is one."""
+    """The cells of each line, parted by a mark; of blanks any number is one. csv.Error for an unclosed quote."""
     if mark == " ":
         return [line.split() for line in lines]
-    return list(csv.reader(lines, delimiter=mark))
+    return [
+        next(csv.reader([line], delimiter=mark, skipinitialspace=True, strict=True), []) for line in lines
+    ]

@@ -8,6 +8,7 @@ from pathlib import Path
 
 from pipeline.campaign.mapped.grid import BadTable, Cell, Grid
 from pipeline.campaign.mapped.schema import FileTable
+from pipeline.campaign.mapped.uncomputed import uncomputed
 
 SUFFIXES = (".xlsx", ".xlsm", ".xls", ".xlsb", ".ods")
 
@@ -19,11 +20,23 @@ def read(path: Path, how: FileTable) -> tuple[Grid, ...]:
     try:
         book = load_workbook(str(path))
         names = _names(book.sheet_names, how)
-        return tuple(
-            _grid(name, book.get_sheet_by_name(name).to_python(skip_empty_area=False)) for name in names
-        )
+        found = [_grid(name, book.get_sheet_by_name(name).to_python(skip_empty_area=False)) for name in names]
     except (CalamineError, OSError) as error:
         raise BadTable(f"is no workbook that can be read: {' '.join(str(error).split())}") from error
+    return tuple(_with_errors(path, grid) for grid in found)
+
+
+def _with_errors(path: Path, grid: Grid) -> Grid:
+    """The table with what stands in cells that are read as empty though they are not: an error of the spreadsheet, or a
+    formula whose value was never kept. So they are complained about, and not taken for what was not measured."""
+    cells = dict(uncomputed(path, grid.name))
+    if not cells:
+        return grid
+    rows = [list(row) for row in grid.rows]
+    for (row, column), text in cells.items():
+        if row < len(rows) and column < len(rows[row]):
+            rows[row][column] = text
+    return Grid(tuple(map(tuple, rows)), grid.lines, grid.name)
 
 
 def _names(there: list[str], how: FileTable) -> list[str]:

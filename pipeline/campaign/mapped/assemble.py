@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+import re
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import replace
 from glob import escape, glob
 from pathlib import Path
 
@@ -12,13 +14,14 @@ from numpy.typing import NDArray
 from pipeline.campaign.complaints import Complaints, shown
 from pipeline.campaign.formats import grids
 from pipeline.campaign.mapped.cell import at_platform
-from pipeline.campaign.mapped.chosen import fewer, in_order
+from pipeline.campaign.mapped.chosen import Clock, fewer
 from pipeline.campaign.mapped.grid import BadTable
 from pipeline.campaign.mapped.layout import Layout, laid_out
-from pipeline.campaign.mapped.mapping import FORCES, MOMENTS, Declared, Source, quantities
-from pipeline.campaign.mapped.readings import Column, columns_of, derived_of, words_of
+from pipeline.campaign.mapped.mapping import FORCES, MOMENTS, Source, quantities
+from pipeline.campaign.mapped.owners import Owners
+from pipeline.campaign.mapped.readings import columns_of, derived_of, words_of
+from pipeline.campaign.mapped.table import Read, zeroed
 from pipeline.campaign.measured import Measured
-from pipeline.campaign.names import unknown_name
 
 Array = NDArray[np.float64]
 LARGEST = 2**30
@@ -26,31 +29,39 @@ LARGEST = 2**30
 
 
 def measured(
-    folder: Path, default: str, sources: Sequence[Source], ids: Sequence[str], gauges: Iterable[str]
+    folder: Path, default: str, sources: Sequence[Source], gauges: Iterable[str]
 ) -> tuple[Measured, tuple[str, ...], list[str], list[Path]]:
     """All readings, how they were converted, complaints, and the files. default: the one where none is named."""
-    names = tuple(gauges)
-    parts: list[Measured] = []
-    words: dict[str, None] = {}
-    said: list[str] = []
-    files: list[Path] = []
+    names, said = tuple(gauges), list[str]()
+    tables: list[Read] = []
+    books: list[Complaints] = []
     for source in sources:
+        owners, clock = Owners(source), Clock(source.declared.file)
         for path in _paths(folder, source.declared.file.path or default, said):
             complaints = Complaints(str(path))
-            files.append(path)
-            for part, how in _of_file(path, source, ids, names, complaints):
-                parts.append(part)
-                words |= dict.fromkeys(how)
-            said += complaints.sentences()
-    return _joined(parts), tuple(words), said, list(dict.fromkeys(files))
+            books.append(complaints)
+            for layout in _layouts(path, source, complaints):
+                table = _read(path, layout, source, owners, names, complaints)
+                clock.look(layout, table.tests, complaints)
+                tables.append(table)
+        if books and (why := owners.missing()):
+            books[-1].add("", why)
+    zeroed(tables)
+    known = quantities(names)
+    parts = [_converted(table, known) for table in tables]
+    words = dict.fromkeys(word for table in tables for word in _words(table))
+    said += [sentence for book in books for sentence in book.sentences()]
+    return _joined(parts), tuple(words), said, list(dict.fromkeys(table.path for table in tables))
 
 
 def _paths(folder: Path, pattern: str, said: list[str]) -> list[Path]:
+    """Files in the order of the numbers in their names: run_2 comes before run_10."""
     if any(mark in pattern for mark in "*?["):
-        found = sorted(Path(each) for each in glob(str(Path(escape(str(folder))) / pattern), recursive=True))
+        found = [Path(each) for each in glob(str(Path(escape(str(folder))) / pattern), recursive=True)]
+        found = sorted((path for path in found if path.is_file()), key=_natural)
         if not found:
             said.append(f"{folder / pattern}: no file is named like that")
-        return [path for path in found if path.is_file()]
+        return found
     path = folder / pattern
     if not path.is_file():
         said.append(f"{path}: {'is missing' if not path.exists() else 'is no file'}")
@@ -58,9 +69,11 @@ def _paths(folder: Path, pattern: str, said: list[str]) -> list[Path]:
     return [path]
 
 
-def _of_file(
-    path: Path, source: Source, ids: Sequence[str], gauges: tuple[str, ...], complaints: Complaints
-) -> Iterable[tuple[Measured, list[str]]]:
+def _natural(path: Path) -> list[tuple[int, str]]:
+    return [(int(part), "") if part.isdigit() else (-1, part) for part in re.split(r"(\d+)", str(path))]
+
+
+def _layouts(path: Path, source: Source, complaints: Complaints) -> Iterator[Layout]:
     if (size := path.stat().st_size) > LARGEST:
         complaints.add("", f"has {size / 2**20:.0f} MB, allowed are {LARGEST / 2**20:.0f}")
         return
@@ -75,17 +88,17 @@ def _of_file(
     for grid in tables:
         layout = laid_out(grid, source.declared.file, complaints)
         if layout is not None:
-            yield _of_table(path, layout, source, ids, gauges, complaints)
+            yield layout
 
 
-def _of_table(
+def _read(
     path: Path,
     layout: Layout,
     source: Source,
-    ids: Sequence[str],
+    owners: Owners,
     gauges: tuple[str, ...],
     complaints: Complaints,
-) -> tuple[Measured, list[str]]:
+) -> Read:
     known, declared = quantities(gauges), source.declared
     found = columns_of(layout, declared, known, complaints)
     for what, column in derived_of(layout, declared, known, complaints).items():
@@ -93,69 +106,12 @@ def _of_table(
             said = f"is column {shown(found[what].name)} and under [derived], allowed is one of the two"
             complaints.add(f"derived.{what}", said)
         found[what] = column
-    tests = _tests(path, layout, source, ids, complaints)
-    values = {what: _zeroed(column, tests) for what, column in found.items()}
-    words = [column.words for column in found.values()]
-    if declared.cell is not None:
-        read = {c: values.pop(c) for c in (*FORCES, *MOMENTS) if c in values}
-        values |= at_platform(declared.cell, read, complaints)
-        at, turned = declared.cell.at_mm, declared.cell.turned_deg
-        words.append(f"cell at {list(at)} mm, turned by {list(turned)} degrees, sign {declared.cell.sign}")
-    columns = {known[what][1]: column for what, column in values.items() if known[what][1]}
-    steps = _steps(layout, declared, complaints)
-    in_order(layout, declared.file.time_column, tests, complaints)
-    every = Measured(tests, steps, np.array(layout.lines, dtype=np.int64), columns)
-    return fewer(every, declared.file.every), words
+    tests = owners.of(path, layout, complaints)
+    return Read(path, layout, declared, tests, _steps(layout, source, complaints), found, complaints)
 
 
-def _tests(
-    path: Path, layout: Layout, source: Source, ids: Sequence[str], complaints: Complaints
-) -> tuple[str, ...]:
-    how, count = source.declared.file, len(layout.lines)
-    column = None
-    if how.test_column is not None:
-        if how.test_column in layout.names:
-            column = tuple(str(cell).strip() for cell in layout.column(how.test_column))
-        else:
-            complaints.add("", f"has no column {shown(how.test_column)}, which test_column names")
-    column = column or words_of(layout, source.declared, "test")
-    if column is not None:
-        return column
-    if source.test:
-        return (source.test,) * count
-    if how.test_from in ("file", "sheet"):
-        name = path.stem if how.test_from == "file" else layout.sheet
-        if name not in ids:
-            complaints.add("", f"names test {shown(name)}, {unknown_name(name, ids)}")
-        return (name,) * count
-    if how.test_from == "blank_row":
-        blocks = max(layout.blocks) + 1
-        if blocks != len(ids):
-            said = f"has {blocks} blocks of rows between blank rows, campaign.toml has {len(ids)} tests"
-            complaints.add("", said)
-        return tuple(ids[min(block, len(ids) - 1)] for block in layout.blocks)
-    if len(ids) > 1:
-        said = "does not say which rows are of which test, write test_column or test_from under [file]"
-        complaints.add("", said)
-    return (ids[0] if ids else "",) * count
-
-
-def _zeroed(column: Column, tests: tuple[str, ...]) -> Array:
-    """The readings less the first one of each test, where that was declared to be zero."""
-    if not column.from_first:
-        return column.values
-    out = column.values.copy()
-    names = np.array(tests)
-    for name in dict.fromkeys(tests):
-        mine = np.flatnonzero(names == name)
-        read = mine[np.isfinite(out[mine])]
-        if read.size:
-            out[mine] -= column.values[read[0]]
-    return out
-
-
-def _steps(layout: Layout, declared: Declared, complaints: Complaints) -> Array | None:
-    words = words_of(layout, declared, "step")
+def _steps(layout: Layout, source: Source, complaints: Complaints) -> Array | None:
+    words = words_of(layout, source.declared, "step", complaints)
     if words is None:
         return None
     steps = np.full(len(words), np.nan)
@@ -169,13 +125,53 @@ def _steps(layout: Layout, declared: Declared, complaints: Complaints) -> Array 
     return steps
 
 
+def _converted(table: Read, known: dict[str, tuple[str, str]]) -> Measured:
+    """In the columns of the contract, with the rows of other tests left out."""
+    values = {what: column.values for what, column in table.columns.items()}
+    unread = {what: column.unread for what, column in table.columns.items()}
+    if table.declared.cell is not None:
+        read = {c: values.pop(c) for c in (*FORCES, *MOMENTS) if c in values}
+        values |= at_platform(table.declared.cell, read, table.layout.lines, table.complaints)
+    lines = np.array(table.layout.lines, dtype=np.int64)
+    columns = {known[what][1]: column for what, column in values.items() if known[what][1]}
+    blank = {known[w][1]: mask for w, mask in unread.items() if known[w][1] and mask.any()}
+    mine = np.array([test != "" for test in table.tests])
+    whole = Measured(table.tests, table.steps, lines, columns, blank)
+    return fewer(_rows(whole, np.flatnonzero(mine)), table.declared.file.every)
+
+
+def _rows(it: Measured, rows: NDArray[np.int64]) -> Measured:
+    if rows.size == len(it.tests):
+        return it
+    return replace(
+        it,
+        tests=tuple(it.tests[k] for k in rows),
+        steps=None if it.steps is None else it.steps[rows],
+        lines=it.lines[rows],
+        values={column: values[rows] for column, values in it.values.items()},
+        unread={column: mask[rows] for column, mask in it.unread.items()},
+    )
+
+
+def _words(table: Read) -> list[str]:
+    out = [column.words for column in table.columns.values()]
+    if (cell := table.declared.cell) is not None:
+        out.append(
+            f"cell at {list(cell.at_mm)} mm, turned by {list(cell.turned_deg)} degrees, sign {cell.sign}"
+        )
+    return out
+
+
 def _joined(parts: Sequence[Measured]) -> Measured:
+    if not parts:
+        return Measured((), None, np.zeros(0, dtype=np.int64), {})
     columns = list(dict.fromkeys(column for part in parts for column in part.values))
     # Rows of one table without steps are in order; so are all then.
     ordered = any(part.steps is None for part in parts)
     return Measured(
         tuple(test for part in parts for test in part.tests),
-        None if ordered or not parts else np.concatenate([p.steps for p in parts if p.steps is not None]),
-        np.concatenate([part.lines for part in parts]) if parts else np.zeros(0, dtype=np.int64),
+        None if ordered else np.concatenate([p.steps for p in parts if p.steps is not None]),
+        np.concatenate([part.lines for part in parts]),
         {column: np.concatenate([part.of(column) for part in parts]) for column in columns},
+        {column: np.concatenate([part.blank(column) for part in parts]) for column in columns},
     )

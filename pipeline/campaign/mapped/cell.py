@@ -6,6 +6,8 @@ of the cell from that of the platform, base frame.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
@@ -18,8 +20,13 @@ Array = NDArray[np.float64]
 ROUNDING = 1e-12
 
 
-def at_platform(cell: CellTable, read: dict[str, Array], complaints: Complaints) -> dict[str, Array]:
-    """Forces and moments (N,) at the platform by their names; a component that enters and was not read is named."""
+def at_platform(
+    cell: CellTable, read: dict[str, Array], lines: Sequence[int], complaints: Complaints
+) -> dict[str, Array]:
+    """Forces and moments (N,) at the platform by their names; a component that enters and was not read is named.
+
+    lines: of the rows, for one in which a component is missing.
+    """
     turn = cell.sign * Rotation.from_rotvec(cell.turned_deg, degrees=True).as_matrix()
     turn[np.abs(turn) < ROUNDING] = 0.0
     x, y, z = cell.at_mm
@@ -39,5 +46,22 @@ def at_platform(cell: CellTable, read: dict[str, Array], complaints: Complaints)
             said = f"{name} at the platform needs {', '.join(absent)} of the cell as well, which is not read"
             complaints.add("[cell]", said)
             continue
+        _told_in_full(
+            name, [c for c, share in zip(every, row, strict=True) if share], read, lines, complaints
+        )
         out[name] = np.sum([share * read[c] for c, share in zip(every, row, strict=True) if share], axis=0)
     return out
+
+
+def _told_in_full(
+    name: str, enter: list[str], read: dict[str, Array], lines: Sequence[int], complaints: Complaints
+) -> None:
+    """A complaint about the first row in which some of the components that enter were read, and not all."""
+    there = np.array([np.isfinite(read[c]) for c in enter])
+    partly = np.flatnonzero(there.any(axis=0) & ~there.all(axis=0))
+    if partly.size:
+        k = int(partly[0])
+        absent = ", ".join(c for c, mine in zip(enter, there[:, k], strict=True) if not mine)
+        complaints.add(
+            "[cell]", f"{name} at the platform needs {absent} as well, which is not read here", lines[k]
+        )

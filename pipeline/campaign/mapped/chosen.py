@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass, field, replace
 from datetime import datetime, time
 
 import numpy as np
@@ -11,7 +12,12 @@ from pipeline.campaign.complaints import Complaints, shown
 from pipeline.campaign.long_tests import PART, turns
 from pipeline.campaign.mapped.grid import Cell
 from pipeline.campaign.mapped.layout import Layout
+from pipeline.campaign.mapped.numbers import Marks, is_empty, plain
+from pipeline.campaign.mapped.schema import FileTable
 from pipeline.campaign.measured import Measured
+
+HALF_A_DAY = 43200.0
+"""Seconds by which a clock goes back where it passes midnight, at least."""
 
 
 def fewer(measured: Measured, every: int) -> Measured:
@@ -24,11 +30,13 @@ def fewer(measured: Measured, every: int) -> Measured:
         [_kept(measured, np.flatnonzero(names == n), every) for n in dict.fromkeys(measured.tests)]
     )
     rows = np.sort(kept)
-    return Measured(
-        tuple(measured.tests[k] for k in rows),
-        None if measured.steps is None else measured.steps[rows],
-        measured.lines[rows],
-        {column: values[rows] for column, values in measured.values.items()},
+    return replace(
+        measured,
+        tests=tuple(measured.tests[k] for k in rows),
+        steps=None if measured.steps is None else measured.steps[rows],
+        lines=measured.lines[rows],
+        values={column: values[rows] for column, values in measured.values.items()},
+        unread={column: mask[rows] for column, mask in measured.unread.items()},
     )
 
 
@@ -43,50 +51,68 @@ def _kept(measured: Measured, mine: NDArray[np.int64], every: int) -> NDArray[np
     return mine[sorted(chosen)]
 
 
-def in_order(layout: Layout, column: str | None, tests: tuple[str, ...], complaints: Complaints) -> None:
-    """A complaint where the time of a test goes back: the order of rows is that of the loading. A clock without a date
-    may pass midnight."""
-    if column is None:
-        return
-    if column not in layout.names:
-        complaints.add("", f"has no column {shown(column)}, which time_column names")
-        return
-    before: dict[str, float] = {}
-    for test, cell, line in zip(tests, layout.column(column), layout.lines, strict=True):
-        now = seconds(cell)
-        if now is None:
-            continue
-        gone = before.get(test, now) - now
-        if 0.0 < gone < 43200.0:
-            said = f"is {shown(str(cell).strip())}, earlier than the row before it"
-            complaints.add(
-                f"column {shown(column)}", f"{said}; allowed is the order of the measurement", line
-            )
+@dataclass
+class Clock:
+    """Looks whether the time of a test goes back in the tables of a source: rows are in the order of the loading."""
+
+    how: FileTable
+    before: dict[str, float] = field(default_factory=dict)
+
+    def look(self, layout: Layout, tests: tuple[str, ...], complaints: Complaints) -> None:
+        """Complaints about the first time that goes back, and about cells that are none among those that are."""
+        column = self.how.time_column
+        if column is None:
             return
-        before[test] = now
+        if column not in layout.names:
+            complaints.add("", f"has no column {shown(column)}, which time_column names")
+            return
+        cells = layout.column(column)
+        read = [self._seconds(cell) for cell in cells]
+        if read[0] is None:
+            return
+        for test, cell, now, line in zip(tests, cells, read, layout.lines, strict=True):
+            said = ""
+            if now is None:
+                said = (
+                    "which is no time; a row that is no data: skip, last_row or comment"
+                    if not is_empty(cell)
+                    else ""
+                )
+            else:
+                gone = self.before.get(test, now[0]) - now[0]
+                # A clock without a date passes midnight.
+                if gone > 0.0 and not (now[1] and gone > HALF_A_DAY):
+                    said = "earlier than the row before it; allowed is the order of the measurement"
+                self.before[test] = now[0]
+            if said:
+                complaints.add(f"column {shown(column)}", f"is {shown(str(cell).strip())}, {said}", line)
+                return
+
+    def _seconds(self, cell: Cell) -> tuple[float, bool] | None:
+        """A time in seconds, and whether it is that of a clock; None where the cell is no time."""
+        if isinstance(cell, float):
+            return None if cell != cell else (cell, False)
+        text = plain(cell)
+        for marks in (Marks(self.how.decimal or ".", self.how.thousands or ""), Marks(",")):
+            if (number := marks.number(text)) is not None:
+                return number, False
+        for read in (_date, _clock):
+            try:
+                return read(text), read is _clock
+            except ValueError:
+                continue
+        return None
 
 
-def seconds(cell: Cell) -> float | None:
-    """A time in seconds, from a number, a clock or a date; None where the cell is none."""
-    if isinstance(cell, float):
-        return cell
-    text = cell.strip()
-    for read in (_number, _date, _clock):
+def _date(text: str) -> float:
+    for form in ("", "%d.%m.%Y %H:%M:%S", "%m/%d/%Y %I:%M:%S %p", "%m/%d/%Y %H:%M:%S", "%Y/%m/%d %H:%M:%S"):
         try:
-            return read(text)
+            return (datetime.strptime(text, form) if form else datetime.fromisoformat(text)).timestamp()
         except ValueError:
             continue
-    return None
+    raise ValueError(text)
 
 
 def _clock(text: str) -> float:
     it = time.fromisoformat(text.replace(",", "."))
     return 3600.0 * it.hour + 60.0 * it.minute + it.second + 1e-6 * it.microsecond
-
-
-def _number(text: str) -> float:
-    return float(text.replace(",", "."))
-
-
-def _date(text: str) -> float:
-    return datetime.fromisoformat(text).timestamp()

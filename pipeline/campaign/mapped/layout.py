@@ -7,12 +7,14 @@ from dataclasses import dataclass
 
 from pipeline.campaign.complaints import Complaints, shown
 from pipeline.campaign.mapped.grid import Cell, Grid
-from pipeline.campaign.mapped.numbers import is_missing
+from pipeline.campaign.mapped.numbers import is_empty
 from pipeline.campaign.mapped.schema import FileTable
-from pipeline.campaign.mapped.units import NoUnit, unit
+from pipeline.campaign.mapped.units import meant
 
 _BRACKETS = re.compile(r"(.*?)\s*[(\[]\s*([^()\[\]]+?)\s*[)\]]\s*")
-_ENDING = re.compile(r"(.*?)(?:\s*[,/]\s*|_)([^\s,/_]+)")
+_ENDING = re.compile(r"(.*?)\s*[,/]\s*([^\s,/_]+)")
+# As in the contract's own columns. What may as well be a word is no unit there: Fz_min, T_in, Probe_h.
+_SUFFIX = re.compile(r"(.+)_(mm|cm|um|µm|N|mN|kN|Nmm|Nm|rad|mrad|urad|deg|kgf|gf|lbf|degC|degF)")
 
 
 @dataclass(frozen=True, eq=False)
@@ -39,33 +41,36 @@ def laid_out(grid: Grid, how: FileTable, complaints: Complaints) -> Layout | Non
     """The columns of a grid; None, with complaints, where there are none."""
     at = dict(zip(grid.lines, grid.rows, strict=True))
     header = at.get(how.header_row) if how.header_row else None
-    if how.header_row and (header is None or not any(_text(cell) for cell in header)):
+    if how.header_row and (header is None or not any(word(cell) for cell in header)):
         complaints.add(
             "", "holds nothing, the header is expected here; write header_row under [file]", how.header_row
         )
         return None
-    below = max(how.header_row, how.units_row or 0) + how.skip
+    below = max(how.header_row, how.units_row or 0)
     rows, lines, blocks = _rows(grid, how, below, header)
     if not rows:
         complaints.add("", f"has no rows of data below line {below}, allowed is one row for each load step")
         return None
     width = max(map(len, rows)) if header is None else _width(header)
-    names = tuple(f"#{k + 1}" for k in range(width)) if header is None else _names(header[:width])
+    given = ("",) * width if header is None else _names(header[:width])
+    # A column without a name is called by its number.
+    names = tuple(name or f"#{k + 1}" for k, name in enumerate(given))
     for k, name in enumerate(names):
-        if name and name in names[:k]:
+        if name in names[:k]:
             complaints.add(f"column {shown(name)}", "is there twice", how.header_row)
     for row, line in zip(rows, lines, strict=True):
-        if any(_text(cell) for cell in row[width:]) or (header is not None and len(row) < width):
-            complaints.add("", f"has {len(row)} cells, the header has {width}", line)
+        if any(word(cell) for cell in row[width:]) or len(row) < width:
+            others = "the header has" if header is not None else "others have"
+            complaints.add("", f"has {len(row)} cells, {others} {width}", line)
     full = [(*row[:width], *[""] * (width - len(row))) for row in rows]
     cells = [list(column) for column in zip(*full, strict=True)]
     for name in how.fill_down:
         if name not in names:
             complaints.add("", f"has no column {shown(name)}, which fill_down names")
         else:
-            _fill(cells[names.index(name)], how)
+            _fill(cells[names.index(name)])
     units = at.get(how.units_row or 0, ())
-    beside = tuple(_text(units[k]) if k < len(units) else "" for k in range(width))
+    beside = tuple(word(units[k]) if k < len(units) else "" for k in range(width))
     return Layout(names, beside, tuple(map(tuple, cells)), tuple(lines), tuple(blocks), grid.name)
 
 
@@ -76,16 +81,19 @@ def _rows(
     rows: list[tuple[Cell, ...]] = []
     lines: list[int] = []
     blocks: list[int] = []
-    block, blank = 0, False
+    block, blank, skipped = 0, False, 0
     for line, row in zip(grid.lines, grid.rows, strict=True):
         if line <= below or (how.last_row is not None and line > how.last_row):
             continue
-        if not any(_text(cell) for cell in row):
+        if not any(word(cell) for cell in row):
             blank = True
             continue
-        if how.comment and _text(row[0]).startswith(how.comment):
+        if how.comment and word(row[0]).startswith(how.comment):
             continue
-        if header is not None and tuple(map(_text, row)) == tuple(map(_text, header)):
+        if header is not None and tuple(map(word, row)) == tuple(map(word, header)):
+            continue
+        if skipped < how.skip:
+            skipped += 1
             continue
         block += blank and bool(rows)
         blank = False
@@ -99,36 +107,30 @@ def header_unit(name: str) -> tuple[str, str]:
     """The name of a column without its unit, and the unit as it is written there: "Force (kN)", "x_mm", "Weg/µm"."""
     if found := _BRACKETS.fullmatch(name):
         return found[1], found[2]
-    if (found := _ENDING.fullmatch(name)) and _known(found[2]):
-        return found[1], found[2]
+    for form in (_ENDING, _SUFFIX):
+        if (found := form.fullmatch(name)) and meant(found[2]) is not None:
+            return found[1], found[2]
     return name, ""
-
-
-def _known(spelling: str) -> bool:
-    try:
-        unit(spelling)
-    except NoUnit as error:
-        return " is " in str(error) and "is no unit" not in str(error)
-    return True
 
 
 def _width(header: tuple[Cell, ...]) -> int:
     """Columns up to the last one with a name."""
-    return max(k + 1 for k, cell in enumerate(header) if _text(cell))
+    return max(k + 1 for k, cell in enumerate(header) if word(cell))
 
 
 def _names(header: tuple[Cell, ...]) -> tuple[str, ...]:
-    return tuple(" ".join(_text(cell).split()) for cell in header)
+    return tuple(" ".join(word(cell).split()) for cell in header)
 
 
-def _fill(cells: list[Cell], how: FileTable) -> None:
+def _fill(cells: list[Cell]) -> None:
     """Empty cells repeat the one above, as merged cells of a spreadsheet are meant."""
     for k in range(1, len(cells)):
-        if is_missing(cells[k], how.missing):
+        if is_empty(cells[k]):
             cells[k] = cells[k - 1]
 
 
-def _text(cell: Cell) -> str:
+def word(cell: Cell) -> str:
+    """A cell as text; a whole number without a fraction."""
     if isinstance(cell, float):
         return f"{cell:.0f}" if cell.is_integer() else repr(cell)
     return cell.strip()

@@ -8,7 +8,7 @@ from difflib import get_close_matches
 
 from pipeline.campaign.complaints import shown
 from pipeline.campaign.mapped.schema import CellTable, ColumnTable, DerivedTable, FileTable
-from pipeline.campaign.mapped.units import UNITS, NoUnit, Unit, unit
+from pipeline.campaign.mapped.units import UNITS, NoUnit, Unit, meant, unit
 from pipeline.campaign.names import COORDINATES, TEMPERATURE, gauge_column
 
 FORCES, MOMENTS = ("fx", "fy", "fz"), ("mx", "my", "mz")
@@ -29,10 +29,16 @@ class Declared:
 
 @dataclass(frozen=True)
 class Source:
-    """What is declared of some files. test: the id of the only test that they hold, "" where rows say it."""
+    """What is declared of some files.
+
+    tests: ids that their rows may be of. own: whether these are of one test alone, with a file of its own.
+    elsewhere: ids of the tests that have such files.
+    """
 
     declared: Declared
-    test: str = ""
+    tests: tuple[str, ...]
+    own: bool = False
+    elsewhere: tuple[str, ...] = ()
 
 
 def quantities(gauges: Iterable[str]) -> dict[str, tuple[str, str]]:
@@ -53,9 +59,15 @@ def mistakes(name: str, it: ColumnTable, known: Mapping[str, tuple[str, str]]) -
     if it.sign == OPEN:
         out.append('sign = "?" is not decided yet, write 1, or -1 where the column grows against the axis')
     elif it.sign not in (1, -1):
-        out.append(f"sign is {it.sign}, allowed is 1 or -1")
+        out.append(f"sign is {shown(it.sign)}, allowed is 1 or -1")
+    if isinstance(it.zero, str) and it.zero != "first_row":
+        out.append(f'zero is {shown(it.zero)}, allowed is a number or "first_row"')
     if said := _no_quantity(name, it, known):
         return [said, *out]
+    if it.what in ("test", "step") and (it.sign != 1 or it.zero != 0.0):
+        out.append(f"has a sign or a zero, {it.what} has none")
+    if it.what == "temperature" and (it.sign != 1 or it.zero == "first_row"):
+        out.append("has a sign or its first row as zero, a temperature has neither")
     if it.unit is not None and it.what in known:
         try:
             unit(it.unit, known[it.what][0])
@@ -86,26 +98,22 @@ def _no_quantity(name: str, it: ColumnTable, known: Mapping[str, tuple[str, str]
 
 def unit_of(it: ColumnTable, name: str, beside: str, inside: str, quantity: str, contract: str) -> Unit | str:
     """The unit of a column, or what is wrong. beside: in the row of units, inside: in its header."""
+    if it.unit is None and name == contract and not beside.strip():
+        return next(u for u in UNITS.values() if u.quantity == quantity and u.factor == 1.0 and not u.offset)
     written = [spelling for spelling in (beside, inside) if spelling.strip()]
-    found = []
+    declared = None if it.unit is None else unit(it.unit, quantity)
     for spelling in written:
         try:
-            found.append(unit(spelling, quantity))
+            found = unit(spelling, quantity)
         except NoUnit as error:
-            if it.unit is None:
+            if declared is None:
                 return f"{error}; write unit = ... for it under [columns]"
-    if it.unit is None:
-        if not found and name == contract:
-            return next(
-                u for u in UNITS.values() if u.quantity == quantity and u.factor == 1.0 and not u.offset
-            )
-        if not found:
-            return "has no unit, write unit = ... for it under [columns]"
-        declared = found[0]
-    else:
-        declared = unit(it.unit, quantity)
-    for other in found:
-        if (other.factor, other.offset) != (declared.factor, declared.offset):
+            # What is no unit at all may be anything: a place, a channel.
+            if meant(spelling) is not None and declared.spelling not in (meant(spelling) or ()):
+                return f"has the unit {declared.spelling}, but the file says {spelling.strip()}: {error}"
+            continue
+        if declared is not None and (found.factor, found.offset) != (declared.factor, declared.offset):
             said = "the file says" if it.unit is not None else "the header and the row of units differ,"
-            return f"has the unit {declared.spelling}, but {said} {other.spelling}"
-    return declared
+            return f"has the unit {declared.spelling}, but {said} {found.spelling}"
+        declared = declared or found
+    return declared or "has no unit, write unit = ... for it under [columns]"

@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from typing import Annotated, Literal
 
-from pydantic import Field
+from pydantic import Field, model_validator
 
 from pipeline.campaign.tables import Number, Place, Table, Text
 
 Row = Annotated[int, Field(strict=True, ge=1, le=10_000_000)]
 Name = Annotated[str, Field(min_length=1, max_length=200)]
 Turn = Annotated[Number, Field(ge=-360.0, le=360.0)]
-Sign = Annotated[int, Field(strict=True)] | Literal["?"]
+Sign = Annotated[int, Field(strict=True)] | str
 
 
 class FileTable(Table):
@@ -35,6 +35,13 @@ class FileTable(Table):
     test_from: Literal["file", "sheet", "blank_row"] | None = None
     time_column: Name | None = None
 
+    @model_validator(mode="after")
+    def marks(self) -> FileTable:
+        """A mark of fractions is none of groups."""
+        if self.thousands is not None and self.thousands == self.decimal:
+            raise ValueError("thousands is the decimal mark, allowed is another one")
+        return self
+
 
 class ColumnTable(Table):
     """An entry of `[columns]`: what a column is. value = sign * (reading - zero), then in the unit of the contract."""
@@ -42,7 +49,7 @@ class ColumnTable(Table):
     what: Annotated[Text, Field(alias="is")]
     unit: Text | None = None
     sign: Sign = 1
-    zero: Number | Literal["first_row"] = 0.0
+    zero: Number | str = 0.0
 
 
 class CellTable(Table):

@@ -12,6 +12,7 @@ from pipeline.campaign.mapped.schema import CellTable, ColumnTable, DerivedTable
 
 Raw = dict[str, Any]
 TABLES = ("file", "columns", "cell", "derived")
+RESERVED = ("time", "temperature", "test", "step", "ignore")
 
 
 @dataclass(frozen=True)
@@ -27,30 +28,43 @@ class Sources:
     def found(self) -> tuple[Source, ...]:
         """The sources; none where nothing is declared."""
         tests = [test for test in self.raw.get("tests", []) if isinstance(test, dict)]
-        own = [bool(test.get("file") or test.get("columns")) for test in tests]
+        own = [bool(_table(test, "file") or _table(test, "columns")) for test in tests]
         if not any(self.raw.get(name) for name in TABLES) and not any(own):
             return ()
+        taken = [name for name in self.gauges if name in RESERVED]
+        for name in taken:
+            said = f"a gauge named {name} cannot be told from that in [columns], allowed is another name"
+            self.say(("gauges",), said, "gauges")
+        names = [str(test.get("id", k)) for k, test in enumerate(tests)]
+        elsewhere = tuple(name for name, mine in zip(names, own, strict=True) if mine)
+        rest = tuple(name for name in names if name not in elsewhere)
         out = []
-        if not all(own):
-            out.append(self._source((), self.raw.get("file", {}), self.raw.get("columns", {}), ""))
-        for k, (test, mine) in enumerate(zip(tests, own, strict=True)):
+        if rest:
+            out.append(
+                self._source((), _table(self.raw, "file"), _table(self.raw, "columns"), rest, elsewhere)
+            )
+        for k, (test, name, mine) in enumerate(zip(tests, names, own, strict=True)):
             if not mine:
                 continue
             path = ("tests", k)
-            name = str(test.get("id", k))
-            if "path" not in test.get("file", {}):
-                self.say(
-                    (*path, "file"),
-                    "has no path, a test with a file or columns of its own needs it",
-                    f"test {name}",
-                )
-            file = {**self.raw.get("file", {}), **test.get("file", {})}
-            columns = {**self.raw.get("columns", {}), **test.get("columns", {})}
-            out.append(self._source(path, file, columns, name))
+            if "path" not in _table(test, "file"):
+                said = "has no path, a test with a file or columns of its own needs it"
+                self.say((*path, "file"), said, f"test {shown(name)}, file")
+            file = {**_table(self.raw, "file"), **_table(test, "file")}
+            columns = {**_table(self.raw, "columns"), **_table(test, "columns")}
+            out.append(self._source(path, file, columns, (name,), None))
         return tuple(each for each in out if each is not None)
 
-    def _source(self, path: tuple[str | int, ...], file: Raw, columns: Raw, test: str) -> Source | None:
-        place = f"test {shown(test)}, " if test else ""
+    def _source(
+        self,
+        path: tuple[str | int, ...],
+        file: Raw,
+        columns: Raw,
+        tests: tuple[str, ...],
+        elsewhere: tuple[str, ...] | None,
+    ) -> Source | None:
+        """elsewhere: ids of the tests with files of their own; None for one of these."""
+        place = f"test {shown(tests[0])}, " if elsewhere is None else ""
         how = self.checked(FileTable, file, (*path, "file"), f"{place}file")
         tables: dict[str, ColumnTable] = {}
         known = quantities(self.gauges)
@@ -62,14 +76,19 @@ class Sources:
             tables[name] = it
             for said in mistakes(name, it, known):
                 self.say((*path, "columns", name), said, where)
-        cell = self.raw.get("cell")
+        cell = self.raw.get("cell") if isinstance(self.raw.get("cell"), dict) else None
         turned = None if cell is None else self.checked(CellTable, cell, ("cell",), "cell")
         derived = {
             name: self.checked(DerivedTable, raw, ("derived", name), f"derived.{name}")
-            for name, raw in self.raw.get("derived", {}).items()
+            for name, raw in _table(self.raw, "derived").items()
         }
         if how is None:
             return None
-        return Source(
-            Declared(how, tables, turned, {k: v for k, v in derived.items() if v is not None}), test
-        )
+        declared = Declared(how, tables, turned, {k: v for k, v in derived.items() if v is not None})
+        return Source(declared, tests, elsewhere is None, elsewhere or ())
+
+
+def _table(raw: Raw, name: str) -> Raw:
+    """A table; empty where there is none, or something else, which its schema has refused."""
+    found = raw.get(name, {})
+    return found if isinstance(found, dict) else {}

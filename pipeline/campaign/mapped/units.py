@@ -147,26 +147,34 @@ _ALSO = {
     "hours": "h",
 }
 
-QUESTIONS = {
-    "grad": "a degree (write deg) or a gon (write gon)?",
-    "Grad": "a degree (write deg) or a gon (write gon)?",
-    '"': "an inch (write in) or a second of arc (write arcsec)?",
-    "F": "a degree Fahrenheit? Then write degF",
-    "C": "a degree Celsius? Then write degC",
-    "M": "a metre? Then write m",
-    "kg": "a mass; is the force meant that it weighs? Then write kgf",
-    "g": "a mass; is the force meant that it weighs? Then write gf",
-    "lb": "a mass; is the force meant that it weighs? Then write lbf",
-    "lbs": "a mass; is the force meant that it weighs? Then write lbf",
-    "oz": "a mass; is the force meant that it weighs? Then write ozf",
-    "mil": "a thousandth of an inch (write thou) or a millimetre (write mm)?",
-    "MN": "a meganewton, which no bench has; is a millinewton meant? Then write mN",
-    "Mm": "a megametre; is a millimetre meant? Then write mm",
-    "NM": "a newton metre? Then write Nm",
-    "KN": "a kilonewton? Then write kN",
-    "MM": "a millimetre? Then write mm",
+QUESTIONS: dict[str, tuple[str, tuple[str, ...]]] = {
+    "grad": ("a degree (write deg) or a gon (write gon)?", ("°", "gon")),
+    "Grad": ("a degree (write deg) or a gon (write gon)?", ("°", "gon")),
+    '"': ("an inch (write in) or a second of arc (write arcsec)?", ("in", "arcsec")),
+    "F": ("a degree Fahrenheit? Then write degF", ("°F",)),
+    "C": ("a degree Celsius? Then write degC", ("°C",)),
+    "M": ("a metre? Then write m", ("m",)),
+    "kg": ("a mass; is the force meant that it weighs? Then write kgf", ("kgf",)),
+    "g": ("a mass; is the force meant that it weighs? Then write gf", ("gf",)),
+    "lb": ("a mass; is the force meant that it weighs? Then write lbf", ("lbf",)),
+    "lbs": ("a mass; is the force meant that it weighs? Then write lbf", ("lbf",)),
+    "oz": ("a mass; is the force meant that it weighs? Then write ozf", ("ozf",)),
+    "mil": ("a thousandth of an inch (write thou) or a millimetre (write mm)?", ("thou", "mm")),
+    "MN": ("a meganewton, which no bench has; is a millinewton meant? Then write mN", ("mN",)),
+    "Mm": ("a megametre; is a millimetre meant? Then write mm", ("mm",)),
+    "NM": ("a newton metre? Then write Nm", ("N·m",)),
+    "KN": ("a kilonewton? Then write kN", ("kN",)),
+    "MM": ("a millimetre? Then write mm", ("mm",)),
 }
-"""Spellings that mean more than one thing, or nothing, and what to ask."""
+"""Spellings that mean more than one thing, or nothing: what to ask, and the units that may be meant."""
+
+
+def meant(spelling: str) -> tuple[str, ...] | None:
+    """Units that a spelling may mean; None for one that is no unit at all."""
+    name = spelled(spelling)
+    if name in UNITS:
+        return (name,)
+    return QUESTIONS[name][1] if name in QUESTIONS else None
 
 
 class NoUnit(ValueError):
@@ -179,7 +187,7 @@ def unit(spelling: str, quantity: str | None = None) -> Unit:
     found = UNITS.get(name)
     if found is None:
         if name in QUESTIONS:
-            raise NoUnit(f"{spelling.strip()} is {QUESTIONS[name]}")
+            raise NoUnit(f"{spelling.strip()} is {QUESTIONS[name][0]}")
         allowed = [u for u, it in UNITS.items() if quantity in (None, it.quantity)]
         raise NoUnit(f"{spelling.strip()!r} is no unit that is known, allowed are {', '.join(allowed)}")
     if quantity is not None and found.quantity != quantity:
@@ -195,7 +203,7 @@ def unit(spelling: str, quantity: str | None = None) -> Unit:
 def spelled(spelling: str) -> str:
     """The spelling that is shown of one that may be another way to write it; itself where there is none."""
     text = spelling.strip().strip("()[]").strip()
-    text = "".join("·" if c in "*.⋅-–/ " else c for c in " ".join(text.split())) if len(text) > 2 else text
+    text = "".join("·" if c in "*.⋅-– " else c for c in " ".join(text.split())) if len(text) > 2 else text
     while "··" in text:
         text = text.replace("··", "·")
     return text if text in UNITS else _ALSO.get(text, text)

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import csv
-import io
 from hashlib import sha256
 from pathlib import Path
 
@@ -12,77 +10,18 @@ import openpyxl
 import pytest
 from nptdms import ChannelObject, GroupObject, TdmsWriter
 
-from pipeline.campaign import BadCampaign, Campaign, read
 from pipeline.campaign.names import DISPLACEMENTS, WRENCHES
-
-HEAD = """schema = 1
-name = "bar"
-
-[rig]
-kind = "bar"
-length_mm = 300.0
-reference_temperature_C = 20.0
-bar = { EA_N = 1.3e7, EIy_Nmm2 = 1.04215e+08, EIz_Nmm2 = 1.04215e+09, GJ_Nmm2 = 1.56322e+08 }
-
-[noise]
-z_mm = 0.0127
-fz_N = 0.05
-"""
-TEST = """
-[[tests]]
-id = "{id}"
-role = "fit"
-control = {{ x = "force", y = "force", z = "force", rx = "force", ry = "force", rz = "force" }}
-"""
-ONE, TWO = TEST.format(id="load"), TEST.format(id="load") + TEST.format(id="again")
-Z = np.array([0.0, -0.508, -1.016, -1.524, -2.0828])
-FZ = np.array([0.0, -5.0, -10.0, -15.0, -20.0])
-
-
-def campaign(
-    folder: Path, tables: str, content: str | bytes = "", name: str = "measurements.csv", tests: str = ONE
-) -> Campaign:
-    (folder / "campaign.toml").write_text(HEAD + tables + tests, encoding="utf-8")
-    if content:
-        (folder / name).write_bytes(content if isinstance(content, bytes) else content.encode())
-    return read(folder)
-
-
-def table(header: list[str], *columns: np.ndarray | list[str], mark: str = ",") -> str:
-    out = io.StringIO()
-    writer = csv.writer(out, delimiter=mark, lineterminator="\n")
-    writer.writerow(header)
-    writer.writerows(zip(*columns, strict=True))
-    return out.getvalue()
-
-
-def agrees(found: Campaign, z: np.ndarray = Z, fz: np.ndarray = FZ, test: int = 0) -> None:
-    data = found.tests[test].data
-    np.testing.assert_allclose(data.displacement[:, 2], z, rtol=1e-12, atol=1e-15)
-    np.testing.assert_allclose(data.wrench[:, 2], fz, rtol=1e-12, atol=1e-15)
-    others = [k for k in range(6) if k != 2]
-    assert np.isnan(data.displacement[:, others]).all() and np.isnan(data.wrench[:, others]).all()
-    assert data.steps.tolist() == list(range(len(z)))
-
-
-def refused(
-    folder: Path,
-    tables: str,
-    content: str | bytes,
-    *said: str,
-    tests: str = ONE,
-    name: str = "measurements.csv",
-) -> None:
-    with pytest.raises(BadCampaign) as caught:
-        campaign(folder, tables, content, name, tests)
-    for each in said:
-        assert each in str(caught.value)
-
-
-SIMPLE = """[columns]
-"Travel" = {{ is = "z", unit = "{z}" }}
-"Load" = {{ is = "fz", unit = "{fz}" }}
-"""
+from tests.pipeline.campaign.mapped_tables import (
+    FZ,
+    SIMPLE,
+    TEST,
+    TWO,
+    Z,
+    assert_agrees,
+    assert_refused,
+    campaign,
+    table,
+)
 
 
 @pytest.mark.parametrize(
@@ -101,7 +40,7 @@ def test_units_are_converted_as_declared_and_said(
     tmp_path: Path, z: str, fz: str, by: float, force: float
 ) -> None:
     found = campaign(tmp_path, SIMPLE.format(z=z, fz=fz), table(["Travel", "Load"], Z / by, FZ / force))
-    agrees(found)
+    assert_agrees(found)
     said = " ".join(found.remarks)
     assert "z = 'Travel'" in said and (by == 1.0 or "1 " in said)
 
@@ -127,12 +66,12 @@ def test_titles_units_remarks_and_skipped_rows_are_where_it_was_declared(
         else ("Travel", "Load")
     )
     columns = f'[columns]\n"{names[0]}" = {{ is = "z" }}\n"{names[1]}" = {{ is = "fz" }}\n'
-    agrees(campaign(tmp_path, layout + columns, content + rows))
+    assert_agrees(campaign(tmp_path, layout + columns, content + rows))
 
 
 def test_blank_rows_and_headers_that_come_again_are_no_rows(tmp_path: Path) -> None:
     first, rest = table(["Travel", "Load"], Z[:2], FZ[:2]), table(["Travel", "Load"], Z[2:], FZ[2:])
-    agrees(campaign(tmp_path, SIMPLE.format(z="mm", fz="N"), f"{first}\n\n{rest}"))
+    assert_agrees(campaign(tmp_path, SIMPLE.format(z="mm", fz="N"), f"{first}\n\n{rest}"))
 
 
 @pytest.mark.parametrize(
@@ -142,16 +81,16 @@ def test_decimal_commas_and_other_separators(tmp_path: Path, mark: str, name: st
     rows = [[f"{v:.4f}".replace(".", ",") for v in each] for each in (Z, FZ)]
     content = table(["Travel", "Load"], *rows, mark=mark)
     layout = f'[file]\nseparator = "{name}"\n' if name else ""
-    agrees(campaign(tmp_path, layout + SIMPLE.format(z="mm", fz="N"), content))
+    assert_agrees(campaign(tmp_path, layout + SIMPLE.format(z="mm", fz="N"), content))
 
 
 def test_a_number_that_allows_two_readings_is_refused_with_the_question(tmp_path: Path) -> None:
     content, columns = "Travel;Load\n1;2.500\n4;7.250\n", SIMPLE.format(z="mm", fz="N")
-    refused(tmp_path, columns, content, "2.500 may be 2.500 or 2500", "decimal =")
+    assert_refused(tmp_path, columns, content, "2.500 may be 2.500 or 2500", "decimal =")
     found = campaign(tmp_path, '[file]\ndecimal = ","\nthousands = "."\n' + columns, content)
-    agrees(found, np.array([1.0, 4.0]), np.array([2500.0, 7250.0]))
+    assert_agrees(found, np.array([1.0, 4.0]), np.array([2500.0, 7250.0]))
     found = campaign(tmp_path, '[file]\ndecimal = "."\n' + columns, content)
-    agrees(found, np.array([1.0, 4.0]), np.array([2.5, 7.25]))
+    assert_agrees(found, np.array([1.0, 4.0]), np.array([2.5, 7.25]))
 
 
 def test_a_logger_without_header_in_cp1252(tmp_path: Path) -> None:
@@ -165,8 +104,8 @@ def test_a_logger_without_header_in_cp1252(tmp_path: Path) -> None:
         'decimal = ","\nthousands = "."\ntime_column = "#1"\n'
         '[columns]\n"#2" = { is = "z", unit = "mm" }\n"#3" = { is = "fz", unit = "mN" }\n'
     )
-    agrees(campaign(tmp_path, layout, content.encode("cp1252")))
-    refused(
+    assert_agrees(campaign(tmp_path, layout, content.encode("cp1252")))
+    assert_refused(
         tmp_path,
         layout.replace('encoding = "cp1252"\n', ""),
         content.encode("cp1252"),
@@ -183,7 +122,7 @@ def test_words_for_no_reading_are_those_that_were_declared(tmp_path: Path) -> No
         np.isnan(found.tests[0].data.displacement[1:4, 2]).all()
         and found.tests[0].data.wrench[:, 2].tolist() == FZ.tolist()
     )
-    refused(
+    assert_refused(
         tmp_path, SIMPLE.format(z="mm", fz="N"), content, "line 3, column 'Travel': holds '---'", "line 4"
     )
 
@@ -193,7 +132,7 @@ def test_sign_and_zero_are_those_of_the_reading(tmp_path: Path) -> None:
     columns += '"Load" = { is = "fz", unit = "N", zero = "first_row" }\n'
     content = table(["Travel", "Load"], 3.2 - Z, FZ + 17.0)
     found = campaign(tmp_path, columns, content)
-    agrees(found)
+    assert_agrees(found)
     assert any("z = -'Travel' less 3.2" in each for each in found.remarks)
 
 
@@ -203,8 +142,8 @@ def test_a_first_row_is_that_of_each_test(tmp_path: Path) -> None:
     force = np.concatenate([FZ + 17.0, FZ - 2.0])
     content = table(["test", "Travel", "Load"], ["load"] * 5 + ["again"] * 5, np.tile(Z, 2), force)
     found = campaign(tmp_path, columns, content, tests=TWO)
-    agrees(found)
-    agrees(found, test=1)
+    assert_agrees(found)
+    assert_agrees(found, test=1)
 
 
 @pytest.mark.parametrize(
@@ -247,7 +186,7 @@ def test_a_first_row_is_that_of_each_test(tmp_path: Path) -> None:
     ],
 )
 def test_what_was_not_said_is_asked(tmp_path: Path, columns: str, content: str, said: str) -> None:
-    refused(tmp_path, f"[columns]\n{columns}\n", content, said)
+    assert_refused(tmp_path, f"[columns]\n{columns}\n", content, said)
 
 
 def test_a_workbook_with_titles_a_row_of_units_and_merged_cells(tmp_path: Path) -> None:
@@ -265,8 +204,8 @@ def test_a_workbook_with_titles_a_row_of_units_and_merged_cells(tmp_path: Path) 
     layout = '[file]\npath = "blade.xlsx"\nheader_row = 2\nunits_row = 3\nfill_down = ["Test"]\ntest_column = "Test"\n'
     columns = '[columns]\n"Travel" = { is = "z" }\n"Load" = { is = "fz" }\n"Test" = { is = "test" }\n'
     found = campaign(tmp_path, layout + columns, tests=TWO)
-    agrees(found)
-    agrees(found, test=1)
+    assert_agrees(found)
+    assert_agrees(found, test=1)
 
 
 @pytest.mark.parametrize("how", ["sheet", "file", "own", "blank_row"])
@@ -295,8 +234,8 @@ def test_a_sheet_a_file_or_a_block_of_rows_for_each_test(tmp_path: Path, how: st
             tests = "".join(TEST.format(id=n) + f'file = {{ path = "{n}.dat" }}\n' for n in ("load", "again"))
     found = campaign(tmp_path, layout + columns, tests=tests)
     assert [test.id for test in found.tests] == ["load", "again"]
-    agrees(found)
-    agrees(found, test=1)
+    assert_agrees(found)
+    assert_agrees(found, test=1)
 
 
 def test_of_many_rows_the_ends_and_the_turns_are_kept(tmp_path: Path) -> None:
@@ -316,10 +255,12 @@ def test_of_many_rows_the_ends_and_the_turns_are_kept(tmp_path: Path) -> None:
 def test_a_time_that_goes_back_is_said_and_midnight_is_passed(tmp_path: Path, times: list[str]) -> None:
     content = table(["t", "Travel", "Load"], times, Z[:3].astype(str), FZ[:3].astype(str), mark=";")
     layout = '[file]\ntime_column = "t"\n' + SIMPLE.format(z="mm", fz="N")
-    refused(tmp_path, layout, content, f"line 4, column 't': is '{times[2]}', earlier than the row before it")
+    assert_refused(
+        tmp_path, layout, content, f"line 4, column 't': is '{times[2]}', earlier than the row before it"
+    )
     clock = ["23:59:59", "00:00:01", "00:00:02"]
     midnight = table(["t", "Travel", "Load"], clock, Z[:3].astype(str), FZ[:3].astype(str))
-    agrees(campaign(tmp_path, layout, midnight), Z[:3], FZ[:3])
+    assert_agrees(campaign(tmp_path, layout, midnight), Z[:3], FZ[:3])
 
 
 def test_the_files_are_told_by_their_digests(tmp_path: Path) -> None:
@@ -343,13 +284,13 @@ def test_channels_of_a_group(tmp_path: Path) -> None:
     layout = (
         '[file]\npath = "a.tdms"\nunits_row = 2\n[columns]\n"Travel" = { is = "z" }\n"Load" = { is = "fz" }\n'
     )
-    agrees(campaign(tmp_path, layout))
+    assert_agrees(campaign(tmp_path, layout))
 
 
 @pytest.mark.parametrize("name", ["a.xlsx", "a.tdms", "a.doc", "a.csv"])
 def test_a_file_that_is_none_is_said(tmp_path: Path, name: str) -> None:
     layout = f'[file]\npath = "{name}"\n' + SIMPLE.format(z="mm", fz="N")
-    refused(tmp_path, layout, b"PK\x03\x04broken\x00\xff", name, name=name)
+    assert_refused(tmp_path, layout, b"PK\x03\x04broken\x00\xff", name, name=name)
 
 
 def test_a_cell_at_another_point_and_turned(tmp_path: Path) -> None:
@@ -369,7 +310,7 @@ def test_a_cell_at_another_point_and_turned(tmp_path: Path) -> None:
     found = campaign(tmp_path, columns + cell, content)
     np.testing.assert_allclose(found.tests[0].data.wrench, wrench, rtol=1e-9)
     fewer = columns.replace('"fy" = { is = "fy"', '"fy" = { is = "ignore"')
-    refused(tmp_path, fewer + cell, content, "[cell]: fx at the platform needs fy of the cell as well")
+    assert_refused(tmp_path, fewer + cell, content, "[cell]: fx at the platform needs fy of the cell as well")
 
 
 def test_two_dials_are_an_angle(tmp_path: Path) -> None:
@@ -381,7 +322,7 @@ def test_two_dials_are_an_angle(tmp_path: Path) -> None:
     found = campaign(tmp_path, tables, content)
     np.testing.assert_allclose(found.tests[0].data.displacement[:, 5], angle, atol=1e-12)
     twice = tables.replace("[columns]\n", '[columns]\n"Dial 1" = { is = "z", unit = "um" }\n')
-    refused(tmp_path, twice, content, "is used by [derived] already")
+    assert_refused(tmp_path, twice, content, "is used by [derived] already")
 
 
 def test_every_quantity_comes_out_in_the_unit_of_the_contract(tmp_path: Path) -> None:

@@ -10,7 +10,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from pipeline.campaign import BadCampaign, Campaign, read
-from tests.pipeline.campaign.test_mapped import HEAD, TEST
+from tests.pipeline.campaign.mapped_tables import HEAD, TEST
 
 TEXT = """Test;Weg [µm];Kraft (kN);Zeit
 # bench 4

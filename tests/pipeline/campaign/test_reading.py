@@ -190,7 +190,7 @@ def test_a_long_file_is_read_in_seconds(tmp_path: Path) -> None:
 
 def test_a_bar_may_be_given_by_its_section_and_material(tmp_path: Path) -> None:
     """A tube of steel: EA, EI and GJ by hand; its outermost fibres are those of the section."""
-    from tests.pipeline.campaign.test_mapped import HEAD, ONE
+    from tests.pipeline.campaign.mapped_tables import HEAD, ONE
 
     bar = 'section = { kind = "tube", outer_diameter_mm = 16.0, wall_mm = 2.0 }\nmaterial = { E_MPa = 2.1e5, nu = 0.3 }'
     text = re.sub(r"bar = .*", bar, HEAD) + ONE
