@@ -54,11 +54,15 @@ def campaign_text(name: str, kind: str, file: str = "", found: Found | None = No
 
 def _file(file: str, found: Found) -> str:
     lines = ["", "[file]", f"path = {_quoted(file)}"]
-    if found.sheet is not None:
+    if found.sheets:
+        lines.append(f'sheet = "?"               # one of {", ".join(map(_quoted, found.sheets))}')
+        lines.append('# test_from = "sheet"        or each sheet is a test')
+    elif found.sheet is not None:
         lines.append(f"sheet = {_quoted(found.sheet)}")
     if found.separator is not None:
         lines.append(f"separator = {_quoted(found.separator)}")
         lines.append(f'encoding = "{found.encoding}"')
+    if found.separator is not None or found.question:
         decimal = f'decimal = "{found.decimal}"' if found.decimal else f'decimal = "?"    # {found.question}'
         lines.append(decimal)
     lines.append(
@@ -71,6 +75,9 @@ def _file(file: str, found: Found) -> str:
         lines.append(f"skip = {found.skip}                     # rows below these that are no data")
     # The time is the order of the rows; it is no quantity of the model.
     lines += [f"time_column = {_quoted(name)}" for name in _times(found)[:1]]
+    if found.others:
+        some = ", ".join(map(str, found.others[:5])) + (" ..." if len(found.others) > 5 else "")
+        lines.append(f"# lines among the data that are not like them: {some}; comment, missing or last_row")
     if found.merged:
         lines.append(
             f"fill_down = [{', '.join(map(_quoted, found.merged))}]      # empty cells repeat the one above"
@@ -84,7 +91,12 @@ def _file(file: str, found: Found) -> str:
 def _columns(found: Found) -> str:
     lines = []
     times = _times(found)[:1]
-    for name, beside in zip(found.names, found.units, strict=True):
+    for k, (name, beside) in enumerate(zip(found.names, found.units, strict=True)):
+        if name in found.names[:k]:
+            lines.append(
+                f"# {_quoted(name)} is there twice, which is refused: give one another name in the file"
+            )
+            continue
         # A name of the contract says what it is, its axis and its unit.
         if not name or name in times or name in known_columns(()):
             continue
@@ -121,7 +133,7 @@ control = {{ {control} }}
 
 
 def _quoted(text: str) -> str:
-    return json.dumps(text, ensure_ascii=False)
+    return json.dumps(text, ensure_ascii=False).replace("\x7f", "\\u007F")
 
 
 def plain_header(columns: Sequence[str]) -> str:

@@ -25,8 +25,11 @@ def init(folder: Path, file: Path | None, kind: str) -> None:
     found = None if file is None else _found(file)
     folder.mkdir(parents=True, exist_ok=True)
     if file is not None and found is not None:
-        if not (folder / file.name).exists():
-            shutil.copyfile(file, folder / file.name)
+        copy = folder / file.name
+        if copy.exists() and copy.read_bytes() != file.read_bytes():
+            raise InputError(f"{copy} is there already and is another file, allowed is a folder without it")
+        if not copy.exists():
+            shutil.copyfile(file, copy)
         text = campaign_text(file.stem, kind, file.name, found)
     else:
         text = campaign_text(folder.resolve().name, kind)

@@ -2,17 +2,19 @@
 
 from __future__ import annotations
 
+import csv
 import re
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import groupby
 from pathlib import Path
 
 from pipeline.campaign.formats import by_suffix, grids
 from pipeline.campaign.formats.text import decoded, split
 from pipeline.campaign.mapped.grid import BadTable, Cell
-from pipeline.campaign.mapped.numbers import Marks, decimal_of
+from pipeline.campaign.mapped.layout import word
+from pipeline.campaign.mapped.numbers import Marks, decimal_of, plain
 from pipeline.campaign.mapped.schema import FileTable
-from pipeline.campaign.mapped.units import NoUnit, unit
+from pipeline.campaign.mapped.units import meant
 
 MARKS = (";", "\t", ",", " ")
 """In the order in which they are preferred where they part a file alike."""
@@ -20,7 +22,7 @@ NAMES = {"\t": "tab", " ": "space"}
 ENCODINGS = ("utf-8", "cp1252")
 LOOKED_AT = 2000
 """Lines."""
-_NUMBER = re.compile(r"[+-]?(?:\d+(?:[.,' ]\d+)*|[.,]\d+)(?:[eE][+-]?\d+)?")
+_NUMBER = re.compile(r"[+-]?(?:\d{1,3}(?:[.,' ]\d{3})+(?:[.,]\d*)?|\d+(?:[.,]\d*)?|[.,]\d+)(?:[eE][+-]?\d+)?")
 
 
 @dataclass(frozen=True)
@@ -30,6 +32,7 @@ class Found:
     separator: None where the format has none. header_row, units_row: counted from 1, 0 and None where there is none.
     skip: rows below these before the data. names, units: of the columns. decimal: None where the numbers allow two
     readings. question: what to ask then. merged: columns with a word in their first row and nothing in most others.
+    others: lines among the data that are not like them. sheets: of a workbook with several that hold numbers.
     """
 
     encoding: str
@@ -43,6 +46,8 @@ class Found:
     decimal: str | None
     question: str = ""
     merged: tuple[str, ...] = ()
+    others: tuple[int, ...] = ()
+    sheets: tuple[str, ...] = ()
 
 
 def looked(path: Path) -> Found:
@@ -53,9 +58,13 @@ def looked(path: Path) -> Found:
         )
     if path.suffix.lower() in by_suffix() and by_suffix()[path.suffix.lower()].__name__.endswith(".text"):
         return _of_text(path)
-    book = grids(path, FileTable(header_row=0, sheet=1))
-    rows = [tuple(row) for row in book[0].rows]
-    return _of_rows(rows, "utf-8", None, book[0].name)
+    every = [
+        grid for grid in grids(path, FileTable(header_row=0, test_from="sheet")) if _data(list(grid.rows))[2]
+    ]
+    if not every:
+        raise BadTable("has no rows of numbers, allowed is a table with two columns or more")
+    found = _of_rows(list(every[0].rows), "utf-8", None, every[0].name)
+    return replace(found, sheets=tuple(grid.name for grid in every)) if len(every) > 1 else found
 
 
 def _of_text(path: Path) -> Found:
@@ -69,12 +78,18 @@ def _of_text(path: Path) -> Found:
     if not used:
         raise BadTable("is no text in UTF-8 or cp1252")
     lines = text.splitlines()[:LOOKED_AT]
-    best: tuple[int, list[tuple[Cell, ...]], str] | None = None
+    best: tuple[tuple[float, int], list[tuple[Cell, ...]], str] | None = None
     for mark in MARKS:
-        rows: list[tuple[Cell, ...]] = [tuple(cells) for cells in split(lines, mark)]
-        size = _data(rows)[2]
-        if size and (best is None or size > best[0]):
-            best = (size, rows, mark)
+        try:
+            rows: list[tuple[Cell, ...]] = [tuple(cells) for cells in split(lines, mark)]
+        except csv.Error:
+            continue
+        _, width, size = _data(rows)
+        alike = sum(len(row) == width for row in rows)
+        # The mark under which most cells are numbers.
+        merit = (size / (width * alike), size) if size else (0.0, 0)
+        if size and (best is None or merit > best[0]):
+            best = (merit, rows, mark)
     if best is None:
         raise BadTable("has no rows of numbers, allowed is a table with two columns or more")
     return _of_rows(best[1], used, NAMES.get(best[2], best[2]), None)
@@ -85,11 +100,13 @@ def _of_rows(rows: list[tuple[Cell, ...]], encoding: str, separator: str | None,
     if not size:
         raise BadTable("has no rows of numbers, allowed is a table with two columns or more")
     above = [k for k in range(first) if _texts(rows[k], width)]
-    units_at = above[-1] if above and _are_units(rows[above[-1]]) else None
+    # Letters such as s and F alone may as well be names.
+    units_at = above[-1] if len(above) > 1 and _are_units(rows[above[-1]]) else None
     header_at = next((k for k in reversed(above) if k != units_at), None)
     names = tuple(f"#{k + 1}" for k in range(width)) if header_at is None else _padded(rows[header_at], width)
     units = ("",) * width if units_at is None else _padded(rows[units_at], width)
     below = max((header_at if header_at is not None else -1), (units_at if units_at is not None else -1)) + 1
+    others = [k + 1 for k in range(first, len(rows)) if _other(rows[k], width, rows, header_at)]
     cells = [c for row in rows[first:] for c in row if isinstance(c, str) and _NUMBER.fullmatch(c.strip())]
     marks = decimal_of(cells, None, None)
     return Found(
@@ -98,7 +115,7 @@ def _of_rows(rows: list[tuple[Cell, ...]], encoding: str, separator: str | None,
         sheet,
         0 if header_at is None else header_at + 1,
         None if units_at is None else units_at + 1,
-        first - below,
+        sum(any(word(c) for c in row) for row in rows[below:first]),
         names,
         units,
         marks.decimal if isinstance(marks, Marks) else None,
@@ -108,29 +125,42 @@ def _of_rows(rows: list[tuple[Cell, ...]], encoding: str, separator: str | None,
             for k in range(width)
             if names[k] and _merged([row[k] for row in rows[first:] if len(row) > k])
         ),
+        tuple(others),
     )
+
+
+def _other(row: tuple[Cell, ...], width: int, rows: list[tuple[Cell, ...]], header_at: int | None) -> bool:
+    """Whether a row among the data is none: other than blank, the header again, or as wide and with a number."""
+    if not any(word(c) for c in row) or (header_at is not None and row == rows[header_at]):
+        return False
+    return len(row) != width or not _numbers(row)
 
 
 def _merged(column: list[Cell]) -> bool:
     empty = sum(isinstance(c, str) and not c.strip() for c in column)
-    return 2 * empty > len(column) and isinstance(column[0], str) and bool(column[0].strip())
+    named = isinstance(column[0], str) and bool(column[0].strip()) and not _NUMBER.fullmatch(plain(column[0]))
+    return 2 * empty > len(column) and named
 
 
 def _data(rows: list[tuple[Cell, ...]]) -> tuple[int, int, int]:
-    """Of the longest run of rows alike in width with numbers: where it begins, its width, its cells with numbers."""
-    best = (0, 0, 0)
-    place = 0
-    for width, run in groupby(rows, lambda row: len(row) if len(row) > 1 and _numbers(row) else 0):
-        members = list(run)
-        size = sum(map(_numbers, members))
-        if width and size > best[2]:
-            best = (place, width, size)
-        place += len(members)
-    return best
+    """Where the data begin, their width, and how many cells hold numbers.
+
+    The width is that of the longest run of rows with numbers; they begin with the first row that is as wide and has as
+    many numbers as the leanest of that run, whatever interrupts them later.
+    """
+    best, width, least = 0, 0, 0
+    for wide, run in groupby(rows, lambda row: len(row) if len(row) > 1 and _numbers(row) else 0):
+        counts = [_numbers(row) for row in run]
+        if wide and sum(counts) > best:
+            best, width, least = sum(counts), wide, min(counts)
+    if not width:
+        return 0, 0, 0
+    first = next(k for k, row in enumerate(rows) if len(row) == width and _numbers(row) >= least)
+    return first, width, sum(_numbers(row) for row in rows if len(row) == width)
 
 
 def _numbers(row: tuple[Cell, ...]) -> int:
-    return sum(isinstance(c, float) or bool(_NUMBER.fullmatch(c.strip())) for c in row)
+    return sum(isinstance(c, float) or bool(_NUMBER.fullmatch(plain(c))) for c in row)
 
 
 def _texts(row: tuple[Cell, ...], width: int) -> bool:
@@ -140,14 +170,9 @@ def _texts(row: tuple[Cell, ...], width: int) -> bool:
 
 
 def _are_units(row: tuple[Cell, ...]) -> bool:
-    words = [str(c).strip() for c in row if str(c).strip()]
-    known = 0
-    for word in words:
-        try:
-            unit(word)
-            known += 1
-        except NoUnit as error:
-            known += "is no unit" not in str(error)
+    """Whether more than half of the words of a row are units."""
+    words = [str(c).strip() for c in row if str(c).strip().strip("-")]
+    known = sum(meant(word) is not None for word in words)
     return bool(words) and 2 * known > len(words)
 
 

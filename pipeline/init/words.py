@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 
 from pipeline.campaign.mapped.layout import header_unit
-from pipeline.campaign.mapped.units import NoUnit, unit
+from pipeline.campaign.mapped.units import NoUnit, meant, unit
 
 WORDS: dict[str, tuple[str, ...]] = {
     "force": (
@@ -90,10 +90,27 @@ WORDS: dict[str, tuple[str, ...]] = {
         "zaman",
         "tiempo",
     ),
-    "step": ("step", "stage", "index", "row", "schritt", "nr", "no", "point", "sample", "scan", "reading"),
-    "test": ("test", "specimen", "run", "versuch", "prüfling", "probe", "essai"),
+    "step": ("step", "schritt"),
+    "test": ("test", "specimen", "versuch"),
 }
 """In small letters; those of several languages. A word of two quantities stands in none."""
+OTHERS = (
+    *(
+        "speed",
+        "rate",
+        "velocity",
+        "acceleration",
+        "gradient",
+        "pressure",
+        "strain",
+        "stress",
+        "energy",
+        "power",
+    ),
+    *("stiffness", "compliance", "voltage", "current", "frequency", "cycle", "count", "channel"),
+    *("geschwindigkeit", "druck", "dehnung", "spannung", "steifigkeit"),
+)
+"""Words by which a column is something else, whatever stands beside them."""
 ENDINGS = {"kraft": "force", "weg": "length", "zeit": "time", "moment": "moment", "winkel": "angle"}
 """Of German words that are written together: Standardkraft, Traversenweg, Prüfzeit."""
 _WORD = re.compile(r"[^\W\d_]+")
@@ -106,7 +123,12 @@ def quantity_of(name: str, beside: str = "") -> str | None:
     """
     stem, inside = header_unit(name)
     by_unit = _by_unit(beside) or _by_unit(inside)
+    if (inside and meant(inside) is None) or (beside.strip("- ") and meant(beside) is None):
+        # A unit that is none of the list: a stress, a percentage, a rate.
+        return None
     parts = _parts(stem)
+    if set(parts) & set(OTHERS):
+        return None
     by_word = {what for what, words in WORDS.items() if set(parts) & set(words)}
     by_word |= {what for ending, what in ENDINGS.items() for part in parts if part.endswith(ending)}
     if by_unit is not None:

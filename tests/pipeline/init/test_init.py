@@ -8,6 +8,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
+import openpyxl
 import pytest
 
 from pipeline.campaign import BadCampaign, read
@@ -156,3 +157,71 @@ def test_headers_of_real_loggers_are_guessed_or_asked_about_and_never_wrong() ->
     guessed = [each for each in known if each[1] is not None]
     # Of those that say what they are.
     assert (len(found), len(known), len(guessed)) == (58, 44, 44)
+
+
+@pytest.mark.parametrize(
+    ("content", "others"),
+    [
+        ("0,0\n0.1,5\n\n0,0\n0.1,5\n0.2,6\n0.3,7\n", ()),
+        ("0,0\n0.1,5\n\nTravel (mm),Load (N)\n0,0\n0.1,5\n0.2,6\n", ()),
+        ("0,0\n0.1,5\n# dial touched\n0.2,6\n0.3,7\n0.4,8\n", (4,)),
+        ("0,0\n0.1,5,ok\n0.2,6\n0.3,7\n0.4,8\n", (3,)),
+        ("0,0\n0.1,5\nOVL,OVL\n0.2,6\n0.3,7\n0.4,8\n", (4,)),
+    ],
+)
+def test_what_interrupts_a_table_takes_no_rows_away(
+    tmp_path: Path, content: str, others: tuple[int, ...]
+) -> None:
+    (tmp_path / "a.csv").write_text("Travel (mm),Load (N)\n" + content)
+    found = looked(tmp_path / "a.csv")
+    assert (found.header_row, found.units_row, found.skip, found.others) == (1, None, 0, others)
+    assert found.names == ("Travel (mm)", "Load (N)")
+    init(tmp_path / "out", tmp_path / "a.csv", "bar")
+    text = (tmp_path / "out" / "campaign.toml").read_text()
+    assert "skip =" not in text and ("not like them" in text) is bool(others)
+
+
+@pytest.mark.parametrize(
+    ("content", "separator", "decimal", "header"),
+    [
+        ("Weg Kraft\n0,5 1,5\n0,6 1,7\n0,7 1,9\n", "space", ",", 1),
+        ("Weg;Kraft\n2,500;1 234\n2,501;1 235\n", ";", None, 1),
+        ("s;F\n0,5;1,5\n0,6;1,7\n", ";", ",", 1),
+        ("Titel\n\nWeg;Kraft\nmm;N\n0,5;1,5\n0,6;1,7\n", ";", ",", 3),
+        ("Travel\tLoad\n0.1\t5.0\n0.2\t6.0\n", "tab", ".", 1),
+    ],
+)
+def test_marks_and_headers_that_may_mislead(
+    tmp_path: Path, content: str, separator: str, decimal: str | None, header: int
+) -> None:
+    (tmp_path / "a.txt").write_text(content)
+    found = looked(tmp_path / "a.txt")
+    assert (found.separator, found.decimal, found.header_row) == (separator, decimal, header)
+
+
+@pytest.mark.parametrize(
+    "name",
+    ["Fz_min", "Probe_h", "T_in", "Probe 1", "Reading", "Sample", "Crosshead speed (mm/min)", "Extension (%)"]
+    + ["Load rate [N/s]", "Tension [V]", "Strain gauge [µm/m]", "Stiffness [N/mm]", "Temp gradient (K/m)"],
+)
+def test_what_may_be_something_else_is_asked_about(name: str) -> None:
+    assert quantity_of(name) is None
+
+
+def test_of_several_sheets_with_numbers_one_is_asked_for(tmp_path: Path) -> None:
+    book = openpyxl.Workbook()
+    cover = book.active
+    assert cover is not None
+    cover.append(["Blade", "series 4"])
+    for name in ("First", "Second"):
+        sheet = book.create_sheet(name)
+        for row in (("Travel (mm)", "Load (N)"), (0.0, 0.0), (0.1, 5.0)):
+            sheet.append(row)
+    book.save(tmp_path / "a.xlsx")
+    assert looked(tmp_path / "a.xlsx").sheets == ("First", "Second")
+    init(tmp_path / "out", tmp_path / "a.xlsx", "bar")
+    assert 'sheet = "?"' in (tmp_path / "out" / "campaign.toml").read_text()
+    (tmp_path / "a.xlsx").write_bytes(b"another")
+    (tmp_path / "out" / "campaign.toml").unlink()
+    with pytest.raises(InputError):
+        init(tmp_path / "out", tmp_path / "a.xlsx", "bar")
