@@ -85,7 +85,7 @@ def _of_text(path: Path) -> Found:
         except csv.Error:
             continue
         _, width, size = _data(rows)
-        alike = sum(len(row) == width for row in rows)
+        alike = sum(len(row) == width and bool(_numbers(row)) for row in rows)
         # The mark under which most cells are numbers.
         merit = (size / (width * alike), size) if size else (0.0, 0)
         if size and (best is None or merit > best[0]):
