@@ -76,7 +76,7 @@ def report(
         Path, typer.Argument(metavar="PATH", help="A campaign's folder, or one with a saved result.")
     ],
     out: Annotated[
-        Path | None, typer.Option(help="Folder of a campaign's report; default results/NAME.")
+        Path | None, typer.Option(help="Folder of a campaign's report; default results/FOLDER.")
     ] = None,
     model: ModelFile = None,
     effects_from: EffectsFrom = None,

@@ -152,16 +152,16 @@ def test_a_report_inside_the_campaign_is_refused(tmp_path: Path, monkeypatch: py
 
 
 def test_report_from_the_command_line(pipeline_command: Callable[..., Done], tmp_path: Path) -> None:
-    """Of a campaign, of what was saved, with the same bytes; an answer about another campaign is refused."""
+    """By the folder, of a campaign, of what was saved, with the same bytes; an answer about another one is refused."""
     folder = tmp_path / "bench"
     write(folder, bench())
     before = {p.name: p.read_bytes() for p in folder.iterdir()}
     done = pipeline_command("report", "bench", cwd=tmp_path)
-    out = tmp_path / "results" / "small"
-    assert done.code == 0 and done.out == "report: results/small/index.html\n", done.err
+    out = tmp_path / "results" / "bench"
+    assert done.code == 0 and done.out == "report: results/bench/index.html\n", done.err
     drawn = {p: p.read_bytes() for p in out.rglob("*") if p.is_file()}
     assert {p.name for p in drawn} >= {"page.json", "index.html", "report.md", "waterfall.png", "misfit.png"}
-    done = pipeline_command("report", "results/small", "--quiet", cwd=tmp_path)
+    done = pipeline_command("report", "results/bench", "--quiet", cwd=tmp_path)
     assert done.code == 0 and {p: p.read_bytes() for p in drawn} == drawn
     assert {p.name: p.read_bytes() for p in folder.iterdir()} == before
     (tmp_path / "other.json").write_text(softened()[0].model_copy(update={"campaign": "other"}).text())
