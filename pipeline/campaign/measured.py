@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -33,3 +33,14 @@ class Measured:
     def blank(self, column: str) -> NDArray[np.bool_]:
         """(N,) where a column holds a word for no reading instead of one, such as an overload."""
         return self.unread.get(column, np.zeros(len(self.tests), dtype=bool))
+
+    def only(self, rows: NDArray[np.int64]) -> Measured:
+        """These rows, by their numbers."""
+        return replace(
+            self,
+            tests=tuple(self.tests[k] for k in rows),
+            steps=None if self.steps is None else self.steps[rows],
+            lines=self.lines[rows],
+            values={column: values[rows] for column, values in self.values.items()},
+            unread={column: mask[rows] for column, mask in self.unread.items()},
+        )

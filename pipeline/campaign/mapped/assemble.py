@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import replace
 from glob import escape, glob
 from pathlib import Path
 
@@ -137,20 +136,7 @@ def _converted(table: Read, known: dict[str, tuple[str, str]]) -> Measured:
     blank = {known[w][1]: mask for w, mask in unread.items() if known[w][1] and mask.any()}
     mine = np.array([test != "" for test in table.tests])
     whole = Measured(table.tests, table.steps, lines, columns, blank)
-    return fewer(_rows(whole, np.flatnonzero(mine)), table.declared.file.every)
-
-
-def _rows(it: Measured, rows: NDArray[np.int64]) -> Measured:
-    if rows.size == len(it.tests):
-        return it
-    return replace(
-        it,
-        tests=tuple(it.tests[k] for k in rows),
-        steps=None if it.steps is None else it.steps[rows],
-        lines=it.lines[rows],
-        values={column: values[rows] for column, values in it.values.items()},
-        unread={column: mask[rows] for column, mask in it.unread.items()},
-    )
+    return fewer(whole.only(np.flatnonzero(mine)), table.declared.file.every)
 
 
 def _words(table: Read) -> list[str]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from datetime import datetime, time
 
 import numpy as np
@@ -30,14 +30,7 @@ def fewer(measured: Measured, every: int) -> Measured:
         [_kept(measured, np.flatnonzero(names == n), every) for n in dict.fromkeys(measured.tests)]
     )
     rows = np.sort(kept)
-    return replace(
-        measured,
-        tests=tuple(measured.tests[k] for k in rows),
-        steps=None if measured.steps is None else measured.steps[rows],
-        lines=measured.lines[rows],
-        values={column: values[rows] for column, values in measured.values.items()},
-        unread={column: mask[rows] for column, mask in measured.unread.items()},
-    )
+    return measured.only(rows)
 
 
 def _kept(measured: Measured, mine: NDArray[np.int64], every: int) -> NDArray[np.int64]:
