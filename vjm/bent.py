@@ -25,6 +25,8 @@ from vjm.stability import reduced_modes
 
 CLOSE = 1e-4
 """Of the way to the bifurcation, within which it is found: modes that part there are told apart by as much."""
+NOTHING = 1e-6
+"""Of the way: what has no state as near as that has none at all, and would be halved down to the last float."""
 ROUNDS = 8
 """Times that the search goes on behind a place where a step was merely too long."""
 AMPLITUDES = (0.01, 0.003, 0.03)
@@ -175,7 +177,7 @@ class _Way:
     def narrowed(self, low: Equilibrium, near: float) -> tuple[Equilibrium, float, float]:
         """The last stable state that halvings find from one at the share `near`, its share, and one where none is."""
         far = 1.0
-        while far - near > CLOSE * far:
+        while far - near > CLOSE * far and far > NOTHING:
             middle = 0.5 * (near + far)
             there = nearby(*self._aimed(middle, low), self.memory)
             if there.converged:

@@ -7,10 +7,13 @@ guided, or free at an end, are made of halves or quarters of it and carry the sa
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 from tests.vjm.beams import BAR_P
+from vjm import bent
 from vjm.bent import along, leave
 from vjm.effects.bar_initial_bow import BarInitialBow
 from vjm.effects.base import Rig
@@ -121,3 +124,17 @@ def test_a_straight_path_that_stays_stable_is_left_alone() -> None:
     (state,) = beyond(rig, HELD["pinned"], way)
     plain = equilibrium(rig, rig.unloaded_pose - [way[0], 0, 0, 0, 0, 0])
     np.testing.assert_allclose(state.load[0], plain.load, atol=1e-9)
+
+
+def test_a_way_without_any_state_is_not_halved_to_the_last_float(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Half of the way at a time, down to a millionth of it: twenty times."""
+    asked: list[float] = []
+
+    def never(*arguments: object) -> Equilibrium:
+        asked.append(1.0)
+        return replace(unloaded(rig), converged=np.asarray(False))
+
+    rig = column(STRIP, "pinned", "pinned")
+    monkeypatch.setattr(bent, "nearby", never)
+    beyond(rig, HELD["pinned"], np.array([0.5]))
+    assert 0 < len(asked) <= 20 * bent.ROUNDS
