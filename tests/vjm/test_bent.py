@@ -127,7 +127,7 @@ def test_a_straight_path_that_stays_stable_is_left_alone() -> None:
 
 
 def test_a_way_without_any_state_is_not_halved_to_the_last_float(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Half of the way at a time, down to a millionth of it: twenty times."""
+    """Half of the way at a time, twenty times down to a millionth of it, and to one part in ten thousand from there."""
     asked: list[float] = []
 
     def never(*arguments: object) -> Equilibrium:
@@ -137,4 +137,4 @@ def test_a_way_without_any_state_is_not_halved_to_the_last_float(monkeypatch: py
     rig = column(STRIP, "pinned", "pinned")
     monkeypatch.setattr(bent, "nearby", never)
     beyond(rig, HELD["pinned"], np.array([0.5]))
-    assert 0 < len(asked) <= 20 * bent.ROUNDS
+    assert 0 < len(asked) <= 35 * bent.ROUNDS
