@@ -23,7 +23,7 @@ HALF_A_DAY = 43200.0
 def fewer(measured: Measured, every: int) -> Measured:
     """One row of so many, and of each test the first, the last, and those where a reading turned by more than a part of
     its travel."""
-    if every == 1:
+    if every == 1 or not measured.tests:
         return measured
     names = np.array(measured.tests, dtype=object)
     kept = np.concatenate(
