@@ -83,7 +83,7 @@ def ruled(found: Found, judgement: Judgement, attempts: Attempts) -> Ruling:
             at_bound(shelf.fit(sets[0]).model),
             out,
         )
-    settled = determined(here, shelf.whole) if undetermined(here, shelf.whole) else here
+    settled = determined(here, shelf.whole)
     because = _not_named(settled, shelf, bounded)
     verdict: Verdict = "unknown" if because else "identified"
     return Ruling(verdict, (best,), settled, (), None, alike, bounded, out, because)

@@ -29,7 +29,7 @@ from pipeline.record import Record
 from tests.fuzz.tables import Files
 
 LIMIT = 60.0
-"""Seconds that compare, diagnose, plan and improve together may take for one small table."""
+"""Seconds that all commands may take for one small table."""
 LIBRARY = re.compile(r"SVD|ingular matrix|positive definite|LinAlgError|illegal value")
 """What a library of linear algebra says of itself."""
 
@@ -49,8 +49,8 @@ class Seen:
 
     @property
     def seconds(self) -> float:
-        """Of compare, diagnose, plan and improve."""
-        return sum(taken for what, taken in self.parts.items() if what != "add")
+        """Of all commands."""
+        return sum(self.parts.values())
 
     def attempt(self, what: str, work: Callable[[], str]) -> None:
         """Runs a command; InputError is a result, anything else that is raised a fault."""
@@ -67,8 +67,8 @@ class Seen:
         self.parts[what] = perf_counter() - start
 
 
-def looked(files: Files, adding: bool = True) -> Seen:
-    """All commands on one table, `add` only where that is asked for; one that fails leaves the others."""
+def looked(files: Files) -> Seen:
+    """All commands on one table; one that fails leaves the others."""
     seen = Seen()
     with tempfile.TemporaryDirectory() as name:
         began: list[tuple[Campaign, Model, Known]] = []
@@ -81,13 +81,13 @@ def looked(files: Files, adding: bool = True) -> Seen:
 
         seen.attempt("read", entered)
         if began:
-            _commands(seen, files, *began[0], adding)
+            _commands(seen, files, *began[0])
     if seen.seconds > LIMIT:
         seen.faults.append(f"slow: {seen.seconds:.0f} s")
     return seen
 
 
-def _commands(seen: Seen, files: Files, campaign: Campaign, model: Model, known: Known, adding: bool) -> None:
+def _commands(seen: Seen, files: Files, campaign: Campaign, model: Model, known: Known) -> None:
     found: list[Diagnosis] = []
 
     def compared() -> str:
@@ -120,8 +120,7 @@ def _commands(seen: Seen, files: Files, campaign: Campaign, model: Model, known:
     seen.attempt("plan", planned)
     if found:
         seen.attempt("improve", improved)
-    if adding:
-        seen.attempt("add", added)
+    seen.attempt("add", added)
 
 
 def _judged(seen: Seen, what: str, answer: Answer) -> None:
