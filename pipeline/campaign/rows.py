@@ -1,6 +1,6 @@
 """From the table of cells to the data of each test, and what is wrong with them."""
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 
 import numpy as np
 import pandas as pd
@@ -21,7 +21,8 @@ def measured_of(frame: pd.DataFrame, gauges: Iterable[str], complaints: Complain
     columns = (*DISPLACEMENTS, *WRENCHES, *map(gauge_column, gauges), TEMPERATURE)
     values = {c: numbers(frame, c, complaints) for c in columns if c in frame.columns}
     tests = tuple(frame["test"].str.strip())
-    return Measured(tests, _steps(frame, complaints), frame.index.to_numpy(dtype=np.int64), values)
+    lines = frame.index.to_numpy(dtype=np.int64)
+    return Measured(tests, steps_of(list(frame["step"]), lines.tolist(), complaints), lines, values)
 
 
 def data_by_test(measured: Measured, description: Description, complaints: Complaints) -> dict[str, Data]:
@@ -70,15 +71,17 @@ def _rows_by_test(
     return found
 
 
-def _steps(frame: pd.DataFrame, complaints: Complaints) -> Array:
+def steps_of(cells: Sequence[str], lines: Sequence[int], complaints: Complaints) -> Array:
     """(N,) step numbers, NaN where the cell is none."""
-    steps = np.full(len(frame), np.nan)
-    for k, (line, cell) in enumerate(zip(frame.index, frame["step"], strict=True)):
+    steps = np.full(len(cells), np.nan)
+    for k, cell in enumerate(cells):
         text = cell.strip()
         if text.isascii() and text.isdigit() and len(text) <= _DIGITS:
             steps[k] = int(text)
         else:
-            complaints.add("column step", f"holds {shown(text)}, allowed is a whole number from 0", int(line))
+            complaints.add(
+                "column step", f"holds {shown(text)}, allowed is a whole number from 0", int(lines[k])
+            )
     return steps
 
 

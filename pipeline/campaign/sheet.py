@@ -3,6 +3,7 @@
 import csv
 import io
 import re
+from collections.abc import Callable, Sequence
 
 import numpy as np
 import pandas as pd
@@ -99,11 +100,18 @@ def numbers(frame: pd.DataFrame, column: str, complaints: Complaints) -> Array:
             values[k] = number
         else:
             bad.append((int(line), text))
+    told(column, bad, _why, complaints)
+    return values
+
+
+def told(
+    column: str, bad: Sequence[tuple[int, str]], why: Callable[[str], str], complaints: Complaints
+) -> None:
+    """Complaints about the cells of a column that hold no number, the first few one by one."""
     for line, text in bad[:EACH]:
-        complaints.add(f"column {column}", f"holds {shown(text)}, {_why(text)}", line)
+        complaints.add(f"column {column}", f"holds {shown(text)}, {why(text)}", line)
     if more := bad[EACH:]:
         complaints.add(f"column {column}", f"{len(more)} more such cells below", more[0][0])
-    return values
 
 
 def _why(text: str) -> str:

@@ -21,6 +21,7 @@ from pipeline.campaign.mapped.owners import Owners
 from pipeline.campaign.mapped.readings import columns_of, derived_of, words_of
 from pipeline.campaign.mapped.table import Read, zeroed
 from pipeline.campaign.measured import Measured
+from pipeline.campaign.rows import steps_of
 
 Array = NDArray[np.float64]
 LARGEST = 2**30
@@ -106,22 +107,9 @@ def _read(
             complaints.add(f"derived.{what}", said)
         found[what] = column
     tests = owners.of(path, layout, complaints)
-    return Read(path, layout, declared, tests, _steps(layout, source, complaints), found, complaints)
-
-
-def _steps(layout: Layout, source: Source, complaints: Complaints) -> Array | None:
-    words = words_of(layout, source.declared, "step", complaints)
-    if words is None:
-        return None
-    steps = np.full(len(words), np.nan)
-    for k, text in enumerate(words):
-        if text.isascii() and text.isdigit() and len(text) <= 9:
-            steps[k] = int(text)
-        else:
-            complaints.add(
-                "column step", f"holds {shown(text)}, allowed is a whole number from 0", layout.lines[k]
-            )
-    return steps
+    words = words_of(layout, declared, "step", complaints)
+    steps = None if words is None else steps_of(words, layout.lines, complaints)
+    return Read(path, layout, declared, tests, steps, found, complaints)
 
 
 def _converted(table: Read, known: dict[str, tuple[str, str]]) -> Measured:

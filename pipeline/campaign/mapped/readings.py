@@ -14,7 +14,7 @@ from pipeline.campaign.mapped.mapping import Declared, unit_of
 from pipeline.campaign.mapped.numbers import Marks, decimal_of, is_empty, is_word
 from pipeline.campaign.mapped.schema import ColumnTable, DerivedTable
 from pipeline.campaign.mapped.units import UNITS, NoUnit, Unit, unit
-from pipeline.campaign.sheet import EACH, LARGEST
+from pipeline.campaign.sheet import LARGEST, told
 
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
@@ -174,15 +174,9 @@ def numbers(
             bad.append((layout.lines[k], str(cell).strip()))
         else:
             values[k] = number
-    for line, text in bad[:EACH]:
-        allowed = (
-            f"allowed is a number with a decimal {'comma' if marks.decimal == ',' else 'point'}, or nothing"
-        )
-        complaints.add(
-            f"column {shown(name)}", f"holds {shown(text)}, {allowed}; a word for no reading: missing", line
-        )
-    if more := bad[EACH:]:
-        complaints.add(f"column {shown(name)}", f"{len(more)} more such cells below", more[0][0])
+    mark = "comma" if marks.decimal == "," else "point"
+    said = f"allowed is a number with a decimal {mark}, or nothing; a word for no reading: missing"
+    told(shown(name), bad, lambda _: said, complaints)
     return values, unread
 
 
