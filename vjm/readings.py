@@ -71,7 +71,9 @@ class Readings:
         chosen = np.take_along_axis(self.channels.slope, np.where(gauged, 0, numbers)[..., None], axis=-2)
         chosen = np.where(gauged[..., None], 0.0, chosen)
         by_gauges = self._by_gauges(numbers, chosen)
-        size = np.where(held, place.pose_scale, place.load_scale)[..., None]
+        # A gauge reads millimetres, whatever coordinate it takes the place of.
+        own = np.where(gauged, place.pose_scale[0], place.pose_scale)
+        size = np.where(held, own, place.load_scale)[..., None]
         by_pose = chosen[..., :6] * place.pose_scale / size
         by_load = chosen[..., 6:] * place.load_scale / size
         return Control(by_pose, by_load, by_gauges, held, plain=False)

@@ -161,10 +161,12 @@ def _joints(setups: Sequence[Setup], mount: Floats) -> Joints:
 
 def _gauges(gauges: Sequence[Gauge], tests: int) -> Gauges:
     direction = np.array([g.direction for g in gauges], float).reshape(len(gauges), 3)
+    offset = np.array([g.offset or (0.0, 0.0, 0.0) for g in gauges], float).reshape(len(gauges), 3)
     return Gauges(
-        tuple(g.bar - 1 for g in gauges),
+        tuple(None if g.offset is not None else g.bar - 1 for g in gauges),
         np.tile(np.array([g.station for g in gauges], float), (tests, 1)),
         np.tile(direction, (tests, 1, 1)),
+        np.tile(offset, (tests, 1, 1)),
     )
 
 

@@ -17,11 +17,15 @@ BASE, PLATFORM = 0, 1
 
 @dataclass(frozen=True, eq=False)
 class Gauges:
-    """G displacement gauges: bar of each, from 0; station (B, G) from 0 to 1, direction (B, G, 3) in the base frame."""
+    """G displacement gauges: bar of each, from 0; station (B, G) from 0 to 1, direction (B, G, 3) in the base frame.
 
-    bar: tuple[int, ...]
+    A gauge without a bar is on the platform, at offset (B, G, 3) mm from its point as drawn.
+    """
+
+    bar: tuple[int | None, ...]
     station: Floats
     direction: Floats
+    offset: Floats
 
 
 @dataclass(frozen=True, eq=False)

@@ -15,12 +15,16 @@ HELD = {"free": (), "guided": (3, 4, 5), "pinned": (1, 2, 3, 4, 5)}
 
 @dataclass(frozen=True)
 class Gauge:
-    """Displacement of the point at `station` (0 base, 1 tip) of `bar` (1 or 2) along a base-frame direction."""
+    """Displacement of the point at `station` (0 base, 1 tip) of `bar` (1 or 2) along a base-frame direction.
+
+    offset: of a gauge on the platform instead, its point from that of the platform as drawn, mm, base frame.
+    """
 
     name: str
     bar: int
     station: float
     direction: tuple[float, float, float]
+    offset: tuple[float, float, float] | None = None
 
 
 @dataclass(frozen=True, eq=False)

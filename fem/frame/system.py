@@ -17,7 +17,7 @@ from fem.frame.fibres import yielded
 from fem.frame.joints import joint_forces
 from fem.frame.loads import line_load, point_on_axis
 from fem.frame.model import BASE, PLATFORM, Model, State, Unloaded
-from fem.frame.so3 import transpose
+from fem.frame.so3 import apply, transpose
 from meshes.solid import Floats
 
 BODIES = 12
@@ -112,13 +112,15 @@ def evaluate(model: Model, unloaded: Unloaded, state: State, dead: Floats) -> Sy
     rest, springs = _concentrated(model, state, joint_force, joint_stiffness, dead)
     K += springs
     shift = -condensed.products[..., 1:].sum(1)
+    rates = transpose(sides[..., 1:])
+    _on_platform(model, state, gauge, rates)
     return System(
         K,
         sides[..., 0] + rest,
         raw + rest,
         inner,
         gauge,
-        transpose(sides[..., 1:]),
+        rates,
         shift,
         condensed,
         nodes.rates,
@@ -173,6 +175,8 @@ def _gauges(model: Model, unloaded: Unloaded, nodes: Nodes) -> tuple[Floats, Flo
     value = np.zeros((len(h), len(gauges.bar)))
     side = np.zeros((*h.shape, 12, len(gauges.bar)))
     for g, bar in enumerate(gauges.bar):
+        if bar is None:
+            continue
         station = gauges.station[:, g]
         element = np.clip((grid[:, bar] <= station[:, None]).sum(1) - 1, 0, h.shape[-1] - 1)
         low, high = grid[tests, bar, element], grid[tests, bar, element + 1]
@@ -185,3 +189,12 @@ def _gauges(model: Model, unloaded: Unloaded, nodes: Nodes) -> tuple[Floats, Flo
             gauges.direction[:, g],
         )
     return value, side
+
+
+def _on_platform(model: Model, state: State, gauge: Floats, rates: Floats) -> None:
+    """Writes coordinates (B, G) and rates (B, G, m) of the gauges on the platform, which turns with its own spin."""
+    for g, bar in enumerate(model.gauges.bar):
+        if bar is None:
+            along, arm = model.gauges.direction[:, g], apply(state.R[:, PLATFORM], model.gauges.offset[:, g])
+            gauge[:, g] = np.sum(along * (state.X[:, PLATFORM] + arm), axis=-1)
+            rates[:, g, PLATFORM_ROWS] = np.concatenate((along, np.cross(arm, along)), axis=-1)

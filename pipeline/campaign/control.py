@@ -61,7 +61,11 @@ def swings(rig: Rig, q: float, control: tuple[str, ...], gauges: tuple[Gauge, ..
         if by == DISPLACEMENT and abs(motion[k]) > (NEARLY_ALONG if k < 3 else 0.0):
             return False
         if by in by_name:
-            seen = by_name[by].station * np.dot(by_name[by].vector, motion[:3])
+            gauge = by_name[by]
+            moved = gauge.station * motion[:3]
+            if gauge.offset is not None:
+                moved = motion[:3] + np.cross(motion[3:], gauge.offset)
+            seen = np.dot(gauge.vector, moved)
             if abs(seen) > NEARLY_ALONG:
                 return False
     return True

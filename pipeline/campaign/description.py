@@ -108,10 +108,10 @@ class _Reader:
                 self.say(("gauges", k, "name"), "is taken, allowed is a name of its own", place)
             elif rig is not None and rig.kind == "manipulator":
                 self.say(("gauges", k), "is on a manipulator, whose campaigns have no gauges yet", place)
-            elif rig is not None and rig.kind == "bar" and table.bar != 1:
+            elif rig is not None and rig.kind == "bar" and table.bar == 2:
                 self.say(("gauges", k, "bar"), f"bar is {table.bar}, a rig of one bar allows 1", place)
             else:
-                gauges.append(Gauge(table.name, table.station, table.direction, table.bar))
+                gauges.append(table.gauge())
         return tuple(gauges)
 
     def noise(self, raw: Raw) -> dict[str, float]:

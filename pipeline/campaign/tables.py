@@ -1,5 +1,7 @@
 """The schema of campaign.toml: what each table may hold, in the units of the file."""
 
+from __future__ import annotations
+
 from typing import Annotated, Any, Literal
 
 from pydantic import BaseModel, ConfigDict, Field, ValidationError, field_validator, model_validator
@@ -8,7 +10,7 @@ from fem.frame.rig import STEEPEST_DEG
 from fem.torsion import torsion_constant
 from pipeline.campaign.complaints import shown
 from pipeline.campaign.matrix import not_a_stiffness, symmetric
-from pipeline.campaign.model import Kind, Rig, Role, UniformBar, Zero
+from pipeline.campaign.model import Gauge, Kind, Rig, Role, UniformBar, Zero
 from pipeline.campaign.names import unknown_name
 from pipeline.validation.case_tables import Material, SectionSize
 from pipeline.validation.geometry import section_of
@@ -104,7 +106,7 @@ class RigTable(Table):
         return value
 
     @model_validator(mode="after")
-    def consistent(self) -> "RigTable":
+    def consistent(self) -> RigTable:
         if said := self.contradictions():
             raise ValueError("; ".join(said))
         if self.bar_stiffness is None and (why := not_a_stiffness(self.rig().stiffness.tolist())):
@@ -170,12 +172,35 @@ class RigTable(Table):
 
 
 class GaugeTable(Table):
-    """One gauge."""
+    """One gauge, on a bar at a station or on the platform at an offset."""
 
     name: Annotated[str, Field(pattern=r"^[A-Za-z][A-Za-z0-9_]{0,39}$")]
-    bar: Annotated[int, Field(strict=True, ge=1, le=2)] = 1
-    station: Annotated[Number, Field(ge=0.0, le=1.0)]
+    on: Literal["bar", "platform"] = "bar"
+    bar: Annotated[int, Field(strict=True, ge=1, le=2)] | None = None
+    station: Annotated[Number, Field(ge=0.0, le=1.0)] | None = None
+    offset_mm: tuple[Place, Place, Place] | None = None
     direction: Direction
+
+    @model_validator(mode="after")
+    def placed(self) -> GaugeTable:
+        """A gauge has the place of what it is on, and no other."""
+        if self.on == "bar" and self.station is None:
+            raise ValueError(
+                'station is missing, a gauge on a bar needs it; on the platform write on = "platform"'
+            )
+        if self.on == "bar" and self.offset_mm is not None:
+            raise ValueError('offset_mm is given, allowed only with on = "platform"')
+        if self.on == "platform" and self.offset_mm is None:
+            raise ValueError(
+                "offset_mm is missing, a gauge on the platform needs it: [x, y, z] from its point"
+            )
+        if self.on == "platform" and (self.bar, self.station) != (None, None):
+            raise ValueError("bar or station is given, a gauge on the platform has offset_mm instead")
+        return self
+
+    def gauge(self) -> Gauge:
+        """The gauge that it describes."""
+        return Gauge(self.name, self.station or 0.0, self.direction, self.bar or 1, self.offset_mm)
 
 
 class TestTable(Table):

@@ -10,7 +10,7 @@ import tomlkit
 
 from meshes.files import replacing
 from pipeline.campaign.complaints import BadCampaign
-from pipeline.campaign.model import Campaign, Rig
+from pipeline.campaign.model import Campaign, Gauge, Rig
 from pipeline.campaign.names import (
     COORDINATES,
     DISPLACEMENTS,
@@ -54,10 +54,7 @@ def description_text(campaign: Campaign) -> str:
     document: dict[str, Any] = {"schema": 1, "name": campaign.name, "rig": rig_table(campaign.rig)}
     document["noise"] = noise_table(campaign)
     if campaign.gauges:
-        document["gauges"] = [
-            {"name": g.name, "bar": g.bar, "station": g.station, "direction": g.direction}
-            for g in campaign.gauges
-        ]
+        document["gauges"] = [gauge_table(gauge) for gauge in campaign.gauges]
     base = rig_table(campaign.rig)
     document["tests"] = []
     for test in campaign.tests:
@@ -89,6 +86,14 @@ def measurements_text(campaign: Campaign) -> str:
     whole = pd.concat(tables, ignore_index=True)
     measured = [name for name in names if whole[name].notna().any()]
     return str(whole[["test", "step", *measured]].to_csv(index=False, lineterminator="\n"))
+
+
+def gauge_table(gauge: Gauge) -> dict[str, Any]:
+    """A gauge in the keys of the file."""
+    place: dict[str, Any] = {"bar": gauge.bar, "station": gauge.station}
+    if gauge.offset is not None:
+        place = {"on": "platform", "offset_mm": list(gauge.offset)}
+    return {"name": gauge.name, **place, "direction": gauge.direction}
 
 
 def rig_table(rig: Rig) -> dict[str, Any]:

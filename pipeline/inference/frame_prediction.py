@@ -45,7 +45,7 @@ def predict_frame(program: Program, tangent: Prediction, shift: Array | None = N
         )
         for number, test in enumerate(campaign.tests)
     ]
-    sights = [FrameGauge(g.name, g.bar, g.station, g.vector) for g in campaign.gauges]
+    sights = [FrameGauge(g.name, g.bar, g.station, g.vector, g.offset) for g in campaign.gauges]
     found = bench.run(frame_rig(campaign.rig), Errors(), trials, sights)
     values = np.concatenate([np.hstack([r.displacement, r.wrench, r.gauges]) for r in found])
     converged = np.concatenate([r.converged for r in found])

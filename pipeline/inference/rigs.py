@@ -31,7 +31,7 @@ def mechanism_of(rig: Described, gauges: tuple[Gauge, ...]) -> Rig:
     if rig.manipulator is not None:
         down = rig.manipulator.gravity if down is None else down
         return bench(replace(rig.manipulator, sensors=sensors, gravity=down))
-    places = tuple(GaugeAt(g.bar, g.station, g.vector) for g in gauges)
+    places = tuple(GaugeAt(g.bar, g.station, g.vector, g.offset) for g in gauges)
     it: Rig
     if rig.kind == "parallelogram":
         assert rig.width is not None

@@ -38,6 +38,13 @@ MORE = """# bar_stiffness = [[...], ...]   the 6x6 of one bar at its tip instead
 # reference_temperature_C = 20.0 needed where a temperature was measured
 # fibre_y_mm, fibre_z_mm         outermost fibres of the bar, for the effect material_yield
 """
+GAUGES = """
+# [[gauges]]                 # a dial or another sensor of a displacement; its column is dial_mm, its sigma too
+# name = "dial"
+# on = "platform"            # at offset_mm from the platform's point; or "bar": bar = 1, station = 0 (base) .. 1 (tip)
+# offset_mm = [0.0, 40.0, 0.0]
+# direction = "z"            # along which it reads more
+"""
 NOISE = """
 [noise]                      # one sigma of each sensor, in N, mm, rad, N·mm; what is left out is estimated
 # z_mm = 0.001
@@ -47,7 +54,7 @@ NOISE = """
 
 def campaign_text(name: str, kind: str, file: str = "", found: Found | None = None) -> str:
     """campaign.toml. file: beside it, of which `found` was found; without it measurements.csv is to be written."""
-    head = f"schema = 1\nname = {_quoted(name)}\n\n[rig]\n{RIG[kind]}{MORE}{NOISE}"
+    head = f"schema = 1\nname = {_quoted(name)}\n\n[rig]\n{RIG[kind]}{MORE}{NOISE}{GAUGES}"
     tables = "" if found is None else _file(file, found) + _columns(found)
     return head + tables + _test(kind)
 
@@ -71,6 +78,8 @@ def _file(file: str, found: Found) -> str:
     )
     if found.units_row is not None:
         lines.append(f"units_row = {found.units_row}")
+    if found.comment:
+        lines.append(f"comment = {_quoted(found.comment)}               # and the header begins so")
     if found.skip:
         lines.append(f"skip = {found.skip}                     # rows below these that are no data")
     # The time is the order of the rows; it is no quantity of the model.
@@ -114,7 +123,11 @@ def _columns(found: Found) -> str:
 
 
 def _times(found: Found) -> list[str]:
-    return [n for n, beside in zip(found.names, found.units, strict=True) if quantity_of(n, beside) == "time"]
+    """Columns of time, those that go on first: a date may stand beside its time of day."""
+    every = [
+        n for n, beside in zip(found.names, found.units, strict=True) if quantity_of(n, beside) == "time"
+    ]
+    return sorted(every, key=lambda name: name in found.still)
 
 
 def _test(kind: str) -> str:

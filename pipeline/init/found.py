@@ -9,7 +9,7 @@ from itertools import groupby
 from pathlib import Path
 
 from pipeline.campaign.formats import by_suffix, grids
-from pipeline.campaign.formats.text import decoded, split
+from pipeline.campaign.formats.text import decoded, joined, split
 from pipeline.campaign.mapped.grid import BadTable, Cell
 from pipeline.campaign.mapped.layout import word
 from pipeline.campaign.mapped.numbers import Marks, decimal_of, plain
@@ -20,6 +20,7 @@ MARKS = (";", "\t", ",", " ")
 """In the order in which they are preferred where they part a file alike."""
 NAMES = {"\t": "tab", " ": "space"}
 ENCODINGS = ("utf-8", "cp1252")
+REMARKS = ("#", "%", "//")
 LOOKED_AT = 2000
 """Lines."""
 _NUMBER = re.compile(r"[+-]?(?:\d{1,3}(?:[.,' ]\d{3})+(?:[.,]\d*)?|\d+(?:[.,]\d*)?|[.,]\d+)(?:[eE][+-]?\d+)?")
@@ -33,6 +34,8 @@ class Found:
     skip: rows below these before the data. names, units: of the columns. decimal: None where the numbers allow two
     readings. question: what to ask then. merged: columns with a word in their first row and nothing in most others.
     others: lines among the data that are not like them. sheets: of a workbook with several that hold numbers.
+    comment: what the header of a text begins with, as a remark does; None where it does not. still: columns with one
+    word throughout.
     """
 
     encoding: str
@@ -48,6 +51,8 @@ class Found:
     merged: tuple[str, ...] = ()
     others: tuple[int, ...] = ()
     sheets: tuple[str, ...] = ()
+    comment: str | None = None
+    still: tuple[str, ...] = ()
 
 
 def looked(path: Path) -> Found:
@@ -78,10 +83,11 @@ def _of_text(path: Path) -> Found:
     if not used:
         raise BadTable("is no text in UTF-8 or cp1252")
     lines = text.splitlines()[:LOOKED_AT]
+    comment = _remark(lines)
     best: tuple[tuple[float, int], list[tuple[Cell, ...]], str] | None = None
     for mark in MARKS:
         try:
-            rows: list[tuple[Cell, ...]] = [tuple(cells) for cells in split(lines, mark)]
+            rows = _split(lines, mark, comment)
         except csv.Error:
             continue
         _, width, size = _data(rows)
@@ -92,7 +98,25 @@ def _of_text(path: Path) -> Found:
             best = (merit, rows, mark)
     if best is None:
         raise BadTable("has no rows of numbers, allowed is a table with two columns or more")
-    return _of_rows(best[1], used, NAMES.get(best[2], best[2]), None)
+    found = _of_rows(best[1], used, NAMES.get(best[2], best[2]), None)
+    header = lines[found.header_row - 1] if found.header_row else ""
+    return replace(found, comment=comment) if comment and header.startswith(comment) else found
+
+
+def _remark(lines: list[str]) -> str | None:
+    """What the line above the first that is none begins with, where that is a mark of remarks: the header may."""
+    first = next((k for k, line in enumerate(lines) if line.strip() and not line.startswith(REMARKS)), 0)
+    above = lines[first - 1] if first else ""
+    return next((mark for mark in REMARKS if above.startswith(mark)), None)
+
+
+def _split(lines: list[str], mark: str, comment: str | None) -> list[tuple[Cell, ...]]:
+    """Rows of cells by line; a line that belongs to a cell of the one above is an empty row. csv.Error as of csv."""
+    rows: list[tuple[Cell, ...]] = [() for _ in lines]
+    for number, line in joined(lines, mark):
+        bare = line.removeprefix(comment).lstrip() if comment and line.startswith(comment) else line
+        rows[number - 1] = tuple(split([bare], mark)[0])
+    return rows
 
 
 def _of_rows(rows: list[tuple[Cell, ...]], encoding: str, separator: str | None, sheet: str | None) -> Found:
@@ -126,7 +150,14 @@ def _of_rows(rows: list[tuple[Cell, ...]], encoding: str, separator: str | None,
             if names[k] and _merged([row[k] for row in rows[first:] if len(row) > k])
         ),
         tuple(others),
+        still=tuple(
+            names[k] for k in range(width) if _still([row[k] for row in rows[first:] if len(row) > k])
+        ),
     )
+
+
+def _still(column: list[Cell]) -> bool:
+    return len(set(map(word, column))) == 1
 
 
 def _other(row: tuple[Cell, ...], width: int, rows: list[tuple[Cell, ...]], header_at: int | None) -> bool:

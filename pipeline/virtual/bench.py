@@ -51,7 +51,7 @@ def true_readings(
     try:
         errors = Errors.of(as_frame(hidden, rig))
         trials = [bench.Trial(np.radians(t.q_deg), t.control, t.values, t.temperature) for t in plan]
-        sights = [FrameGauge(g.name, g.bar, g.station, g.vector) for g in gauges]
+        sights = [FrameGauge(g.name, g.bar, g.station, g.vector, g.offset) for g in gauges]
         found = bench.run(frame_rig(rig), errors, trials, sights, YIELDING if _yields(hidden) else ELEMENTS)
     except ValueError as error:
         raise InputError(str(error)) from error

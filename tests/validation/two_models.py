@@ -22,9 +22,13 @@ from vjm.mechanisms.parallelogram import Parallelogram
 from vjm.sensors import TrueMoment
 
 NAMES = ("x", "y", "z", "rx", "ry", "rz")
-GAUGE = "mid"
-PLACE = (1, 0.5, (0.0, 1.0, 0.0))
-"""Bar, station and direction of the one gauge."""
+GAUGES = {
+    "mid": (1, 0.5, (0.0, 1.0, 0.0), None),
+    "dial": (1, 0.0, (0.0, 0.0, 1.0), (-45.0, 20.0, 15.0)),
+}
+"""Bar, station, direction and offset of the gauges: one across a bar, one that sees the platform move and turn."""
+AT = {"mid": 1, "dial": 2}
+"""The coordinate whose place each of them takes, where it is controlled."""
 
 Values = Mapping[str, Mapping[str, float]]
 """Values of the parameters of effects, by the catalogue's names."""
@@ -34,7 +38,7 @@ Values = Mapping[str, Mapping[str, float]]
 class Trial:
     """One test of the programme.
 
-    control: six of "displacement", "force" and the gauge's name. values (S, 6) of what they prescribe.
+    control: six of "displacement", "force" and a gauge's name. values (S, 6) of what they prescribe.
     rise: (S,) temperature above the reference, K.
     """
 
@@ -47,8 +51,10 @@ class Trial:
     @property
     def channels(self) -> np.ndarray:
         """(6,) channel numbers of `vjm.sensors`."""
-        kinds = {"displacement": 0, "force": 6}
-        return np.array([12 if c == GAUGE else i + kinds[c] for i, c in enumerate(self.control)])
+        kinds, gauges = {"displacement": 0, "force": 6}, list(GAUGES)
+        return np.array(
+            [12 + gauges.index(c) if c in gauges else i + kinds[c] for i, c in enumerate(self.control)]
+        )
 
 
 @dataclass(frozen=True, eq=False)
@@ -66,7 +72,7 @@ class Drawing:
 
     def springs(self) -> effects_base.Rig:
         """Lumped virtual springs."""
-        more = {"sensors": (TrueMoment(),), "gauge_at": (GaugeAt(*PLACE),)}
+        more = {"sensors": (TrueMoment(),), "gauge_at": tuple(GaugeAt(*place) for place in GAUGES.values())}
         more |= {"fibre_y": self.fibre_y, "fibre_z": self.fibre_z}
         if self.kind == "bar":
             return Bar(self.length, self.stiffness, base=self.base, tip=self.tip, **more)  # type: ignore[arg-type]
@@ -89,22 +95,23 @@ class Drawing:
 def trial(name: str, degrees: float, free: str = "", warm: float = 0.0, **columns: Sequence[float]) -> Trial:
     """A trial whose coordinates named in `free` are controlled by force; those not named in `columns` stay zero.
 
-    A column called "mid" makes the gauge the control of y. warm: temperature that rises linearly to it, K.
+    A column called as a gauge makes it the control of its coordinate. warm: temperature that rises linearly to it, K.
     """
     steps = max(len(c) for c in columns.values())
     control = ["force" if n in free.split() else "displacement" for n in NAMES]
     values = np.zeros((steps, 6))
     for key, column in columns.items():
-        values[:, 1 if key == GAUGE else NAMES.index(key)] = column
-        if key == GAUGE:
-            control[1] = GAUGE
+        at = AT[key] if key in AT else NAMES.index(key)
+        values[:, at] = column
+        if key in AT:
+            control[at] = key
     return Trial(name, degrees, tuple(control), values, np.linspace(0.0, warm, steps))
 
 
 def by_springs(
     drawing: Drawing, effects: Values, trials: Sequence[Trial], segments: int | None = 6
 ) -> tuple[Floats, np.ndarray]:
-    """(T, S, 13) displacement, wrench and gauge by virtual springs, and (T, S) whether they were found.
+    """(T, S, 14) displacement, wrench and gauges by virtual springs, and (T, S) whether they were found.
 
     trials: all of as many steps. segments: of each bar, None for lumped bars.
     """
@@ -113,7 +120,7 @@ def by_springs(
     for name, values in effects.items():
         rig = found[name].apply(rig, {**found[name].nulls, **values})
     q = np.radians([t.degrees for t in trials])
-    origin = np.zeros((len(trials), 13))
+    origin = np.zeros((len(trials), 12 + len(GAUGES)))
     origin[:, 0], origin[:, 2] = drawing.length * np.cos(q), -drawing.length * np.sin(q)
     channels = np.array([t.channels for t in trials])
     targets = np.stack([t.values for t in trials], axis=1)
@@ -128,7 +135,7 @@ def by_springs(
 def by_frame(
     drawing: Drawing, effects: Values, trials: Sequence[Trial], elements: int = 16
 ) -> tuple[Floats, np.ndarray]:
-    """(T, S, 13) displacement, wrench and gauge by the frame, and (T, S) whether they were found."""
+    """(T, S, 14) displacement, wrench and gauges by the frame, and (T, S) whether they were found."""
     errors = {f"{e}.{p}": v for e, part in effects.items() for p, v in part.items()}
     errors = {_FRAME.get(path, path): v for path, v in errors.items()}
     if (line := errors.pop("self_weight.line_N_per_mm", None)) is not None:
@@ -136,7 +143,9 @@ def by_frame(
     rig = drawing.frame()
     warm = rig.reference_temperature
     programme = [bench.Trial(np.radians(t.degrees), t.control, t.values, warm + t.rise) for t in trials]
-    found = bench.run(rig, Errors.of(errors), programme, [Gauge(GAUGE, *PLACE)], elements)
+    found = bench.run(
+        rig, Errors.of(errors), programme, [Gauge(name, *place) for name, place in GAUGES.items()], elements
+    )
     readings = np.array([np.hstack([r.displacement, r.wrench, r.gauges]) for r in found])
     return readings, np.array([r.converged for r in found])
 

@@ -136,6 +136,28 @@ def test_a_gauge_takes_the_place_of_a_coordinate(refined: bool) -> None:
         equilibrium(linkage, targets, np.array([0, 13, 2, 3, 4, 5]))
 
 
+@pytest.mark.parametrize("refined", [False, True])
+def test_a_gauge_on_the_platform_reads_its_point_and_may_hold_a_turn(refined: bool) -> None:
+    """d . (shift + (R - 1) a) of the platform as read, on a base that gives; as a control the turn that leads there."""
+    arm, along = (30.0, -20.0, 45.0), (0.0, 0.6, 0.8)
+    gauges = (GaugeAt(1, 0.0, along, arm),)
+    linkage = replace(LINKAGE, gauge_at=gauges, sensors=(TrueMoment(), BaseSpring(COMPLIANCE)))
+    linkage = linkage.refined(3) if refined else replace(linkage, spring_at="base")
+    held = np.array([True, True, True, False, False, True])
+    targets = np.where(held, linkage.unloaded_pose, 0.0) + [-0.02, 0.4, 0.1, 900.0, 800.0, 0.01]
+    there = equilibrium(linkage, targets, tuple(np.array(["x", "y", "z", "rx", "ry", "rz"])[held]))
+    moved = there.readings[:3] - linkage.unloaded_pose[:3] + (exp(there.readings[3:6]) - np.eye(3)) @ arm
+    assert there.converged and np.linalg.norm(there.readings[3:6]) > 5e-3
+    np.testing.assert_allclose(there.readings[12], moved @ along, rtol=1e-9)
+    control = np.array([0, 1, 2, 12, 10, 5])
+    again = targets + [0.0, 0.0, 0.0, there.readings[12] - targets[3], 0.0, 0.0]
+    back = equilibrium(linkage, again, control)
+    assert back.converged
+    np.testing.assert_allclose(back.readings, there.readings, rtol=1e-7, atol=1e-6)
+    slope = by_targets(back).readings
+    assert slope[9, 3] == pytest.approx(1.0 / by_targets(there).readings[12, 3], rel=1e-7)
+
+
 def test_unstable_directions_are_counted_under_any_control() -> None:
     """Past the guided critical load with y free, stable again with a gauge that holds y."""
     linkage = replace(LINKAGE, q=0.0, gauge_at=(GaugeAt(1, 0.5, (0.0, 1.0, 0.0)),)).refined(4)

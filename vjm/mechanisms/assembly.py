@@ -25,11 +25,16 @@ HINGE = Joint("rotation", (0.0, 1.0, 0.0), Role.PASSIVE)
 
 @dataclass(frozen=True, eq=False)
 class GaugeAt:
-    """Place of a displacement gauge: bar 1 or 2, station 0 (base) to 1 (tip), unit direction in the base frame."""
+    """Place of a displacement gauge: bar 1 or 2, station 0 (base) to 1 (tip), unit direction in the base frame.
+
+    offset: of a gauge on the platform, its point from that of the platform in the nominal pose, mm, base frame; it is
+    then seen through the chain of the bar, all of it.
+    """
 
     bar: int
     station: float
     direction: tuple[float, float, float]
+    offset: tuple[float, float, float] | None = None
 
 
 @dataclass(frozen=True, eq=False)
@@ -91,7 +96,10 @@ class Assembly:
         return out
 
     def gauge(self, number: int, chain: ElasticChain, place: GaugeAt) -> Gauge:
-        """Gauge on the bar, whose chain has this number."""
+        """Gauge on the bar, whose chain has this number, or on the platform at its end."""
+        if place.offset is not None:
+            arm = Fixed(translation=np.asarray(place.offset, dtype=float))
+            return gauge(number, (*chain.chain.elements, arm), chain.chain, place.direction)
         elements = (*self._before, *self.model.reach(self.link, place.station))
         return gauge(number, elements, chain.chain, place.direction)
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import re
+from collections.abc import Iterator, Sequence
 from math import inf
 from pathlib import Path
 
@@ -13,6 +14,9 @@ from pipeline.campaign.mapped.schema import FileTable
 SUFFIXES = (".csv", ".txt", ".dat", ".tsv", ".asc", ".lvm", ".log")
 SEPARATORS = {"tab": "\t", "space": " "}
 _PLAIN = re.compile(r"[+-]?\d*[.,]?\d*(?:[eE][+-]?\d+)?|[^\s,;]+")
+_NUMBER = re.compile(r"[+-]?\d*[.,]?\d+(?:[eE][+-]?\d+)?")
+IN_A_CELL = 6
+"""Lines that a quoted cell may go over."""
 LOOKED_AT = 200
 """Rows by which the separator is told where none was declared."""
 
@@ -21,19 +25,55 @@ def read(path: Path, how: FileTable) -> tuple[Grid, ...]:
     """The one table of a text file."""
     text = decoded(path.read_bytes(), how.encoding)
     mark = SEPARATORS.get(how.separator or "", how.separator or "") or _separator(text, how)
+    head = {how.header_row, how.units_row}
     rows, lines = [], []
-    for number, line in enumerate(text.splitlines(), start=1):
+    for number, line in joined(text.splitlines(), mark):
         if how.comment and line.startswith(how.comment):
-            continue
+            if number not in head:
+                continue
+            # Some programs write the header as a remark.
+            line = line.removeprefix(how.comment).lstrip()
         try:
             rows.append(tuple(split([line], mark)[0]))
         except csv.Error as error:
-            # Each line is a row: a cell that goes over its end would swallow those below.
             raise BadTable(
                 f"cannot be split into cells: {error}; is there a lone quote mark?", number
             ) from error
         lines.append(number)
     return (Grid(tuple(rows), tuple(lines)),)
+
+
+def joined(lines: Sequence[str], mark: str) -> Iterator[tuple[int, str]]:
+    """Each line with its number; a quoted cell of a header that goes over a few lines makes one of them.
+
+    None of these may hold a number, as a lone quote mark would swallow the rows of data below it.
+    """
+    k = 0
+    while k < len(lines):
+        number, line = k + 1, lines[k]
+        k += 1
+        for more in range(1, IN_A_CELL):
+            if mark == " " or _closed(line, mark) or k + more > len(lines):
+                break
+            below = lines[k : k + more]
+            whole = " ".join([line, *below])
+            if _closed(whole, mark) and not any(_has_number(each, mark) for each in (line, *below)):
+                line, k = whole, k + more
+                break
+        yield number, line
+
+
+def _closed(line: str, mark: str) -> bool:
+    try:
+        split([line], mark)
+    except csv.Error:
+        return False
+    return True
+
+
+def _has_number(line: str, mark: str) -> bool:
+    """Whether a line has a cell that is a number, so that it is no part of a header."""
+    return any(_NUMBER.fullmatch(cell.strip()) for cell in line.split(mark))
 
 
 def decoded(content: bytes, encoding: str) -> str:
@@ -60,12 +100,14 @@ def _separator(text: str, how: FileTable) -> str:
     that under which most cells are numbers or words; a question where two do so alike."""
     first = max(how.header_row, how.units_row or 0) + how.skip
     every = text.splitlines()
-    lines = [line for line in every[first : first + LOOKED_AT] if line.strip()]
-    if how.comment:
-        lines = [line for line in lines if not line.startswith(how.comment)]
-    head = every[how.header_row - 1 : how.header_row] if how.header_row else []
     shares: dict[str, float] = {}
     for mark in (",", ";", "\t", " "):
+        # The header may go over several lines.
+        own = dict(joined(every[: first + LOOKED_AT], mark))
+        lines = [line for number, line in own.items() if number > first and line.strip()]
+        if how.comment:
+            lines = [line for line in lines if not line.startswith(how.comment)]
+        head = [own[how.header_row].removeprefix(how.comment or "")] if how.header_row in own else []
         try:
             rows, most = split(lines, mark), len(split(head, mark)[0]) if head else inf
         except csv.Error:

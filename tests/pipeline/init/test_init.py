@@ -225,3 +225,37 @@ def test_of_several_sheets_with_numbers_one_is_asked_for(tmp_path: Path) -> None
     (tmp_path / "out" / "campaign.toml").unlink()
     with pytest.raises(InputError):
         init(tmp_path / "out", tmp_path / "a.xlsx", "bar")
+
+
+@pytest.mark.parametrize(
+    ("content", "header", "names"),
+    [
+        ('"Travel\n(mm)","Load\n(N)"\n0,0\n0.1,5\n0.2,6\n', 1, ("Travel (mm)", "Load (N)")),
+        ('Run 3\n\n"Travel\n\n(mm)",Load (N)\n0,0\n0.1,5\n0.2,6\n', 3, ("Travel (mm)", "Load (N)")),
+        ("# bench 3\n# Travel (mm),Load (N)\n0,0\n0.1,5\n0.2,6\n", 2, ("Travel (mm)", "Load (N)")),
+        ("# Travel_mm Load_N\n0 0\n0.1 5\n0.2 6\n", 1, ("Travel_mm", "Load_N")),
+        ("%Travel_mm\tLoad_N\n0\t0\n0.1\t5\n%stopped\n0.2\t6\n", 1, ("Travel_mm", "Load_N")),
+    ],
+)
+def test_a_header_over_several_lines_or_behind_a_mark(
+    tmp_path: Path, content: str, header: int, names: tuple[str, ...]
+) -> None:
+    (tmp_path / "a.csv").write_text(content)
+    found = looked(tmp_path / "a.csv")
+    assert (found.header_row, found.names) == (header, names)
+    init(tmp_path / "out", tmp_path / "a.csv", "bar")
+    filled_in(tmp_path / "out")
+    path = tmp_path / "out" / "campaign.toml"
+    text = path.read_text().replace('is = "?"', 'is = "z"', 1).replace('is = "?"', 'is = "fz"', 1)
+    path.write_text(text)
+    (test,) = read(tmp_path / "out").tests
+    assert test.data.displacement[:, 2].tolist() == [0.0, -0.1, -0.2]
+    assert test.data.wrench[:, 2].tolist() == [0.0, -5.0, -6.0]
+
+
+def test_of_a_date_and_its_time_the_one_that_goes_on_is_the_time(tmp_path: Path) -> None:
+    rows = "\n".join(f"2026-11-25,10:0{k}:00,{0.1 * k},{5 * k}" for k in range(4))
+    (tmp_path / "a.csv").write_text(f"Date,Time,Travel (mm),Load (N)\n{rows}\n")
+    init(tmp_path / "out", tmp_path / "a.csv", "bar")
+    raw = tomllib.loads((tmp_path / "out" / "campaign.toml").read_text())
+    assert raw["file"]["time_column"] == "Time" and raw["columns"]["Date"] == {"is": "ignore"}
