@@ -9,7 +9,7 @@ from pydantic import BaseModel, TypeAdapter, ValidationError
 
 from pipeline.campaign.complaints import Complaints, shown
 from pipeline.campaign.control import controls
-from pipeline.campaign.head import Description, Head
+from pipeline.campaign.head import Description, Draft, Head
 from pipeline.campaign.manipulator_table import ManipulatorTable, reached
 from pipeline.campaign.mapped.sources import Sources
 from pipeline.campaign.model import Gauge, Rig, Vector
@@ -32,8 +32,11 @@ Model = TypeVar("Model", bound=BaseModel)
 Path = tuple[str | int, ...]
 
 
-def describe(text: str, complaints: Complaints, folder: FilePath | None = None) -> Description:
-    """The description in a TOML text; BadCampaign with every complaint about it. folder: of files that it names."""
+def describe(text: str, complaints: Complaints, folder: FilePath | None = None) -> Draft:
+    """What a TOML text says, with every complaint about it. folder: of files that it names.
+
+    BadCampaign for a text of which nothing can be said.
+    """
     reader = _Reader(text, complaints, folder)
     top = reader.top()
     rig = reader.rig(top.rig)
@@ -41,10 +44,10 @@ def describe(text: str, complaints: Complaints, folder: FilePath | None = None) 
     noise = reader.noise(top.noise)
     heads = reader.heads(top.tests, top.rig, rig)
     sources = Sources(reader.raw, reader.gauge_names, reader.checked, reader.say).found()
-    complaints.check()
-    if rig is None:
-        raise AssertionError("a rig that cannot be used has raised a complaint")
-    return Description(top.name, rig, noise, gauges, heads, sources)
+    names = tuple(reader.gauge_names)
+    if rig is None or complaints.found:
+        return Draft(None, names, sources)
+    return Draft(Description(top.name, rig, noise, gauges, heads, sources), names, sources)
 
 
 class _Reader:

@@ -32,3 +32,13 @@ class Description:
     gauges: tuple[Gauge, ...]
     heads: tuple[Head, ...]
     sources: tuple[Source, ...] = ()
+
+
+@dataclass(frozen=True)
+class Draft:
+    """A description, None where there is a complaint about it, and what its readings can be looked at by all the same:
+    names of the gauges, and what is declared of the files."""
+
+    description: Description | None
+    gauges: tuple[str, ...]
+    sources: tuple[Source, ...]

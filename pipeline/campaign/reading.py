@@ -7,7 +7,7 @@ import numpy as np
 
 from pipeline.campaign.complaints import BadCampaign, Complaints, shown
 from pipeline.campaign.description import describe
-from pipeline.campaign.head import Description
+from pipeline.campaign.head import Description, Draft
 from pipeline.campaign.long_tests import thinned
 from pipeline.campaign.mapped.assemble import measured as assembled
 from pipeline.campaign.measured import Measured
@@ -26,15 +26,23 @@ def read(folder: Path) -> Campaign:
     """The campaign in a folder.
 
     BadCampaign, an InputError, names file, line, key or column, what was found and what is allowed, for every
-    mistake in campaign.toml, or if it has none for every mistake in measurements.csv.
+    mistake in campaign.toml and in the files of readings; only whether the two fit each other is looked at when
+    neither has one.
     """
     described, table = _texts(folder)
-    description = describe(described, Complaints(str(folder / DESCRIPTION)), folder)
-    paths = {source.declared.file.path or MEASUREMENTS for source in description.sources}
+    first = Complaints(str(folder / DESCRIPTION))
+    draft = describe(described, first, folder)
+    paths = {source.declared.file.path or MEASUREMENTS for source in draft.sources}
     complaints = Complaints(
         str(folder / (paths.pop() if len(paths) == 1 else "readings" if paths else MEASUREMENTS))
     )
-    measured, remarks, files = _readings(folder, description, table, complaints)
+    try:
+        measured, remarks, files = _readings(folder, draft, table, complaints)
+    except BadCampaign as error:
+        raise BadCampaign((*first.sentences(), *error.complaints)) from None
+    description = draft.description
+    if description is None:
+        raise BadCampaign((*first.sentences(), *complaints.sentences()))
     columns = {*measured.values, "test", "step"}
     data = data_by_test(measured, description, complaints)
     _unread(measured, description, complaints)
@@ -91,13 +99,13 @@ def _tried(path: Path) -> str | BadCampaign:
 
 
 def _readings(
-    folder: Path, description: Description, table: str | BadCampaign, complaints: Complaints
+    folder: Path, draft: Draft, table: str | BadCampaign, complaints: Complaints
 ) -> tuple[Measured, list[str], list[Path]]:
     """The readings, how they were converted, and from which files; complaints about measurements.csv, where that
     is as the contract has it."""
-    names = [gauge.name for gauge in description.gauges]
-    if description.sources:
-        found, words, said, files = assembled(folder, MEASUREMENTS, description.sources, names)
+    names = draft.gauges
+    if draft.sources:
+        found, words, said, files = assembled(folder, MEASUREMENTS, draft.sources, names)
         if said:
             raise BadCampaign(tuple(said))
         return found, [f"read as declared: {each}" for each in words], files

@@ -67,15 +67,19 @@ class Sources:
         place = f"test {shown(tests[0])}, " if elsewhere is None else ""
         how = self.checked(FileTable, file, (*path, "file"), f"{place}file")
         tables: dict[str, ColumnTable] = {}
-        known = quantities(self.gauges)
+        known, whole = quantities(self.gauges), True
         for name, raw in columns.items():
             where = f"{place}columns.{shown(name)}"
             it = self.checked(ColumnTable, raw, (*path, "columns", name), where)
             if it is None:
+                whole = False
                 continue
-            tables[name] = it
-            for said in mistakes(name, it, known):
+            found = mistakes(name, it, known)
+            for said in found:
                 self.say((*path, "columns", name), said, where)
+            # The rest of the table can be looked at without it.
+            tables[name] = ColumnTable.model_validate({"is": "ignore"}) if found else it
+            whole = whole and not found
         cell = self.raw.get("cell") if isinstance(self.raw.get("cell"), dict) else None
         turned = None if cell is None else self.checked(CellTable, cell, ("cell",), "cell")
         derived = {
@@ -84,7 +88,8 @@ class Sources:
         }
         if how is None:
             return None
-        declared = Declared(how, tables, turned, {k: v for k, v in derived.items() if v is not None})
+        sums = {k: v for k, v in derived.items() if v is not None} if whole else {}
+        declared = Declared(how, tables, turned if whole else None, sums)
         return Source(declared, tests, elsewhere is None, elsewhere or ())
 
 

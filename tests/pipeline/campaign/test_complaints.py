@@ -247,6 +247,15 @@ def test_all_mistakes_of_a_file_come_at_once(tmp_path: Path) -> None:
     assert len(text.splitlines()) == 5, "no mistake is told twice, in its consequences"
 
 
+def test_mistakes_of_both_files_come_at_once(tmp_path: Path) -> None:
+    toml = changed(TOML, "length_mm = 310.0", "length_mm = 0")
+    text = str(refused(laid(tmp_path, toml, CSV.replace("430.25", "bad"))))
+    assert [("rig.length_mm" in line, "column fx_N: holds 'bad'" in line) for line in text.splitlines()] == [
+        (True, False),
+        (False, True),
+    ]
+
+
 def test_lines_are_those_of_an_editor(tmp_path: Path) -> None:
     """A cell of two lines and a blank line before the mistake."""
     csv = changed(CSV, "axial_q+30,1", '"axial_q+30\n",1').replace("430.25", "bad")

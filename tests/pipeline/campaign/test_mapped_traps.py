@@ -242,6 +242,16 @@ def test_an_entry_that_makes_no_sense_is_one_sentence(tmp_path: Path, entry: str
     assert_refused(tmp_path, f"[columns]\n{entry}\n", "T\n0\n", said)
 
 
+def test_mistakes_of_the_description_and_of_its_files_come_at_once(tmp_path: Path) -> None:
+    """A column that is not decided yet is one complaint; the rest of the table is looked at all the same."""
+    tables = '[columns]\n"a" = { is = "?" }\n"b" = { is = "fz", unit = "N" }\n[cell]\nat_mm = [0, 0, 5]\n'
+    with pytest.raises(BadCampaign) as caught:
+        campaign(tmp_path, tables, "a,b\n0,0\n1,bad\n")
+    first, second = caught.value.complaints
+    assert "campaign.toml line 14, columns.'a'" in first and "not decided yet" in first
+    assert "measurements.csv line 3, 'b': holds 'bad'" in second, second
+
+
 def test_a_file_that_is_no_table_of_toml_is_said(tmp_path: Path) -> None:
     assert_refused(tmp_path, S, "Travel,Load\n0,0\n", "file", "a table", tests=ONE + 'file = "load.csv"\n')
 

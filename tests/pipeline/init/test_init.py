@@ -110,7 +110,9 @@ def test_an_empty_campaign_asks_for_everything_and_no_more(tmp_path: Path, kind:
     init(tmp_path, None, kind)
     with pytest.raises(BadCampaign) as caught:
         read(tmp_path)
-    assert all("is '?'" in said for said in caught.value.complaints)
+    *asked, empty = caught.value.complaints
+    assert all("is '?'" in said for said in asked)
+    assert "measurements.csv" in empty and "no rows" in empty
     filled_in(tmp_path)
     path = tmp_path / "campaign.toml"
     path.write_text(
