@@ -1,10 +1,12 @@
 """Tables as people had them, read by what is declared of them: the same numbers as in the plain table, or a question.
 
-Cases c10 (a logger's own files) and c11 (a cantilever with a dial, in 18 variants).
+Cases c10 (a logger's own files), c11 (a cantilever with a dial, in 18 variants), n_... (a bench with two dials and one
+cell, and a machine, as somebody entered them).
 """
 
 from __future__ import annotations
 
+import csv
 import shutil
 from pathlib import Path
 
@@ -101,3 +103,62 @@ def test_a_testing_machines_file_with_units_in_its_second_row(tmp_path: Path) ->
     tables += '"Extension" = { is = "z", sign = -1 }\n"Load" = { is = "fz", sign = -1, zero = "first_row" }\n'
     z, fz = readings(read(declared(tmp_path, "c10_raw_logger_file/instron_raw", tables)))
     assert z[-1] == -0.11656 and fz[0] == 0.0 and fz[-1] == pytest.approx(2.46923 - 6.77164)
+
+
+BENCHES = ("n_B_k0", "n_B_s4", "n_b_nonoise", "n_c4", "n_e_flip", "n_f_gauge", "n_i_outlier_f")
+CHANNELS = ("x_mm", "y_mm", "z_mm", "rx_rad", "ry_rad", "rz_rad")
+WRENCH = ("fx_N", "fy_N", "fz_N", "mx_Nmm", "my_Nmm", "mz_Nmm")
+RENAMED = {"fx_N": "pull", "fy_N": "push"}
+
+
+def plain(folder: Path) -> dict[str, np.ndarray]:
+    """The cells of a plain table as (rows, 12), NaN for nothing, by test."""
+    rows: dict[str, list[list[float]]] = {}
+    with (folder / "measurements.csv").open(encoding="utf-8") as file:
+        for row in csv.DictReader(file):
+            rows.setdefault(row["test"], []).append([float(row.get(c) or "nan") for c in CHANNELS + WRENCH])
+    return {test: np.array(found) for test, found in rows.items()}
+
+
+def read_in(campaign: Campaign) -> dict[str, np.ndarray]:
+    return {t.id: np.hstack([t.data.displacement, t.data.wrench]) for t in campaign.tests}
+
+
+@pytest.mark.parametrize("name", BENCHES)
+def test_a_bench_as_it_was_entered(name: str) -> None:
+    np.testing.assert_equal(read_in(read(DATA / name)), plain(DATA / name))
+
+
+def renamed(tmp_path: Path, name: str, tables: str) -> Path:
+    """The bench with forces under other headers, and what is declared of them."""
+    folder = declared(tmp_path, name, tables)
+    table = (folder / "measurements.csv").read_text()
+    for old, new in RENAMED.items():
+        table = table.replace(old, new)
+    (folder / "measurements.csv").write_text(table)
+    return folder
+
+
+@pytest.mark.parametrize(("name", "unit", "sign"), [("n_B_k0", "kgf", 1), ("n_e_flip", "N", -1)])
+def test_forces_in_another_unit_or_of_another_sign(tmp_path: Path, name: str, unit: str, sign: int) -> None:
+    tables = "[columns]\n" + "".join(
+        f'"{new}" = {{ is = "{old[:2]}", unit = "{unit}", sign = {sign} }}\n' for old, new in RENAMED.items()
+    )
+    found = read_in(read(renamed(tmp_path, name, tables)))
+    factor = np.repeat([1.0, sign * (9.80665 if unit == "kgf" else 1.0)], 6)
+    for test, cells in plain(DATA / name).items():
+        np.testing.assert_allclose(found[test], factor * cells, rtol=1e-12)
+
+
+def test_a_header_that_says_newtons_is_not_read_as_kilograms(tmp_path: Path) -> None:
+    folder = declared(tmp_path, "n_B_k0", '[columns]\n"fx_N" = { is = "fx", unit = "kgf" }\n')
+    with pytest.raises(BadCampaign, match="column 'fx_N': has the unit kgf, but the file says N"):
+        read(folder)
+
+
+def test_a_dial_that_was_not_zeroed_is_zeroed_where_that_is_declared(tmp_path: Path) -> None:
+    folder = declared(tmp_path, "n_f_gauge", '[columns]\n"x_mm" = { is = "x", zero = "first_row" }\n')
+    found = read_in(read(folder))
+    for test, cells in plain(DATA / "n_f_gauge").items():
+        np.testing.assert_allclose(found[test][:, 0], cells[:, 0] - cells[0, 0], atol=1e-15)
+        np.testing.assert_equal(found[test][:, 1:], cells[:, 1:])

@@ -249,7 +249,7 @@ def test_mistakes_of_the_description_and_of_its_files_come_at_once(tmp_path: Pat
         campaign(tmp_path, tables, "a,b\n0,0\n1,bad\n")
     first, second = caught.value.complaints
     assert "campaign.toml line 14, columns.'a'" in first and "not decided yet" in first
-    assert "measurements.csv line 3, 'b': holds 'bad'" in second, second
+    assert "measurements.csv line 3, column 'b': holds 'bad'" in second, second
 
 
 def test_a_file_that_is_no_table_of_toml_is_said(tmp_path: Path) -> None:
