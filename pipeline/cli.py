@@ -132,7 +132,7 @@ def init(
     file: Annotated[
         Path | None, typer.Argument(metavar="FILE", help="Readings: a text, a workbook, TDMS.")
     ] = None,
-    kind: Annotated[str, typer.Option(help="Of the rig: bar, parallelogram.")] = "bar",
+    kind: Annotated[str, typer.Option(help="Of the rig: bar, parallelogram, manipulator.")] = "bar",
 ) -> None:
     """A campaign to fill in, commented; what a file of readings says by itself is filled in already."""
     from pipeline.init.command import init

@@ -174,7 +174,7 @@ class _Reader:
         if table.q_deg is not None:
             self.say((*path, "q_deg"), "q_deg is given, a manipulator has at_mm instead", place)
         if table.at_mm is None:
-            self.say(path, "at_mm is missing, a manipulator needs the point where its platform stands", place)
+            # The table may have it as columns.
             return rig
         if rig.manipulator is not None and (why := reached(rig, table.at_mm)):
             self.say((*path, "at_mm"), f"is {list(table.at_mm)}: {why}", f"{place}, at_mm")

@@ -21,6 +21,15 @@ class ManipulatorTable(Table):
     platform_weight_N: Weight = 0.0
     reference_temperature_C: Celsius | None = None
 
+    @field_validator("file")
+    @classmethod
+    def decided(cls, value: str) -> str:
+        if value == "?":
+            raise ValueError(
+                "not decided yet, allowed is the file of a manipulator or the name of a shipped one"
+            )
+        return value
+
     @field_validator("gravity")
     @classmethod
     def somewhere(cls, value: Vector | None) -> Vector | None:

@@ -9,6 +9,8 @@ COORDINATES = ("x", "y", "z", "rx", "ry", "rz")
 DISPLACEMENTS = ("x_mm", "y_mm", "z_mm", "rx_rad", "ry_rad", "rz_rad")
 WRENCHES = ("fx_N", "fy_N", "fz_N", "mx_Nmm", "my_Nmm", "mz_Nmm")
 TEMPERATURE = "temperature_C"
+PLACES = ("at_x_mm", "at_y_mm", "at_z_mm")
+"""Where the unloaded platform of a manipulator stands, base frame; nothing that is measured."""
 KEYS = ("test", "step")
 UNITS = {
     "mm": "millimetres",

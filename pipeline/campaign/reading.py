@@ -12,8 +12,17 @@ from pipeline.campaign.long_tests import thinned
 from pipeline.campaign.mapped.assemble import measured as assembled
 from pipeline.campaign.measured import Measured
 from pipeline.campaign.model import Campaign, Data, Noise, Test
-from pipeline.campaign.names import DISPLACEMENTS, FORCE, TEMPERATURE, WRENCHES, gauge_column, known_columns
+from pipeline.campaign.names import (
+    DISPLACEMENTS,
+    FORCE,
+    PLACES,
+    TEMPERATURE,
+    WRENCHES,
+    gauge_column,
+    known_columns,
+)
 from pipeline.campaign.plausible import judge
+from pipeline.campaign.posture_rows import parted
 from pipeline.campaign.rows import data_by_test, measured_of
 from pipeline.campaign.sheet import sheet
 
@@ -43,6 +52,7 @@ def read(folder: Path) -> Campaign:
     description = draft.description
     if description is None:
         raise BadCampaign((*first.sentences(), *complaints.sentences()))
+    measured, description = parted(measured, description, complaints)
     columns = {*measured.values, "test", "step"}
     data = data_by_test(measured, description, complaints)
     _unread(measured, description, complaints)
@@ -111,7 +121,7 @@ def _readings(
         return found, [f"read as declared: {each}" for each in words], files
     if isinstance(table, BadCampaign):
         raise table
-    frame = sheet(table, known_columns(names), complaints)
+    frame = sheet(table, (*known_columns(names), *PLACES), complaints)
     if not {"test", "step"} <= set(frame.columns):
         complaints.check()
     return measured_of(frame, names, complaints), [], [folder / MEASUREMENTS]

@@ -10,7 +10,7 @@ from pipeline.campaign.complaints import Complaints, lines_named, shown
 from pipeline.campaign.head import Description, Head
 from pipeline.campaign.measured import Measured
 from pipeline.campaign.model import Array, Data
-from pipeline.campaign.names import DISPLACEMENTS, TEMPERATURE, WRENCHES, gauge_column, unknown_name
+from pipeline.campaign.names import DISPLACEMENTS, PLACES, TEMPERATURE, WRENCHES, gauge_column, unknown_name
 from pipeline.campaign.sheet import numbers
 
 _DIGITS = 9
@@ -18,7 +18,7 @@ _DIGITS = 9
 
 def measured_of(frame: pd.DataFrame, gauges: Iterable[str], complaints: Complaints) -> Measured:
     """The readings of a table of cells; complaints about those that are none."""
-    columns = (*DISPLACEMENTS, *WRENCHES, *map(gauge_column, gauges), TEMPERATURE)
+    columns = (*DISPLACEMENTS, *WRENCHES, *map(gauge_column, gauges), TEMPERATURE, *PLACES)
     values = {c: numbers(frame, c, complaints) for c in columns if c in frame.columns}
     tests = tuple(frame["test"].str.strip())
     lines = frame.index.to_numpy(dtype=np.int64)

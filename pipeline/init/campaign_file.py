@@ -18,7 +18,7 @@ CHOICES = {
 }
 """What a column of each quantity may be; the axis is never guessed, nor the sign."""
 SIMPLE = {"temperature": "temperature", "time": "time", "step": "step", "test": "test"}
-KINDS = ("bar", "parallelogram")
+KINDS = ("bar", "parallelogram", "manipulator")
 
 RIG = {
     "parallelogram": """kind = "parallelogram"       # two bars between four hinges; or "bar"
@@ -32,7 +32,12 @@ bar = { EA_N = "?", EIy_Nmm2 = "?", EIz_Nmm2 = "?", GJ_Nmm2 = "?" }
 base = "clamped"             # or "pinned"
 tip = "free"                 # or "pinned", "guided"
 """,
+    "manipulator": """kind = "manipulator"         # a whole machine
+file = "?"                   # that describes its legs, beside this one; or "orthoglide"
+""",
 }
+WEIGHTS = """# gravity = [0, 0, -1]           its direction, with platform_weight_N: what hangs on the platform
+"""
 MORE = """# bar_stiffness = [[...], ...]   the 6x6 of one bar at its tip instead of `bar`; N, mm, rad
 # gravity = [0, 0, -1]           direction of gravity; with line_weight_N_per_mm, platform_weight_N
 # reference_temperature_C = 20.0 needed where a temperature was measured
@@ -54,7 +59,8 @@ NOISE = """
 
 def campaign_text(name: str, kind: str, file: str = "", found: Found | None = None) -> str:
     """campaign.toml. file: beside it, of which `found` was found; without it measurements.csv is to be written."""
-    head = f"schema = 1\nname = {_quoted(name)}\n\n[rig]\n{RIG[kind]}{MORE}{NOISE}{GAUGES}"
+    more = WEIGHTS + NOISE if kind == "manipulator" else MORE + NOISE + GAUGES
+    head = f"schema = 1\nname = {_quoted(name)}\n\n[rig]\n{RIG[kind]}{more}"
     tables = "" if found is None else _file(file, found) + _columns(found)
     return head + tables + _test(kind)
 
@@ -131,7 +137,10 @@ def _times(found: Found) -> list[str]:
 
 
 def _test(kind: str) -> str:
-    angle = 'q_deg = "?"                  # angle of the bars\n' if kind == "parallelogram" else ""
+    angle = {
+        "parallelogram": 'q_deg = "?"                  # angle of the bars\n',
+        "manipulator": "# at_mm = [x, y, z]          where the platform stands; or columns at_x_mm, at_y_mm, at_z_mm\n",
+    }.get(kind, "")
     # A parallelogram swings along z unless something holds it there.
     held = {"z"} if kind == "parallelogram" else set()
     control = ", ".join(f'{c} = "{"displacement" if c in held else "force"}"' for c in COORDINATES)

@@ -9,11 +9,11 @@ from difflib import get_close_matches
 from pipeline.campaign.complaints import shown
 from pipeline.campaign.mapped.schema import CellTable, ColumnTable, DerivedTable, FileTable
 from pipeline.campaign.mapped.units import UNITS, NoUnit, Unit, meant, unit
-from pipeline.campaign.names import COORDINATES, TEMPERATURE, gauge_column
+from pipeline.campaign.names import COORDINATES, PLACES, TEMPERATURE, gauge_column
 
 FORCES, MOMENTS = ("fx", "fy", "fz"), ("mx", "my", "mz")
 IGNORED, OPEN = "ignore", "?"
-LATER = ("at_x", "at_y", "at_z", "sigma.")
+LATER = "sigma."
 """What the contract foresees and no reader knows yet."""
 
 
@@ -48,6 +48,7 @@ def quantities(gauges: Iterable[str]) -> dict[str, tuple[str, str]]:
     out |= {f: ("force", f"{f}_N") for f in FORCES}
     out |= {m: ("moment", f"{m}_Nmm") for m in MOMENTS}
     out |= {name: ("length", gauge_column(name)) for name in gauges}
+    out |= {column.removesuffix("_mm"): ("length", column) for column in PLACES}
     out["temperature"] = ("temperature", TEMPERATURE)
     out["time"] = ("time", "")
     return out
@@ -82,10 +83,7 @@ def _no_quantity(name: str, it: ColumnTable, known: Mapping[str, tuple[str, str]
     if it.what == OPEN:
         return f'is = "?" is not decided yet, write what {shown(name)} is: {choice}'
     if it.what.startswith(LATER):
-        instead = (
-            "one sigma for each column under [noise]" if it.what.startswith("sigma") else "at_mm in each test"
-        )
-        return f"is = {shown(it.what)} is not read yet, write {instead}"
+        return f"is = {shown(it.what)} is not read yet, write one sigma for each column under [noise]"
     if it.what in ("test", "step"):
         return "" if it.unit is None else f"has a unit, {it.what} has none"
     if it.what == IGNORED or it.what in known:

@@ -130,3 +130,78 @@ def test_a_campaign_on_a_machine_without_a_parallelogram(tmp_path: Path) -> None
     assert {round(model.fit or 0.0, 2) for model in found.models} == {7.18}
     said = CliRunner().invoke(app, ["add", str(tmp_path), "modulus_error"])
     assert said.exit_code == 2 and "need a parallelogram, Tripteron has none" in said.output
+
+
+def as_columns(folder: Path) -> tuple[str, str]:
+    """The campaign with one test, whose postures are columns of its table, in the units of the contract."""
+    campaign = read(folder)
+    (folder / "model.toml").unlink(missing_ok=True)
+    text = (folder / DESCRIPTION).read_text(encoding="utf-8")
+    head, first, _ = text.split("[[tests]]", 2)
+    first = first.replace("at_mm = [0.0, 0.0, 0.0]\n", "").replace(campaign.tests[0].id, "all")
+    header, *rows = (folder / MEASUREMENTS).read_text(encoding="utf-8").splitlines()
+    places = {test.id: ",".join(map(str, test.rig.point or ())) for test in campaign.tests}
+    lines = [f"all,{k},{row.split(',', 2)[2]},{places[row.split(',')[0]]}" for k, row in enumerate(rows)]
+    table = "\n".join([f"{header},at_x_mm,at_y_mm,at_z_mm", *lines, ""])
+    (folder / DESCRIPTION).write_text(f"{head}[[tests]]{first}", encoding="utf-8")
+    (folder / MEASUREMENTS).write_text(table, encoding="utf-8")
+    return f"{head}[[tests]]{first}", table
+
+
+def test_postures_may_be_columns_of_the_table(folder: Path) -> None:
+    before = read(folder)
+    as_columns(folder)
+    after = read(folder)
+    points: list[object] = []
+    for test in before.tests:
+        if not points or points[-1] != test.rig.point:
+            points.append(test.rig.point)
+    assert [test.rig.point for test in after.tests] == points and len(points) > 1
+    assert [test.id for test in after.tests] == [f"all {k + 1}" for k in range(len(points))]
+    for name in ("displacement", "wrench"):
+        whole = [np.vstack([getattr(test.data, name) for test in it.tests]) for it in (before, after)]
+        np.testing.assert_array_equal(*whole)
+
+
+@pytest.mark.parametrize(
+    ("part", "old", "new", "said"),
+    [
+        ("table", ",at_z_mm", "", "cells, the header has"),
+        ("table", ",0.0\n", ",\n", "has rows without at_x_mm, at_y_mm, at_z_mm"),
+        ("table", ",0.0\n", ",900.0\n", "the platform is to stand at [0.0, 0.0, 900.0] mm: "),
+        ("description", 'id = "all"', 'id = "all"\nat_mm = [0, 0, 0]', "has at_mm and columns"),
+        ("description", "x_mm =", "at_x_mm = 1.0\nx_mm =", "noise.at_x_mm: is unknown"),
+    ],
+)
+def test_what_a_posture_cannot_be_is_said(folder: Path, part: str, old: str, new: str, said: str) -> None:
+    description, table = as_columns(folder)
+    text, name = (table, MEASUREMENTS) if part == "table" else (description, DESCRIPTION)
+    assert old in text
+    (folder / name).write_text(text.replace(old, new, 1), encoding="utf-8")
+    with pytest.raises(BadCampaign) as caught:
+        read(folder)
+    assert said in str(caught.value), caught.value
+
+
+def test_postures_of_a_logger_are_read_in_its_units_and_are_of_machines_alone(
+    folder: Path, tmp_path: Path
+) -> None:
+    description, table = as_columns(folder)
+    columns = "".join(
+        f'"P{a.upper()} (cm)" = {{ is = "at_{a}" }}\n"{n}" = {{ is = "{n[:-3]}", unit = "mm" }}\n'
+        for a, n in (("x", "x_mm"), ("y", "y_mm"), ("z", "z_mm"))
+    )
+    head, mark, tests = description.partition("[[tests]]")
+    (folder / DESCRIPTION).write_text(f"{head}[columns]\n{columns}{mark}{tests}", encoding="utf-8")
+    header, *rows = table.splitlines()
+    for a in "xyz":
+        header = header.replace(f"at_{a}_mm", f"P{a.upper()} (cm)")
+    (folder / MEASUREMENTS).write_text("\n".join([header, *rows]), encoding="utf-8")
+    with pytest.raises(BadCampaign, match="the platform is to stand at"):
+        read(folder)
+    (tmp_path / DESCRIPTION).write_text(TOML)
+    (tmp_path / MEASUREMENTS).write_text(
+        "\n".join(f"{line},{'at_x_mm' if k == 0 else 3}" for k, line in enumerate(CSV.splitlines()))
+    )
+    with pytest.raises(BadCampaign, match="column at_x_mm: is of a manipulator"):
+        read(tmp_path)

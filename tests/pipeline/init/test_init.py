@@ -105,7 +105,7 @@ def test_a_file_without_a_table_is_said(tmp_path: Path, content: str) -> None:
     assert not (tmp_path / "out").exists()
 
 
-@pytest.mark.parametrize("kind", ["bar", "parallelogram"])
+@pytest.mark.parametrize("kind", ["bar", "parallelogram", "manipulator"])
 def test_an_empty_campaign_asks_for_everything_and_no_more(tmp_path: Path, kind: str) -> None:
     init(tmp_path, None, kind)
     with pytest.raises(BadCampaign) as caught:
@@ -116,9 +116,15 @@ def test_an_empty_campaign_asks_for_everything_and_no_more(tmp_path: Path, kind:
     filled_in(tmp_path)
     path = tmp_path / "campaign.toml"
     path.write_text(
-        path.read_text().replace('width_mm = "?"', "width_mm = 80.0").replace('q_deg = "?"', "q_deg = 0.0")
+        path.read_text()
+        .replace('width_mm = "?"', "width_mm = 80.0")
+        .replace('q_deg = "?"', "q_deg = 0.0")
+        .replace('file = "?"', 'file = "orthoglide"')
     )
-    (tmp_path / "measurements.csv").write_text("test,step,z_mm,fz_N\ntest-1,0,0.0,0.0\ntest-1,1,0.1,2.0\n")
+    table = "test,step,z_mm,fz_N,at_x_mm,at_y_mm,at_z_mm\ntest-1,0,0.0,0.0,0,0,0\ntest-1,1,0.1,2.0,0,0,0\n"
+    if kind != "manipulator":
+        table = "\n".join(line.rsplit(",", 3)[0] for line in table.splitlines())
+    (tmp_path / "measurements.csv").write_text(table)
     assert read(tmp_path).rig.kind == kind
     with pytest.raises(InputError, match="is there already"):
         init(tmp_path, None, kind)
