@@ -12,6 +12,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from vjm import lagrangian
 from vjm.critical import in_phase
@@ -27,6 +28,8 @@ CLOSE = 1e-4
 """Of the way to the bifurcation, within which it is found: modes that part there are told apart by as much."""
 NOTHING = 1e-6
 """Of the way: what has no state as near as that has none at all, and would be halved down to the last float."""
+PARTS = 8
+"""Of what is left, that are solved at once: a batch of seven costs less than the three halvings that it replaces."""
 ROUNDS = 8
 """Times that the search goes on behind a place where a step was merely too long."""
 AMPLITUDES = (0.01, 0.003, 0.03)
@@ -167,23 +170,30 @@ class _Way:
         )
 
     def _aimed(
-        self, share: float, start: Equilibrium
+        self, share: ArrayLike, start: Equilibrium
     ) -> tuple[Mechanism, Array, np.ndarray, Equilibrium, dict[str, Array]]:
-        """What an equilibrium at a share of the way is asked for with."""
+        """What equilibria at shares (...) of the way are asked for with."""
         mechanism = self.before.mechanism
         inputs = _inputs(mechanism, lagrangian.layout(mechanism).drives, self.drives)
-        return mechanism, self.origin + share * (self.target - self.origin), self.channels, start, inputs
+        aim = self.origin + np.asarray(share)[..., None] * (self.target - self.origin)
+        return mechanism, aim, self.channels, start, inputs
 
     def narrowed(self, low: Equilibrium, near: float) -> tuple[Equilibrium, float, float]:
-        """The last stable state that halvings find from one at the share `near`, its share, and one where none is."""
+        """The last stable state that is found from one at the share `near`, its share, and one where none is.
+
+        What lies between is parted again and again, its parts solved at once, and those up to the first failure kept.
+        """
         far = 1.0
         while far - near > CLOSE * far and far > NOTHING:
-            middle = 0.5 * (near + far)
-            there = nearby(*self._aimed(middle, low), self.memory)
-            if there.converged:
-                low, near = there, middle
-            else:
-                far = middle
+            shares = np.linspace(near, far, PARTS + 1)[1:-1]
+            there = nearby(
+                *self._aimed(shares, low), np.broadcast_to(self.memory, (PARTS - 1, self.memory.size))
+            )
+            good = int(np.argmin(np.append(there.converged, False)))
+            if good < PARTS - 1:
+                far = float(shares[good])
+            if good:
+                low, near = there.member(good - 1), float(shares[good - 1])
         return low, near, far
 
     def switched(self, at: Equilibrium, share: float, direction: Array) -> Equilibrium | None:

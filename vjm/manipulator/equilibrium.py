@@ -13,11 +13,16 @@ from vjm.manipulator.lagrangian import System, gradient_and_hessian
 from vjm.manipulator.loops import LoopedLeg
 from vjm.newton import CONVERGED, Step, dense, newton
 from vjm.problem import held_mask
+from vjm.reasons import Reason
 from vjm.sensors import Channels, through
 
 TOLERANCE = 1e-12
 ITERATIONS = 40
-_HALVINGS = 7
+FIRST_STEP, LEAST_STEP = 1.0 / 2.0, 1.0 / 128.0
+TRIES = 48
+"""Of one member; what creeps at the least step is lost."""
+SOON = 8
+"""Iterations of a step that may be halved still; more are of use to the least one alone."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -79,8 +84,8 @@ def equilibrium(
     targets: (6,) or (B, 6): pose of a held platform coordinate (mm, rad), load on a free one (N, N·mm, conjugate to
     the rotation vector), each as the manipulator's sensors read it. held: names of the held ones. start: state to
     begin from, default unloaded.
-    increments: approach a target that is not met at once in up to 2^7 steps from the start. ValueError for targets
-    that are not finite or have another last axis.
+    increments: approach a target that is not met at once in steps from the start, halved where they fail and doubled
+    where they do not. ValueError for targets that are not finite or have another last axis.
     """
     wanted = np.asarray(targets, dtype=float)
     if wanted.ndim == 0 or wanted.shape[-1] != 6 or not np.all(np.isfinite(wanted)):
@@ -89,29 +94,51 @@ def equilibrium(
     mask = held_mask(held)
     first = system.at_rest() if start is None else start.unknowns
     end = _solve(system, wanted, mask, first, tolerance, limit)
-    for member in np.flatnonzero(~end.converged) if increments else ():
-        part = system.take(np.array([member]))
-        slow = _in_steps(part, wanted[[member]], mask, first[[member]], tolerance, limit)
-        for name in ("unknowns", "iterations", "residual", "converged", "reason"):
-            getattr(end, name)[member] = getattr(slow, name)[0]
+    failed = np.flatnonzero(~end.converged)
+    if failed.size and increments:
+        slow = _in_increments(system.take(failed), wanted[failed], mask, first[failed], tolerance, limit)
+        _put(end, failed, slow)
     return end
 
 
-def _in_steps(
+def _in_increments(
     of: System, wanted: Array, mask: np.ndarray, first: Array, tolerance: float, limit: int
 ) -> Loaded:
+    """Targets approached from those at `first`; a member that fails has the reason of its last increment."""
     before = _prescribed(of, first, mask)
-    found = _solve(of, wanted, mask, first, tolerance, limit)
-    for halving in range(1, _HALVINGS + 1):
-        u = first
-        for share in np.linspace(0.0, 1.0, 2**halving + 1)[1:]:
-            found = _solve(of, before + share * (wanted - before), mask, u, tolerance, limit)
-            if not found.converged[0]:
-                break
-            u = found.unknowns
-        if found.converged[0]:
+    count = len(first)
+    end = Loaded(
+        of,
+        first.copy(),
+        np.zeros(count, dtype=int),
+        np.full(count, np.inf),
+        np.zeros(count, dtype=bool),
+        np.full(count, "", dtype=object),
+    )
+    reached, step, last = np.zeros(count), np.full(count, FIRST_STEP), first.copy()
+    active = np.arange(count)
+    for _ in range(TRIES):
+        if not active.size:
             break
-    return found
+        share = np.minimum(reached[active] + step[active], 1.0)
+        aim = before[active] + share[:, None] * (wanted[active] - before[active])
+        most = limit if np.any(step[active] < 2.0 * LEAST_STEP) else min(limit, SOON)
+        part = _solve(of.take(active), aim, mask, last[active], tolerance, most)
+        good, there = part.converged.copy(), active[part.converged]
+        last[there], reached[there] = part.unknowns[good], share[good]
+        # An increment that got there is no equilibrium under the whole target.
+        part.converged[:] = good & (share == 1.0)
+        _put(end, active, part)
+        step[active] *= np.where(good, 2.0, 0.5)
+        active = active[(step[active] >= LEAST_STEP) & (reached[active] < 1.0)]
+    end.reason[active] = str(Reason.NOT_CONVERGED)
+    return end
+
+
+def _put(end: Loaded, members: np.ndarray, other: Loaded) -> None:
+    """Replaces these members by those of another solution."""
+    for name in ("unknowns", "iterations", "residual", "converged", "reason"):
+        getattr(end, name)[members] = getattr(other, name)
 
 
 def channels(of: System, u: Array) -> Channels:
