@@ -43,6 +43,11 @@ fuzz: setup
 wheel: $(STAMP)
 	$(PYTHON) -m tests.parastiff.installed
 
+# The two commands and the wheel in a Debian with nothing in it; needs root and debootstrap, see tests/bare/root.sh.
+.PHONY: bare
+bare: $(STAMP)
+	$(PYTHON) -m tests.bare
+
 # Many benches for every effect: hours; what was finished is kept, so that it may be stopped and started again.
 coverage: $(STAMP)
 	$(PYTHON) -m pipeline.coverage

@@ -1,8 +1,13 @@
-"""`make wheel`: the wheel in an environment of its own, with no extra, and what a new user does first; with seconds."""
+"""`make wheel`: the wheel in an environment of its own, with no extra, and what a new user does first; with seconds.
+
+With a folder as argument: the wheel, constraints.txt and measurements.xlsx are taken from there, as on a machine
+without this checkout (`make bare`). Nothing but Python's own library is needed.
+"""
 
 from __future__ import annotations
 
 import re
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -13,7 +18,7 @@ from time import perf_counter
 
 ROOT = Path(__file__).resolve().parents[2]
 LARGEST_MB, HELP_S, IMPORT_S = 700.0, 0.3, 0.1
-TABLE = ROOT / "tests" / "cases" / "data" / "c11" / "xlsx" / "measurements.xlsx"
+TABLE = Path("tests", "cases", "data", "c11", "xlsx", "measurements.xlsx")
 ANSWERS = {
     r'length_mm = "\?"': "length_mm = 300.0",
     r"bar = \{.*\}": 'section = { kind = "rectangle", width_mm = 30.0, height_mm = 9.49 }\n'
@@ -66,20 +71,28 @@ def answered(folder: Path) -> None:
     path.write_text(text, encoding="utf-8")
 
 
-def main() -> None:
-    """Build, install, use."""
+def taken_to(folder: Path) -> None:
+    """The wheel, built here, and what its use needs, into a folder."""
+    build = (sys.executable, "-m", "hatchling", "build", "-t", "wheel", "-d", folder)
+    timed("build", lambda: run(*build, cwd=ROOT))
+    for file in (ROOT / "constraints.txt", ROOT / TABLE):
+        shutil.copy(file, folder)
+
+
+def main(given: list[str]) -> None:
+    """Install, use."""
     with tempfile.TemporaryDirectory() as name:
         here = Path(name)
-        timed(
-            "build",
-            lambda: run(sys.executable, "-m", "hatchling", "build", "-t", "wheel", "-d", here, cwd=ROOT),
-        )
+        if given:
+            shutil.copytree(given[0], here, dirs_exist_ok=True)
+        else:
+            taken_to(here)
         (wheel,) = here.glob("*.whl")
         print(f"{wheel.name}: {wheel.stat().st_size / 1e6:.2f} MB")
         own = here / "own"
         venv.create(own, with_pip=True)
         python, parastiff = own / "bin" / "python", own / "bin" / "parastiff"
-        pip = (python, "-m", "pip", "install", "--quiet", "--constraint", ROOT / "constraints.txt", wheel)
+        pip = (python, "-m", "pip", "install", "--quiet", "--constraint", here / "constraints.txt", wheel)
         timed("pip install, no extra", lambda: run(*pip, cwd=here))
         size = sum(path.lstat().st_size for path in own.rglob("*")) / 1e6
         print(f"installed: {size:.0f} MB")
@@ -88,7 +101,10 @@ def main() -> None:
         import_s = quickest(python, "-c", "import parastiff", cwd=here) - bare
         print(f"parastiff --help {help_s:.2f} s, import parastiff {import_s:.3f} s")
         timed("parastiff demo", lambda: run(parastiff, "demo", "demo", "--quiet", cwd=here))
-        timed("parastiff init bench readings.xlsx", lambda: run(parastiff, "init", "bench", TABLE, cwd=here))
+        timed(
+            "parastiff init bench readings.xlsx",
+            lambda: run(parastiff, "init", "bench", TABLE.name, cwd=here),
+        )
         answered(here / "bench")
         timed("parastiff check bench", lambda: run(parastiff, "check", "bench", cwd=here))
         timed(
@@ -102,4 +118,4 @@ def main() -> None:
 
 
 if __name__ == "__main__":
-    main()
+    main(sys.argv[1:])
