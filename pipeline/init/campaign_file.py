@@ -38,10 +38,23 @@ file = "?"                   # that describes its legs, beside this one; or "ort
 }
 WEIGHTS = """# gravity = [0, 0, -1]           its direction, with platform_weight_N: what hangs on the platform
 """
-MORE = """# bar_stiffness = [[...], ...]   the 6x6 of one bar at its tip instead of `bar`; N, mm, rad
+MORE = """# section = { kind = "round", diameter_mm = 12.0 } and material = { E_MPa = 7e4, nu = 0.33 }   instead of `bar`
+# bar_stiffness = [[...], ...]   the 6x6 of one bar at its tip instead of `bar`; N, mm, rad
 # gravity = [0, 0, -1]           direction of gravity; with line_weight_N_per_mm, platform_weight_N
 # reference_temperature_C = 20.0 needed where a temperature was measured
 # fibre_y_mm, fibre_z_mm         outermost fibres of the bar, for the effect material_yield
+"""
+FILE = """# test_from = "blank_row"    or "file", "sheet"; test_column = "...": of a file with several tests
+# last_row = 120, comment = "#", missing = ["OVL", "---"], thousands = "'": rows and words that are no data
+# every = 10                 of a long file one row of ten, and those where it begins, ends or turns
+"""
+CELL = """
+# [cell]                     # of a load cell at another point, turned, or of the other sign
+# at_mm = [0.0, 0.0, 40.0]   # from the platform's point, base frame
+# turned_deg = [0.0, 0.0, 45.0]   # rotation vector
+# sign = -1
+# [derived]                  # a coordinate from several columns: here the angle of two dials 60 mm apart
+# rz = { of = { "Dial 2" = 1, "Dial 1" = -1 }, unit = "mm", over_mm = 60.0 }
 """
 GAUGES = """
 # [[gauges]]                 # a dial or another sensor of a displacement; its column is dial_mm, its sigma too
@@ -61,7 +74,7 @@ def campaign_text(name: str, kind: str, file: str = "", found: Found | None = No
     """campaign.toml. file: beside it, of which `found` was found; without it measurements.csv is to be written."""
     more = WEIGHTS + NOISE if kind == "manipulator" else MORE + NOISE + GAUGES
     head = f"schema = 1\nname = {_quoted(name)}\n\n[rig]\n{RIG[kind]}{more}"
-    tables = "" if found is None else _file(file, found) + _columns(found)
+    tables = "" if found is None else _file(file, found) + _columns(found) + CELL
     return head + tables + _test(kind)
 
 
@@ -97,10 +110,7 @@ def _file(file: str, found: Found) -> str:
         lines.append(
             f"fill_down = [{', '.join(map(_quoted, found.merged))}]      # empty cells repeat the one above"
         )
-    lines.append(
-        '# test_from = "blank_row"    or "file", "sheet"; test_column = "...": of a file with several tests'
-    )
-    return "\n".join(lines) + "\n"
+    return "\n".join(lines) + "\n" + FILE
 
 
 def _columns(found: Found) -> str:
