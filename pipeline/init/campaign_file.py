@@ -38,7 +38,7 @@ file = "?"                   # that describes its legs, beside this one; or "ort
 }
 WEIGHTS = """# gravity = [0, 0, -1]           its direction, with platform_weight_N: what hangs on the platform
 """
-MORE = """# section = { kind = "round", diameter_mm = 12.0 } and material = { E_MPa = 7e4, nu = 0.33 }   instead of `bar`
+MORE = """# section = { kind = "round", diameter_mm = 12.0 } and material = { E_MPa = 7e4, nu = 0.33 } for `bar`
 # bar_stiffness = [[...], ...]   the 6x6 of one bar at its tip instead of `bar`; N, mm, rad
 # gravity = [0, 0, -1]           direction of gravity; with line_weight_N_per_mm, platform_weight_N
 # reference_temperature_C = 20.0 needed where a temperature was measured
