@@ -18,7 +18,7 @@ _TRIES = 48
 _NUMBERS = 400_000
 _SOON = 8
 # Beyond a quarter of the first step, or this many iterations, there may be other solutions as near.
-_FAR, _MANY = 0.25, 6
+_FAR, MANY = 0.25, 6
 LOST_STABILITY = str(Reason.UNSTABLE)
 UNSURE = "unstable, or found after wandering"
 
@@ -137,7 +137,7 @@ def _wandered(problem: Problem, start: Array, end: Iterate) -> np.ndarray:
     Where there is play the first step goes as far as its soft spring lets it, and comes back from the stop, to and fro
     where there are several: a member that ends near its start has not wandered then.
     """
-    wandered = (end.iterations > _MANY) | (end.strayed > _FAR)
+    wandered = (end.iterations > MANY) | (end.strayed > _FAR)
     if problem.plays:
         motion = slice(problem.place.platform.stop)
         way = np.abs((end.unknowns - start)[:, motion] / problem.place.scale[motion])

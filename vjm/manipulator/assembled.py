@@ -19,6 +19,9 @@ from vjm.manipulator.parts import Leg, Manipulator, Parallelogram, Part
 from vjm.manipulator.posture import Postures
 from vjm.mechanisms.assembled import FourBar
 
+LOOSE = 1e-10
+"""Of the largest singular value of the dimensionless tangent without load: the Orthoglide's least is 1e-6, that of a
+motion that nothing holds is rounding, 1e-16."""
 _FREE = np.zeros(6, dtype=bool)
 
 
@@ -33,7 +36,7 @@ def settled(manipulator: Manipulator, at: Postures) -> tuple[Array, ...]:
     of = system(_without_loads(manipulator), at)
     alone = tuple(map(_alone, of.legs, at.coordinates, of.rest))
     start = replace(of, rest=tuple(rest + turn for rest, turn in zip(of.rest, alone, strict=True)))
-    strained = np.flatnonzero(_residual(start) >= TOLERANCE)
+    strained = np.flatnonzero(_strained(start))
     if not strained.size:
         return alone
     part = start.take(strained)
@@ -95,7 +98,12 @@ def _alone(leg: LoopedLeg, posture: Array, rest: Array) -> Array:
     return out
 
 
-def _residual(of: System) -> Array:
-    """(B,) largest dimensionless row out of balance at rest, nothing prescribed but that no load acts."""
-    rows, _, _ = control_rows(of, of.at_rest(), _FREE)
-    return np.asarray(np.max(np.abs(rows), axis=-1))
+def _strained(of: System) -> np.ndarray:
+    """(B,) whether the whole is out of balance at rest, and held: nothing is prescribed but that no load acts.
+
+    Newton's method would move what nothing holds to any place, or find its tangent singular, as rounding has it.
+    """
+    rows, tangent, _ = control_rows(of, of.at_rest(), _FREE)
+    sizes = np.linalg.svd(tangent * of.scale, compute_uv=False)
+    held = sizes[:, -1] > LOOSE * sizes[:, 0]
+    return np.asarray(held & (np.max(np.abs(rows), axis=-1) >= TOLERANCE))

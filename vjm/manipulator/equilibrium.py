@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from vjm.frames import Array, moment
+from vjm.increments import FIRST_STEP, LARGEST_STEP, LEAST_STEP, MANY
 from vjm.manipulator.lagrangian import System, gradient_and_hessian
 from vjm.manipulator.loops import LoopedLeg
 from vjm.newton import CONVERGED, Step, dense, newton
@@ -18,7 +19,6 @@ from vjm.sensors import Channels, through
 
 TOLERANCE = 1e-12
 ITERATIONS = 40
-FIRST_STEP, LEAST_STEP = 1.0 / 2.0, 1.0 / 128.0
 TRIES = 48
 """Of one member; what creeps at the least step is lost."""
 SOON = 8
@@ -94,10 +94,17 @@ def equilibrium(
     mask = held_mask(held)
     first = system.at_rest() if start is None else start.unknowns
     end = _solve(system, wanted, mask, first, tolerance, limit)
-    failed = np.flatnonzero(~end.converged)
-    if failed.size and increments:
-        slow = _in_increments(system.take(failed), wanted[failed], mask, first[failed], tolerance, limit)
-        _put(end, failed, slow)
+    if not increments:
+        return end
+    doubtful = ~end.converged
+    if any(past.shape[-1] for past in system.memory):
+        # Friction has several states of balance: which one a long way of Newton's method ends at is chance.
+        doubtful |= end.iterations > MANY
+    members = np.flatnonzero(doubtful)
+    if members.size:
+        slow = _in_increments(system.take(members), wanted[members], mask, first[members], tolerance, limit)
+        better = slow.converged | ~end.converged[members]
+        _put(end, members[better], slow, better)
     return end
 
 
@@ -129,16 +136,16 @@ def _in_increments(
         # An increment that got there is no equilibrium under the whole target.
         part.converged[:] = good & (share == 1.0)
         _put(end, active, part)
-        step[active] *= np.where(good, 2.0, 0.5)
+        step[active] = np.where(good, np.minimum(2.0 * step[active], LARGEST_STEP), 0.5 * step[active])
         active = active[(step[active] >= LEAST_STEP) & (reached[active] < 1.0)]
     end.reason[active] = str(Reason.NOT_CONVERGED)
     return end
 
 
-def _put(end: Loaded, members: np.ndarray, other: Loaded) -> None:
-    """Replaces these members by those of another solution."""
+def _put(end: Loaded, members: np.ndarray, other: Loaded, which: np.ndarray | slice = slice(None)) -> None:
+    """Replaces these members by those of another solution, or by some of its."""
     for name in ("unknowns", "iterations", "residual", "converged", "reason"):
-        getattr(end, name)[members] = getattr(other, name)
+        getattr(end, name)[members] = getattr(other, name)[which]
 
 
 def channels(of: System, u: Array) -> Channels:

@@ -78,10 +78,13 @@ def test_loaded_stiffness_is_the_derivative_of_the_load(segments: int) -> None:
 def test_a_target_far_away_is_met_in_increments() -> None:
     whole = orthoglide(pair(segments=2))
     of = system(whole, postures(whole, POINTS[:1]))
-    far = np.array([4000.0, 3000.0, -3000.0, 2e6, 0.0, 0.0])
-    state = equilibrium(of, far)
+    far = 0.95 * np.array([4000.0, 3000.0, -3000.0, 2e6, 0.0, 0.0])
+    assert not equilibrium(of, far, limit=5, increments=False).converged.any()
+    state = equilibrium(of, far, limit=5)
     assert state.converged.all(), state.reason
     np.testing.assert_allclose(state.loads.sum(1)[0], far, atol=1e-6 * 2e6)
+    # On its way the platform loses stability twice, and no state of balance is left at 0.975 of the full load.
+    assert unstable_directions(state)[0] == 2 and not equilibrium(of, far / 0.95).converged.any()
 
 
 def test_a_loose_manipulator_is_reported() -> None:
