@@ -21,6 +21,7 @@ from pipeline.virtual.hidden import hidden
 from pipeline.virtual.plan import GAUGES, SENSORS, bench_plan
 from vjm import paper
 from vjm.effects import catalogue
+from vjm.effects.paths import path_of
 
 LENGTH, WIDTH = 310.0, 80.0
 FIBRE_Y, FIBRE_Z = 6.0, 7.75
@@ -39,7 +40,7 @@ def simulate(out: Path, effects: Sequence[str], seed: int, quiet: bool = False) 
     # Sizes and noise are drawn apart, so that the same seed gives the same noise whatever is hidden.
     sizes, noise = (np.random.default_rng(s) for s in np.random.SeedSequence(seed).spawn(2))
     values = hidden(effects, catalogue(), rig, sizes)
-    paths = {f"{name}.{p}": value for name, own in values.items() for p, value in own.items()}
+    paths = {path_of(name, p): value for name, own in values.items() for p, value in own.items()}
     with Progress(quiet).stage("simulate"):
         name = re.sub(r"\s+", " ", out.resolve().name)
         campaign = measure(name, rig, bench_plan(), SENSORS, paths, int(noise.integers(2**63)), GAUGES)

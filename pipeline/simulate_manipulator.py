@@ -15,6 +15,7 @@ from pipeline.simulate import require_free, seal
 from pipeline.virtual.hidden import hidden
 from pipeline.virtual.manipulator import measure_manipulator, plan
 from vjm.effects import catalogue
+from vjm.effects.paths import path_of
 
 
 def simulate_manipulator(
@@ -33,7 +34,7 @@ def simulate_manipulator(
         campaign = measure_manipulator(name, rig, tests, values, int(noise.integers(2**63)))
     answer = {
         "effects": list(values),
-        "parameters": {f"{name}.{p}": value for name, own in values.items() for p, value in own.items()},
+        "parameters": {path_of(name, p): value for name, own in values.items() for p, value in own.items()},
         "seed": seed,
         "rig": f"manipulator {described.manipulator.name}",
         "truth": "linear frame finite elements at each posture",

@@ -194,7 +194,7 @@ class Errors:
             raise ValueError(f"unknown parameter {unknown[0]!r}, allowed are {', '.join(known)}")
         given: dict[str, dict[str, float]] = {}
         for path, value in values.items():
-            effect, parameter = path.split(".")
+            effect, _, parameter = path.rpartition(".")
             given.setdefault(effect, {})[parameter] = float(value)
         return replace(null, **{name: replace(getattr(null, name), **some) for name, some in given.items()})
 

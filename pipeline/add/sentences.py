@@ -6,6 +6,7 @@ from collections.abc import Iterator
 
 from pipeline.answer import LEVEL, Answer, ModelError
 from reports.quantities import short, sigma
+from vjm.effects.paths import parted
 
 CLEARLY = 1.0 - LEVEL
 
@@ -56,7 +57,7 @@ def _with(answer: Answer) -> str:
 def _details(answer: Answer) -> Iterator[str]:
     before, after = answer.error[0], answer.error[-1]
     if before.chi_square is not None and after.chi_square is not None:
-        numbers = sum(name.partition(".")[0] in answer.added for name in answer.parameters)
+        numbers = sum(parted(name)[0] in answer.added for name in answer.parameters)
         gain = before.chi_square - after.chi_square
         word = "fell" if gain >= 0.0 else "rose"
         cost = {0: "without a further number", 1: "for one further number"}

@@ -14,6 +14,7 @@ from pipeline.inference.intervals import Interval
 from pipeline.inference.model import Model, at_bound
 from pipeline.inference.program import Program
 from pipeline.noise import chi_square, lag_one
+from vjm.effects.paths import parted, path_of
 
 
 def values_of(model: Model, intervals: Sequence[Interval]) -> dict[str, Value]:
@@ -22,7 +23,7 @@ def values_of(model: Model, intervals: Sequence[Interval]) -> dict[str, Value]:
     out, bounded = {}, at_bound(model)
     for term in model.terms:
         for p in term.effect.parameters:
-            name, value = f"{term.effect.name}.{p.name}", float(term.values[p.name])
+            name, value = path_of(term.effect.name, p.name), float(term.values[p.name])
             it = found.get(name)
             out[name] = Value(
                 value=value,
@@ -90,5 +91,5 @@ def undetermined(values: dict[str, Value], together: list[list[str]]) -> tuple[t
 
 def confusable(names: list[str], pairs: list[tuple[int, int, float]]) -> tuple[tuple[str, ...], ...]:
     """Pairs of different effects with parameters that go together."""
-    effects = [name.partition(".")[0] for name in names]
+    effects = [parted(name)[0] for name in names]
     return tuple(dict.fromkeys((effects[i], effects[j]) for i, j, _ in pairs if effects[i] != effects[j]))

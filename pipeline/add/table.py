@@ -22,6 +22,7 @@ from reports.quantities import (
     sigma,
     value_text,
 )
+from vjm.effects.paths import parted
 
 BAR = 21
 NAME, UNIT = 27, 12
@@ -123,7 +124,7 @@ def parameter_table(answer: Answer) -> Table:
     table.add_column("unit", overflow="fold")
     last = ""
     for name, it in answer.parameters.items():
-        effect, _, parameter = name.partition(".")
+        effect, parameter = parted(name)
         if effect != last:
             table.add_row(cell(effect, NAME + 2, "bold"))
         last = effect

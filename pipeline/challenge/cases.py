@@ -25,6 +25,7 @@ from pipeline.coverage.cases import is_size
 from pipeline.simulate import bench_rig
 from pipeline.virtual.plan import SENSORS
 from vjm.effects import catalogue
+from vjm.effects.paths import parted, path_of
 
 Kind = Literal["clean", "single", "pair", "outside", "untold"]
 SEED = 20_261_123
@@ -60,7 +61,7 @@ class Case:
     @property
     def effects(self) -> tuple[str, ...]:
         """Names of what is hidden."""
-        return tuple(dict.fromkeys(path.partition(".")[0] for path in self.hidden))
+        return tuple(dict.fromkeys(parted(path)[0] for path in self.hidden))
 
 
 def case(number: int, share: float = 1.0) -> Case:
@@ -96,9 +97,9 @@ def drawn(name: str, generator: np.random.Generator) -> dict[str, float]:
                 part = float(np.interp(np.log(part), np.log((SMALLEST, LARGEST)), WITHIN[name][p.name]))
             move = sign * part * p.typical
             # Towards a bound it stays on this side of it.
-            out[f"{name}.{p.name}"] = float(np.clip(p.null + move, *_within(p.null, p.low, p.high)))
+            out[path_of(name, p.name)] = float(np.clip(p.null + move, *_within(p.null, p.low, p.high)))
         else:
-            out[f"{name}.{p.name}"] = p.null
+            out[path_of(name, p.name)] = p.null
     return out
 
 
@@ -139,7 +140,7 @@ def _untold(number: int, generator: np.random.Generator, steps: int, seed: int, 
     label = str(generator.choice(list(UNTOLD)))
     ids, sizes = UNTOLD[label]
     path = str(generator.choice(list(sizes)))
-    name, _, parameter = path.partition(".")
+    name, parameter = parted(path)
     effect = catalogue()[name]
     (p,) = [each for each in effect.parameters if each.name == parameter]
     value = p.null + float(generator.uniform(*sizes[path])) * p.typical
@@ -150,5 +151,5 @@ def _untold(number: int, generator: np.random.Generator, steps: int, seed: int, 
         every = [test for test in every if not test.holdout]
     rig = bench_rig()
     plan = scaled(every, rig, share)
-    hidden = {f"{name}.{each.name}": each.null for each in effect.parameters} | {path: value}
+    hidden = {path_of(name, each.name): each.null for each in effect.parameters} | {path: value}
     return Case(number, "untold", Bench(rig, SENSORS, plan, label), hidden, None, seed)

@@ -27,6 +27,7 @@ from pipeline.record import Record
 from pipeline.virtual.bench import read_out, true_readings
 from pipeline.virtual.plan import GAUGES
 from vjm.effects import catalogue
+from vjm.effects.paths import parted
 
 Array = NDArray[np.float64]
 Score = Literal["right", "in set", "part", "missed", "undecided", "wrong", "false alarm", "failed"]
@@ -164,7 +165,7 @@ def each_alone(it: Case, found: list[Readings], without: list[Readings]) -> Mapp
         return dict.fromkeys(it.effects, found)
     alone = {}
     for name in it.effects:
-        own = {path: value for path, value in it.hidden.items() if path.partition(".")[0] == name}
+        own = {path: value for path, value in it.hidden.items() if parted(path)[0] == name}
         try:
             alone[name] = true_readings(it.bench.rig, it.bench.plan, own, GAUGES)
         except RuntimeError:

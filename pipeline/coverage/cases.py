@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from vjm.effects import catalogue
+from vjm.effects.paths import path_of
 
 BASE = "bar_geometric_nonlinearity"
 """Always there on the virtual bench, so always in the model."""
@@ -39,7 +40,7 @@ def typical(names: Sequence[str]) -> dict[str, float]:
         for p in effect.parameters:
             size = is_size(name, p.name)
             share = BESIDE if p.one_sided and not effect.smooth else 1.0
-            values[f"{name}.{p.name}"] = p.null + share * p.typical if size else p.null
+            values[path_of(name, p.name)] = p.null + share * p.typical if size else p.null
     return values
 
 

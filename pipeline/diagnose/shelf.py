@@ -21,6 +21,7 @@ from pipeline.inference.sent import fits_at_once
 from pipeline.inference.sides import sided
 from pipeline.inference.starts import best_fit, height
 from vjm.effects.base import Effect
+from vjm.effects.paths import parted, path_of
 from vjm.work import TooMuch, spent
 
 Names = frozenset[str]
@@ -226,7 +227,7 @@ class Shelf:
     def _model(self, names: Names) -> Model:
         base = self.base
         if names and any(self.candidates[name].parameters for name in names):
-            own = {name for name in self.unseen if name.partition(".")[0] in names}
+            own = {name for name in self.unseen if parted(name)[0] in names}
             base = replace(base, fixed=base.fixed | own)
         return base.with_effects([self.candidates[name] for name in self.order(names)])
 
@@ -243,7 +244,7 @@ class Shelf:
 
 
 def _free_numbers(effect: Effect, fixed: frozenset[str]) -> int:
-    return sum(f"{effect.name}.{p.name}" not in fixed for p in effect.parameters)
+    return sum(path_of(effect.name, p.name) not in fixed for p in effect.parameters)
 
 
 def _at_null(model: Model, smaller: Fit) -> Fit:

@@ -24,6 +24,7 @@ from pipeline.inference.program import Program
 from pipeline.inference.residual import residual, whitening
 from pipeline.processors import at_once
 from vjm.effects.base import Effect, Parameter
+from vjm.effects.paths import path_of
 
 Array = NDArray[np.float64]
 Say = Callable[[str], None]
@@ -60,7 +61,7 @@ def hidden(it: Signature, fixed: Collection[str]) -> list[str]:
 
     What is seen of it, at plausible sizes, is spanned by the columns that show most (QR with pivots).
     """
-    names = [f"{it.effect.name}.{p.name}" for p in it.effect.parameters]
+    names = [path_of(it.effect.name, p.name) for p in it.effect.parameters]
     free = [name for name in names if name not in fixed]
     (columns,) = it.columns
     triangle, order = qr(columns * PLAUSIBLE, mode="r", pivoting=True)
@@ -131,7 +132,7 @@ def _columns(found: Fit, effects: Sequence[Effect], at: Look) -> list[Array]:
 
 def _free(found: Fit, effect: Effect) -> list[Parameter]:
     """Numbers of an effect that a fit with it may move."""
-    return [p for p in effect.parameters if f"{effect.name}.{p.name}" not in found.model.fixed]
+    return [p for p in effect.parameters if path_of(effect.name, p.name) not in found.model.fixed]
 
 
 @dataclass(frozen=True, eq=False)

@@ -23,6 +23,7 @@ from pipeline.inference.driving import column_name
 from pipeline.inference.fit import Fit
 from reports.quantities import estimate, p_is, percent, phrase, short, sigma
 from vjm.effects.base import Effect
+from vjm.effects.paths import path_of
 
 CARRIES = 0.7
 """Part of the misfit that may be left of a test, for the others to foretell it."""
@@ -117,7 +118,7 @@ def _where(it: Diagnosis, name: str) -> str:
 
 
 def _values(answer: Answer, effect: Effect) -> str:
-    mine = {p.name: answer.parameters.get(f"{effect.name}.{p.name}") for p in effect.parameters}
+    mine = {p.name: answer.parameters.get(path_of(effect.name, p.name)) for p in effect.parameters}
     said = [
         phrase(name, estimate(value.model_dump()), value.unit)
         for name, value in mine.items()

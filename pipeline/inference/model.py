@@ -14,6 +14,7 @@ from pipeline.campaign import Rig as Described
 from pipeline.inference.rigs import mechanism_of
 from vjm.effects import shipped
 from vjm.effects.base import Effect, Parameter, Rig
+from vjm.effects.paths import path_of
 
 Array = NDArray[np.float64]
 START = 3e-3
@@ -31,7 +32,7 @@ class Free:
     @property
     def name(self) -> str:
         """Name in results: effect.parameter."""
-        return f"{self.effect}.{self.parameter.name}"
+        return path_of(self.effect, self.parameter.name)
 
     @property
     def bounds(self) -> tuple[float, float]:
@@ -87,7 +88,7 @@ class Model:
         new = {each.name: float(value) for each, value in zip(self.free, values, strict=True)}
         terms = []
         for term in self.terms:
-            own = {name: new.get(f"{term.effect.name}.{name}", old) for name, old in term.values.items()}
+            own = {name: new.get(path_of(term.effect.name, name), old) for name, old in term.values.items()}
             terms.append(replace(term, values=own))
         return replace(self, terms=tuple(terms))
 

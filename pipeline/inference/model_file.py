@@ -30,6 +30,7 @@ from tomlkit.items import InlineTable, Table
 from meshes.files import replacing
 from pipeline.errors import InputError
 from pipeline.inference.model import Model, Term
+from vjm.effects.paths import path_of
 
 NAME = "model.toml"
 SCHEMA, BASE = 1, "vjm"
@@ -111,7 +112,7 @@ def _effect_table(term: Term, uncertainty: Mapping[str, Uncertainty]) -> Table:
     for p in effect.parameters:
         values.add(p.name, float(term.values[p.name]))
         values[p.name].comment(_line(f"{p.unit}, {p.meaning}"))
-        known = uncertainty.get(f"{effect.name}.{p.name}")
+        known = uncertainty.get(path_of(effect.name, p.name))
         if known is not None:
             named = {"std": known.std, "low95": known.low95, "high95": known.high95}
             errors.add(p.name, _inline({key: value for key, value in named.items() if value is not None}))

@@ -20,6 +20,7 @@ from pipeline.inference.model import Model, Term
 from pipeline.inference.model_file import BASE, SCHEMA, ModelFile, Uncertainty
 from pipeline.inference.suitable import Known, known_effects
 from vjm.effects.base import Effect, Parameter
+from vjm.effects.paths import path_of
 
 Number = Annotated[float, Field(strict=True)]
 
@@ -106,7 +107,7 @@ class _Reader:
             self.strangers(effect, table, k)
             terms.append(Term(effect, values))
             for name, it in table.errors.items():
-                uncertainty[f"{effect.name}.{name}"] = Uncertainty(it.std, it.low95, it.high95)
+                uncertainty[path_of(effect.name, name)] = Uncertainty(it.std, it.low95, it.high95)
         fixed = self.fixed(top.fixed, terms)
         self.complaints.check()
         model, source = Model(tuple(terms), fixed), top.source
@@ -173,7 +174,7 @@ class _Reader:
                     self.complaints.add(f"effect {effect.name}, {part}.{name}", said, self.line(k, name))
 
     def fixed(self, found: list[str], terms: list[Term]) -> frozenset[str]:
-        names = [f"{term.effect.name}.{p.name}" for term in terms for p in term.effect.parameters]
+        names = [path_of(term.effect.name, p.name) for term in terms for p in term.effect.parameters]
         # Where an effect has been refused its parameters are not judged as well.
         refused = len(terms) < len(self.raw.get("effects", []))
         for name in found if not refused else []:

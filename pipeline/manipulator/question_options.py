@@ -14,6 +14,7 @@ from pipeline.manipulator.box import numbers
 from pipeline.manipulator.loaded import with_true_moments
 from pipeline.manipulator.question import Question
 from vjm.effects.base import Effect
+from vjm.effects.paths import parted
 from vjm.effects.thermal_expansion import DRIVE
 from vjm.manipulator.effects import with_effect
 from vjm.manipulator.loops import looped
@@ -59,13 +60,13 @@ def sizes_of(asked: Sequence[str], known: Mapping[str, Effect]) -> Sizes:
     out: Sizes = {}
     for text in asked:
         left, equals, value = text.partition("=")
-        name, dot, wanted = left.strip().partition(".")
+        name, wanted = parted(left.strip())
         if name not in known:
             raise InputError(f"--effect {text}: effect {name!r} is unknown, {unknown_name(name, known)}")
         effect = known[name]
         if not equals:
-            if dot or name in out:
-                why = f"has no value, allowed is {left}=VALUE" if dot else f"{name} is given twice"
+            if "." in left or name in out:
+                why = f"has no value, allowed is {left}=VALUE" if "." in left else f"{name} is given twice"
                 raise InputError(f"--effect {text}: {why}")
             out[name] = effect.typicals
             continue

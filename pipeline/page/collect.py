@@ -23,6 +23,7 @@ from pipeline.page.stages import Stages, stages
 from pipeline.page.words import SOURCES, assumptions, reading, why
 from pipeline.provenance import commit, versions
 from reports.quantities import sigma
+from vjm.effects.paths import path_of
 
 Say = Callable[[str], None]
 
@@ -94,7 +95,7 @@ def proposed(model: Model, answer: Answer, known: Known) -> Model:
     terms = []
     for name in answer.effects:
         effect = known.effects[name]
-        values = {p.name: answer.parameters[f"{name}.{p.name}"].value for p in effect.parameters}
+        values = {p.name: answer.parameters[path_of(name, p.name)].value for p in effect.parameters}
         terms.append(Term(effect, values))
     return replace(model, terms=tuple(terms))
 
@@ -134,7 +135,7 @@ def _parameters(model: Model, uncertainty: Mapping[str, Uncertainty]) -> dict[st
     out = {}
     for term in model.terms:
         for p in term.effect.parameters:
-            name = f"{term.effect.name}.{p.name}"
+            name = path_of(term.effect.name, p.name)
             known = uncertainty.get(name)
             out[name] = Value(
                 value=float(term.values[p.name]),

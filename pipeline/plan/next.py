@@ -16,6 +16,7 @@ from pipeline.inference.program import program
 from pipeline.plan.isolability import Visible, visible
 from pipeline.plan.seen import Seen, seen
 from vjm.effects.base import Effect
+from vjm.effects.paths import path_of
 
 
 @dataclass(frozen=True, eq=False)
@@ -65,7 +66,7 @@ def _newly(now: list[Visible], then: list[Visible]) -> tuple[str, ...]:
     """Numbers whose typical size is told apart only then."""
     old = {(v.effect, v.parameter.name) for v in now if _ratio(v.apart, v) >= 1.0}
     return tuple(
-        f"{v.effect}.{v.parameter.name}"
+        path_of(v.effect, v.parameter.name)
         for v in then
         if _ratio(v.apart, v) >= 1.0 and (v.effect, v.parameter.name) not in old
     )

@@ -14,6 +14,7 @@ from pipeline.studio.session import Session
 from reports.campaign.names import channel_label, measured, test_label
 from reports.formats import number
 from reports.quantities import estimate, phrase, sigma
+from vjm.effects.paths import parted
 
 DEEP = 3
 """Folders below the present one in which campaigns are looked for."""
@@ -75,7 +76,7 @@ def _errors(page: Page) -> str:
 
 
 def _effect(page: Page, name: str) -> dict[str, Any]:
-    mine = {key.partition(".")[2]: it for key, it in page.parameters.items() if key.partition(".")[0] == name}
+    mine = {parted(key)[1]: it for key, it in page.parameters.items() if parted(key)[0] == name}
     return {"name": name, "values": [_value(key, it) for key, it in mine.items()]}
 
 

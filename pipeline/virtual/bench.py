@@ -17,6 +17,7 @@ from pipeline.campaign import Campaign, Data, Gauge, Noise, Rig, Test
 from pipeline.campaign.model import Role
 from pipeline.errors import InputError
 from pipeline.virtual.plan import PlannedTest
+from vjm.effects.paths import parted
 
 DISPLAYED = 20.0
 """Steps of a display in a sigma, at least: rounding then adds 1e-4 of the noise."""
@@ -113,7 +114,7 @@ def as_frame(hidden: Mapping[str, float], rig: Rig) -> dict[str, float]:
     down = np.array([0.0, 0.0, -1.0]) if rig.down is None else rig.down
     out: dict[str, float] = {}
     for name, value in hidden.items():
-        effect, _, parameter = name.partition(".")
+        effect, parameter = parted(name)
         if effect == "self_weight" and parameter == "line_N_per_mm":
             out |= {f"self_weight.line_{a}_N_per_mm": value * d for a, d in zip("xyz", down, strict=True)}
         elif effect == "self_weight" and parameter.startswith("platform_"):

@@ -14,6 +14,7 @@ from pipeline.errors import InputError
 from pipeline.inference.rigs import mechanism_of
 from pipeline.virtual.bench import as_frame
 from vjm.effects.base import Effect
+from vjm.effects.paths import parted, path_of
 
 FACTOR = 2.0
 """An effect without a value is up to so many times larger or smaller than its typical size."""
@@ -31,14 +32,14 @@ def hidden(
     given: dict[str, dict[str, float]] = {}
     for text in asked:
         left, equals, value = text.partition("=")
-        name, dot, parameter = left.strip().partition(".")
+        name, parameter = parted(left.strip())
         if name not in known:
             raise InputError(f"--effect {text}: effect {name!r} is unknown, {unknown_name(name, known)}")
         effect = known[name]
         _simulable(text, effect, rig)
         new = name not in given
         own = given.setdefault(name, dict(effect.nulls))
-        if not equals and dot:
+        if not equals and "." in left:
             raise InputError(f"--effect {text}: has no value, allowed is {left}=VALUE")
         if equals:
             chosen = parameter_asked(text, effect, parameter)
@@ -51,7 +52,7 @@ def hidden(
 
 
 def _simulable(text: str, effect: Effect, rig: Rig) -> None:
-    paths = {f"{effect.name}.{p.name}": p.null for p in effect.parameters}
+    paths = {path_of(effect.name, p.name): p.null for p in effect.parameters}
     try:
         Errors.of(as_frame(paths, rig))
         effect.apply(mechanism_of(rig, ()), effect.typicals)

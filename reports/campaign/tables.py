@@ -126,7 +126,7 @@ def parameters(page: Json) -> Table:
     ]
     rows, last = [], ""
     for name, it in page["parameters"].items():
-        effect, _, parameter = name.partition(".")
+        effect, _, parameter = name.rpartition(".")
         known = estimate(it)
         rows.append(
             [
