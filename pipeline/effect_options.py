@@ -6,8 +6,8 @@ from math import isfinite
 
 import numpy as np
 
-from pipeline.campaign.names import unknown_name
 from pipeline.errors import InputError
+from pipeline.toml.spelling import unknown_name
 from vjm.effects.base import Effect, Parameter
 
 

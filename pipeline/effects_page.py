@@ -11,10 +11,10 @@ from rich.padding import Padding
 from rich.table import Table
 from rich.text import Text
 
-from pipeline.campaign.names import unknown_name
 from pipeline.errors import InputError
 from pipeline.inference.suitable import known_effects
 from pipeline.terminal import cell, terminal
+from pipeline.toml.spelling import unknown_name
 from vjm.effects.base import Effect, Parameter
 
 NAME, UNIT = 27, 12

@@ -61,6 +61,16 @@ def imported(path: Path, tree: ast.Module) -> Iterator[tuple[str, int]]:
             for alias in node.names:
                 inner = f"{base}.{alias.name}"
                 yield (inner if inner in MODULES else base), node.lineno
+        elif isinstance(node, ast.Call) and (name := by_name(node)):
+            yield name, node.lineno
+
+
+def by_name(call: ast.Call) -> str:
+    """The module that a call of import_module names outright; empty for other calls."""
+    called = call.func.attr if isinstance(call.func, ast.Attribute) else getattr(call.func, "id", "")
+    first = call.args[0] if call.args else None
+    named = called == "import_module" and isinstance(first, ast.Constant) and isinstance(first.value, str)
+    return str(first.value) if named and isinstance(first, ast.Constant) else ""
 
 
 def one_way_offenders(path: Path, tree: ast.Module) -> list[str]:
@@ -173,6 +183,18 @@ def test_no_import_circles() -> None:
     assert not circle(import_graph()), " -> ".join(circle(import_graph()))
 
 
+def test_files_are_read_below_what_they_describe() -> None:
+    """Lines, complaints and types of values stand below campaigns and manipulators, which both are such files."""
+    used = {
+        name
+        for module, names in import_graph().items()
+        if module.startswith("pipeline.toml.")
+        for name in names
+        if name.startswith("pipeline.") and not name.startswith("pipeline.toml")
+    }
+    assert used == {"pipeline.errors"}
+
+
 def test_files_are_short() -> None:
     lengths = {p: len(p.read_text(encoding="utf-8").splitlines()) for p in [*PACKAGED, *TESTS]}
     too_long = [f"{p.relative_to(ROOT)} has {n} lines" for p, n in lengths.items() if n > FILE_LINES]
@@ -209,6 +231,12 @@ BAD = {
         "vjm/x.py:2 imports meshes.solid",
     ),
     "one way, relative": (one_way_offenders, "reports/x.py", "from ..fem import beam\n", "imports fem.beam"),
+    "one way, by name": (
+        one_way_offenders,
+        "vjm/x.py",
+        'from importlib import import_module\nimport_module("pipeline.cli")\n',
+        "vjm/x.py:2 imports pipeline.cli",
+    ),
     "tests are no library": (
         one_way_offenders,
         "pipeline/x.py",

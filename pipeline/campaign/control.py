@@ -2,9 +2,10 @@
 
 import numpy as np
 
-from pipeline.campaign.complaints import shown
 from pipeline.campaign.model import Array, Gauge, Rig
-from pipeline.campaign.names import COORDINATES, DISPLACEMENT, FORCE, SUPPORT, unknown_name
+from pipeline.campaign.names import COORDINATES, DISPLACEMENT, FORCE, SUPPORT
+from pipeline.toml.complaints import shown
+from pipeline.toml.spelling import unknown_name
 from vjm.mechanisms.bar import HELD
 
 NEARLY_ALONG = np.sin(np.radians(1.0))

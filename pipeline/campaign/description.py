@@ -7,7 +7,6 @@ from typing import Any, TypeVar, get_args
 
 from pydantic import BaseModel, TypeAdapter, ValidationError
 
-from pipeline.campaign.complaints import Complaints, shown
 from pipeline.campaign.control import controls
 from pipeline.campaign.head import Description, Draft, Head
 from pipeline.campaign.manipulator_table import ManipulatorTable, reached
@@ -22,9 +21,11 @@ from pipeline.campaign.names import (
     known_columns,
     wrong_column,
 )
-from pipeline.campaign.tables import GaugeTable, RigTable, Sigma, TestTable, Top, sentences
-from pipeline.campaign.toml_lines import TomlLines
+from pipeline.campaign.tables import GaugeTable, RigTable, TestTable, Top
 from pipeline.errors import InputError
+from pipeline.toml.complaints import Complaints, shown
+from pipeline.toml.fields import Sigma, sentences
+from pipeline.toml.lines import TomlLines
 from vjm.mechanisms.bar import Tip
 
 Raw = dict[str, Any]

@@ -1,6 +1,5 @@
 """The rig of a campaign on a whole manipulator: a file that describes it, and what hangs on its platform."""
 
-from importlib import import_module
 from pathlib import Path
 from typing import Literal
 
@@ -8,7 +7,8 @@ import numpy as np
 from pydantic import field_validator, model_validator
 
 from pipeline.campaign.model import Rig, Vector
-from pipeline.campaign.tables import Celsius, Number, Table, Text, Weight
+from pipeline.manipulator.description import read as read_manipulator
+from pipeline.toml.fields import Celsius, Number, Table, Text, Weight
 from vjm.manipulator.posture import postures
 
 
@@ -45,9 +45,7 @@ class ManipulatorTable(Table):
 
     def rig(self, folder: Path | None) -> Rig:
         """The frozen object. InputError with every complaint about the file."""
-        # The reader of such files builds on this package: it is looked up when it is needed.
-        described = import_module("pipeline.manipulator.description").read(self.path(folder))
-        manipulator = described.manipulator
+        manipulator = read_manipulator(self.path(folder)).manipulator
         return Rig(
             "manipulator",
             manipulator.length,

@@ -1,8 +1,9 @@
-"""Names of coordinates and columns, and the right spelling of one that is nearly right."""
+"""Names of coordinates and columns, and what to say of a column that is none."""
 
 import re
 from collections.abc import Iterable
-from difflib import get_close_matches
+
+from pipeline.toml.spelling import unknown_name
 
 COORDINATES = ("x", "y", "z", "rx", "ry", "rz")
 """Platform coordinates in the order of a pose."""
@@ -31,16 +32,6 @@ def gauge_column(name: str) -> str:
 def known_columns(gauges: Iterable[str]) -> tuple[str, ...]:
     """Every column that a campaign with these gauges may have, in the order in which they are written."""
     return (*KEYS, *DISPLACEMENTS, *WRENCHES, *map(gauge_column, gauges), TEMPERATURE)
-
-
-def unknown_name(found: str, allowed: Iterable[str]) -> str:
-    """What to say of a name that is not allowed: a near one if there is one, else all of them."""
-    names = list(allowed)
-    folded = {name.casefold(): name for name in reversed(names)}
-    near = get_close_matches(found.casefold(), list(folded), n=1, cutoff=0.7 if len(found) > 3 else 0.5)
-    if near:
-        return f"did you mean {folded[near[0]]!r}?"
-    return f"allowed: {', '.join(names)}" if names else "none is allowed here"
 
 
 def wrong_column(found: str, known: Iterable[str]) -> str:

@@ -2,11 +2,11 @@
 
 import numpy as np
 
-from pipeline.campaign.complaints import Complaints, lines_named, shown
 from pipeline.campaign.control import pull, swings
 from pipeline.campaign.head import Head
 from pipeline.campaign.model import Array, Data, Gauge, Noise
 from pipeline.campaign.names import COORDINATES, DISPLACEMENT, DISPLACEMENTS, FORCE, SUPPORT, gauge_column
+from pipeline.toml.complaints import Complaints, lines_named, shown
 
 LARGE_TURN = 1.0
 """rad. No parallelogram turns its platform so far; a slender bar's tip may, but degrees are more likely."""

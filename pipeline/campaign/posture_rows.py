@@ -6,12 +6,12 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from pipeline.campaign.complaints import Complaints, shown
 from pipeline.campaign.head import Description, Head
 from pipeline.campaign.manipulator_table import reached
 from pipeline.campaign.measured import Measured
 from pipeline.campaign.model import Rig, Vector
 from pipeline.campaign.names import PLACES
+from pipeline.toml.complaints import Complaints, shown
 
 
 def parted(

@@ -5,7 +5,6 @@ from pathlib import Path
 
 import numpy as np
 
-from pipeline.campaign.complaints import BadCampaign, Complaints, shown
 from pipeline.campaign.description import describe
 from pipeline.campaign.head import Description, Draft
 from pipeline.campaign.long_tests import thinned
@@ -25,6 +24,7 @@ from pipeline.campaign.plausible import judge
 from pipeline.campaign.posture_rows import parted
 from pipeline.campaign.rows import data_by_test, measured_of
 from pipeline.campaign.sheet import sheet
+from pipeline.toml.complaints import BadCampaign, Complaints, shown
 
 DESCRIPTION, MEASUREMENTS = "campaign.toml", "measurements.csv"
 LARGEST = {DESCRIPTION: 2**24, MEASUREMENTS: 2**30}

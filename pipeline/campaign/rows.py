@@ -6,12 +6,13 @@ import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
-from pipeline.campaign.complaints import Complaints, lines_named, shown
 from pipeline.campaign.head import Description, Head
 from pipeline.campaign.measured import Measured
 from pipeline.campaign.model import Array, Data
-from pipeline.campaign.names import DISPLACEMENTS, PLACES, TEMPERATURE, WRENCHES, gauge_column, unknown_name
+from pipeline.campaign.names import DISPLACEMENTS, PLACES, TEMPERATURE, WRENCHES, gauge_column
 from pipeline.campaign.sheet import numbers
+from pipeline.toml.complaints import Complaints, lines_named, shown
+from pipeline.toml.spelling import unknown_name
 
 _DIGITS = 9
 

@@ -8,9 +8,9 @@ from collections.abc import Callable, Sequence
 import numpy as np
 import pandas as pd
 
-from pipeline.campaign.complaints import Complaints, shown
 from pipeline.campaign.model import Array
 from pipeline.campaign.names import wrong_column
+from pipeline.toml.complaints import Complaints, shown
 
 LARGEST = 1e9
 """No sensor reads more, in any of the units."""

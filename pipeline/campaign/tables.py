@@ -4,46 +4,28 @@ from __future__ import annotations
 
 from typing import Annotated, Any, Literal
 
-from pydantic import BaseModel, ConfigDict, Field, ValidationError, field_validator, model_validator
+from pydantic import Field, field_validator, model_validator
 
-from fem.frame.rig import STEEPEST_DEG
 from fem.torsion import torsion_constant
-from pipeline.campaign.complaints import shown
-from pipeline.campaign.matrix import not_a_stiffness, symmetric
 from pipeline.campaign.model import Gauge, Kind, Rig, Role, UniformBar, Zero
-from pipeline.campaign.names import unknown_name
+from pipeline.toml.fields import (
+    Angle,
+    BarTable,
+    Celsius,
+    Direction,
+    Entry,
+    Length,
+    Number,
+    Place,
+    Table,
+    Text,
+    Weight,
+    printable,
+)
+from pipeline.toml.stiffness import not_a_stiffness, symmetric
 from pipeline.validation.case_tables import Material, SectionSize
 from pipeline.validation.geometry import section_of
 from vjm.mechanisms.bar import Base, Tip
-
-Number = Annotated[float, Field(strict=True, allow_inf_nan=False)]
-# The bounds keep every product of three such numbers far from what a float can hold.
-Length = Annotated[Number, Field(ge=1e-3, le=1e6)]
-Rigidity = Annotated[Number, Field(ge=1e-3, le=1e15)]
-Entry = Annotated[Number, Field(ge=-1e15, le=1e15)]
-Weight = Annotated[Number, Field(ge=0.0, le=1e9)]
-Sigma = Annotated[Number, Field(ge=1e-12, le=1e9)]
-Celsius = Annotated[Number, Field(ge=-273.15, le=1e4)]
-Angle = Annotated[Number, Field(ge=-STEEPEST_DEG, le=STEEPEST_DEG)]
-Place = Annotated[Number, Field(ge=-1e6, le=1e6)]
-Text = Annotated[str, Field(min_length=1, max_length=100)]
-Direction = Literal["x", "y", "z", "-x", "-y", "-z"]
-
-
-_BOUNDS = {"greater_than_equal": ("at least", "ge"), "less_than_equal": ("at most", "le")}
-
-
-class Table(BaseModel):
-    """A table of the file; unknown keys are refused."""
-
-    model_config = ConfigDict(extra="forbid", frozen=True, str_strip_whitespace=False)
-
-
-def printable(value: str) -> str:
-    """A name that fits into one cell and one sentence."""
-    if value != value.strip() or not value.isprintable():
-        raise ValueError("allowed is printable text without blanks at its ends")
-    return value
 
 
 class Top(Table):
@@ -52,24 +34,15 @@ class Top(Table):
     schema_version: Annotated[int, Field(alias="schema", strict=True)]
     name: Text
     rig: dict[str, Any]
-    noise: dict[str, Any] = {}
-    gauges: list[dict[str, Any]] = []
-    file: dict[str, Any] = {}
-    columns: dict[str, dict[str, Any]] = {}
+    noise: dict[str, Any] = Field(default_factory=dict)
+    gauges: list[dict[str, Any]] = Field(default_factory=list)
+    file: dict[str, Any] = Field(default_factory=dict)
+    columns: dict[str, dict[str, Any]] = Field(default_factory=dict)
     cell: dict[str, Any] | None = None
-    derived: dict[str, dict[str, Any]] = {}
+    derived: dict[str, dict[str, Any]] = Field(default_factory=dict)
     tests: Annotated[list[dict[str, Any]], Field(min_length=1)]
 
     _name = field_validator("name")(printable)
-
-
-class BarTable(Table):
-    """A uniform bar."""
-
-    EA_N: Rigidity
-    EIy_Nmm2: Rigidity
-    EIz_Nmm2: Rigidity
-    GJ_Nmm2: Rigidity
 
 
 class RigTable(Table):
@@ -214,33 +187,8 @@ class TestTable(Table):
     role: Role
     control: dict[str, str]
     zero: Zero = "nominal"
-    rig: dict[str, Any] = {}
-    file: dict[str, Any] = {}
-    columns: dict[str, dict[str, Any]] = {}
+    rig: dict[str, Any] = Field(default_factory=dict)
+    file: dict[str, Any] = Field(default_factory=dict)
+    columns: dict[str, dict[str, Any]] = Field(default_factory=dict)
 
     _id = field_validator("id")(printable)
-
-
-def sentences(error: ValidationError, model: type[BaseModel]) -> list[tuple[tuple[str | int, ...], str]]:
-    """Each of pydantic's complaints as path and sentence."""
-    return [(e["loc"], _sentence(dict(e), model)) for e in error.errors(include_url=False)]
-
-
-def _sentence(error: dict[str, Any], model: type[BaseModel]) -> str:
-    kind, found, loc = error["type"], error["input"], error["loc"]
-    if kind == "missing":
-        return "is missing"
-    if kind == "extra_forbidden":
-        keys = BarTable.model_fields if loc[:-1] == ("bar",) else model.model_fields
-        names = [field.alias or name for name, field in keys.items()]
-        return f"is not a key of this table, {unknown_name(str(loc[-1]), names)}"
-    message = error["msg"].removeprefix("Value error, ")
-    if kind == "value_error":
-        return f"is {shown(found)}, {message}" if isinstance(found, str) else message
-    wanted = (message[0].lower() + message[1:]).removeprefix("input should be ")
-    if kind in _BOUNDS:
-        word, key = _BOUNDS[kind]
-        wanted = f"{word} {error['ctx'][key]:g}"
-    wanted = {"dict_type": "a table", "list_type": "a list"}.get(kind, wanted)
-    named = "a table" if isinstance(found, dict) else "a list" if isinstance(found, list) else shown(found)
-    return f"is {named}, allowed is: {wanted}"

@@ -9,7 +9,6 @@ import pandas as pd
 import tomlkit
 
 from meshes.files import replacing
-from pipeline.campaign.complaints import BadCampaign
 from pipeline.campaign.model import Campaign, Gauge, Rig
 from pipeline.campaign.names import (
     COORDINATES,
@@ -21,6 +20,7 @@ from pipeline.campaign.names import (
 )
 from pipeline.campaign.reading import DESCRIPTION, MEASUREMENTS, read
 from pipeline.errors import InputError
+from pipeline.toml.complaints import BadCampaign
 
 
 def write(folder: Path, campaign: Campaign, overwrite: bool = False) -> None:

@@ -11,14 +11,14 @@ from typing import Annotated, Any, Literal
 import numpy as np
 from pydantic import Field, ValidationError
 
-from pipeline.campaign.complaints import Complaints, shown
-from pipeline.campaign.names import unknown_name
-from pipeline.campaign.tables import Table, sentences
-from pipeline.campaign.toml_lines import TomlLines
 from pipeline.errors import InputError
 from pipeline.inference.model import Model, Term
 from pipeline.inference.model_file import BASE, SCHEMA, ModelFile, Uncertainty
 from pipeline.inference.suitable import Known, known_effects
+from pipeline.toml.complaints import Complaints, shown
+from pipeline.toml.fields import Table, sentences
+from pipeline.toml.lines import TomlLines
+from pipeline.toml.spelling import unknown_name
 from vjm.effects.base import Effect, Parameter
 from vjm.effects.paths import path_of
 

@@ -7,10 +7,10 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from pipeline.campaign import Campaign
-from pipeline.campaign.names import unknown_name
 from pipeline.errors import InputError
 from pipeline.inference.model import Model
 from pipeline.inference.rigs import mechanism_of, scale_of_rig
+from pipeline.toml.spelling import unknown_name
 from vjm.effects import catalogue, from_file
 from vjm.effects.base import Effect
 from vjm.effects.sized import Scale, all_sized, sized

@@ -9,12 +9,12 @@ import numpy as np
 from numpy.typing import NDArray
 from pydantic import BaseModel, ValidationError
 
-from pipeline.campaign.complaints import Complaints, shown
-from pipeline.campaign.names import unknown_name
-from pipeline.campaign.tables import sentences
-from pipeline.campaign.toml_lines import TomlLines
 from pipeline.errors import InputError
 from pipeline.manipulator.tables import PARTS, LegTable, Top
+from pipeline.toml.complaints import Complaints, shown
+from pipeline.toml.fields import sentences
+from pipeline.toml.lines import TomlLines
+from pipeline.toml.spelling import unknown_name
 from vjm.manipulator.parts import Leg, Manipulator, Part
 from vjm.manipulator.posture import postures
 

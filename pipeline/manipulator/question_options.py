@@ -6,13 +6,13 @@ from pathlib import Path
 
 import numpy as np
 
-from pipeline.campaign.names import unknown_name
 from pipeline.effect_options import number_asked, parameter_asked
 from pipeline.errors import InputError
 from pipeline.inference.suitable import known_effects
 from pipeline.manipulator.box import numbers
 from pipeline.manipulator.loaded import with_true_moments
 from pipeline.manipulator.question import Question
+from pipeline.toml.spelling import unknown_name
 from vjm.effects.base import Effect
 from vjm.effects.paths import parted
 from vjm.effects.thermal_expansion import DRIVE

@@ -8,8 +8,8 @@ from numpy.typing import NDArray
 from pydantic import Field, field_validator, model_validator
 
 from fem.beam import uniform_stiffness
-from pipeline.campaign.matrix import not_a_stiffness, symmetric
-from pipeline.campaign.tables import Angle, BarTable, Entry, Length, Number, Table, Text, printable
+from pipeline.toml.fields import Angle, BarTable, Entry, Length, Number, Table, Text, printable
+from pipeline.toml.stiffness import not_a_stiffness, symmetric
 from vjm.manipulator.parts import (
     Actuator,
     Bars,

@@ -9,9 +9,9 @@ from pydantic import BaseModel, ValidationError
 
 from meshes.resolution import Resolution
 from meshes.workable import require_workable
-from pipeline.campaign.complaints import Complaints
-from pipeline.campaign.toml_lines import TomlLines
 from pipeline.errors import InputError
+from pipeline.toml.complaints import Complaints
+from pipeline.toml.lines import TomlLines
 from pipeline.validation.case_tables import BarChoice, Case, LinkageSize, MeshSize
 from pipeline.validation.geometry import bar_of, contradictions, height_of, overlapping
 

@@ -8,10 +8,10 @@ import numpy as np
 
 from fem.frame.errors import Errors
 from pipeline.campaign import Rig
-from pipeline.campaign.names import unknown_name
 from pipeline.effect_options import number_asked, parameter_asked
 from pipeline.errors import InputError
 from pipeline.inference.rigs import mechanism_of
+from pipeline.toml.spelling import unknown_name
 from pipeline.virtual.bench import as_frame
 from vjm.effects.base import Effect
 from vjm.effects.paths import parted, path_of

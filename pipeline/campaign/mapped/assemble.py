@@ -10,7 +10,6 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from pipeline.campaign.complaints import Complaints, shown
 from pipeline.campaign.formats import grids
 from pipeline.campaign.mapped.cell import at_platform
 from pipeline.campaign.mapped.chosen import Clock, fewer
@@ -22,6 +21,7 @@ from pipeline.campaign.mapped.readings import columns_of, derived_of, words_of
 from pipeline.campaign.mapped.table import Read, zeroed
 from pipeline.campaign.measured import Measured
 from pipeline.campaign.rows import steps_of
+from pipeline.toml.complaints import Complaints, shown
 
 Array = NDArray[np.float64]
 LARGEST = 2**30

@@ -12,9 +12,9 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
-from pipeline.campaign.complaints import Complaints
 from pipeline.campaign.mapped.mapping import FORCES, MOMENTS
 from pipeline.campaign.mapped.schema import CellTable
+from pipeline.toml.complaints import Complaints
 
 Array = NDArray[np.float64]
 ROUNDING = 1e-12

@@ -8,13 +8,13 @@ from datetime import datetime, time
 import numpy as np
 from numpy.typing import NDArray
 
-from pipeline.campaign.complaints import Complaints, shown
 from pipeline.campaign.long_tests import PART, turns
 from pipeline.campaign.mapped.grid import Cell
 from pipeline.campaign.mapped.layout import Layout
 from pipeline.campaign.mapped.numbers import Marks, is_empty, plain
 from pipeline.campaign.mapped.schema import FileTable
 from pipeline.campaign.measured import Measured
+from pipeline.toml.complaints import Complaints, shown
 
 HALF_A_DAY = 43200.0
 """Seconds by which a clock goes back where it passes midnight, at least."""

@@ -5,11 +5,11 @@ from __future__ import annotations
 import re
 from dataclasses import dataclass
 
-from pipeline.campaign.complaints import Complaints, shown
 from pipeline.campaign.mapped.grid import Cell, Grid
 from pipeline.campaign.mapped.numbers import is_empty
 from pipeline.campaign.mapped.schema import FileTable
 from pipeline.campaign.mapped.units import meant
+from pipeline.toml.complaints import Complaints, shown
 
 _BRACKETS = re.compile(r"(.*?)\s*[(\[]\s*([^()\[\]]+?)\s*[)\]]\s*")
 _ENDING = re.compile(r"(.*?)\s*[,/]\s*([^\s,/_]+)")

@@ -6,10 +6,10 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from difflib import get_close_matches
 
-from pipeline.campaign.complaints import shown
 from pipeline.campaign.mapped.schema import CellTable, ColumnTable, DerivedTable, FileTable
 from pipeline.campaign.mapped.units import UNITS, NoUnit, Unit, meant, unit
 from pipeline.campaign.names import COORDINATES, PLACES, TEMPERATURE, gauge_column
+from pipeline.toml.complaints import shown
 
 FORCES, MOMENTS = ("fx", "fy", "fz"), ("mx", "my", "mz")
 IGNORED, OPEN = "ignore", "?"

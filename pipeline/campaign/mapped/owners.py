@@ -5,11 +5,11 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from pipeline.campaign.complaints import Complaints, shown
 from pipeline.campaign.mapped.layout import Layout, word
 from pipeline.campaign.mapped.mapping import Source
 from pipeline.campaign.mapped.readings import words_of
-from pipeline.campaign.names import unknown_name
+from pipeline.toml.complaints import Complaints, shown
+from pipeline.toml.spelling import unknown_name
 
 
 @dataclass

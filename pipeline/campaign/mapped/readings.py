@@ -8,13 +8,13 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from pipeline.campaign.complaints import Complaints, shown
 from pipeline.campaign.mapped.layout import Layout, header_unit, word
 from pipeline.campaign.mapped.mapping import Declared, unit_of
 from pipeline.campaign.mapped.numbers import Marks, decimal_of, is_empty, is_word
 from pipeline.campaign.mapped.schema import ColumnTable, DerivedTable
 from pipeline.campaign.mapped.units import UNITS, NoUnit, Unit, unit
 from pipeline.campaign.sheet import LARGEST, told
+from pipeline.toml.complaints import Complaints, shown
 
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]

@@ -6,7 +6,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field, model_validator
 
-from pipeline.campaign.tables import Number, Place, Table, Text
+from pipeline.toml.fields import Number, Place, Table, Text
 
 Row = Annotated[int, Field(strict=True, ge=1, le=10_000_000)]
 Name = Annotated[str, Field(min_length=1, max_length=200)]

@@ -6,9 +6,9 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from pipeline.campaign.complaints import shown
 from pipeline.campaign.mapped.mapping import Declared, Source, mistakes, quantities
 from pipeline.campaign.mapped.schema import CellTable, ColumnTable, DerivedTable, FileTable
+from pipeline.toml.complaints import shown
 
 Raw = dict[str, Any]
 TABLES = ("file", "columns", "cell", "derived")

@@ -8,11 +8,11 @@ from pathlib import Path
 
 import numpy as np
 
-from pipeline.campaign.complaints import Complaints, shown
 from pipeline.campaign.mapped.layout import Layout
 from pipeline.campaign.mapped.mapping import Declared
 from pipeline.campaign.mapped.readings import Column
 from pipeline.campaign.model import Array
+from pipeline.toml.complaints import Complaints, shown
 
 
 @dataclass(eq=False)

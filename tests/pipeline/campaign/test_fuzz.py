@@ -11,8 +11,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from pipeline.campaign import BadCampaign, Campaign, read
-from pipeline.campaign.complaints import SHOWN
-from pipeline.campaign.matrix import not_a_stiffness
+from pipeline.toml.complaints import SHOWN
+from pipeline.toml.stiffness import not_a_stiffness
 from tests.pipeline.campaign.example import BAR, BAR_CSV, CSV, TOML, laid
 from tests.pipeline.campaign.mutations import Mutation, mutations
 

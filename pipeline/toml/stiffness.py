@@ -1,9 +1,9 @@
 """A 6x6 stiffness as it is written in a file: whether it is one, and the matrix it is."""
 
 import numpy as np
+from numpy.typing import NDArray
 
-from pipeline.campaign.model import Array
-
+Array = NDArray[np.float64]
 SYMMETRY = 1e-6
 """Allowed asymmetry of a 6x6 scaled to a unit diagonal: that of `vjm.checks`."""
 

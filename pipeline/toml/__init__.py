@@ -1,0 +1,1 @@
+"""Files in TOML, whatever they describe: their lines, their complaints, the types of their values."""
