@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from hashlib import sha256
 from pathlib import Path
+from time import perf_counter
 
 import numpy as np
 import openpyxl
@@ -206,6 +207,22 @@ def test_a_workbook_with_titles_a_row_of_units_and_merged_cells(tmp_path: Path) 
     found = campaign(tmp_path, layout + columns, tests=TWO)
     assert_agrees(found)
     assert_agrees(found, test=1)
+
+
+@pytest.mark.long
+def test_a_long_workbook_is_read_in_seconds(tmp_path: Path) -> None:
+    book = openpyxl.Workbook(write_only=True)
+    sheet = book.create_sheet("run")
+    sheet.append(["Time (s)", "Travel (µm)", "Load (kN)"])
+    for k in range(100_000):
+        sheet.append([0.01 * k, -0.5 * k, -1e-6 * k])
+    book.save(tmp_path / "run.xlsx")
+    tables = '[file]\npath = "run.xlsx"\ntime_column = "Time (s)"\n'
+    tables += '[columns]\n"Travel (µm)" = { is = "z" }\n"Load (kN)" = { is = "fz" }\n'
+    start = perf_counter()
+    found = campaign(tmp_path, tables)
+    assert perf_counter() - start < 5.0
+    assert found.tests[0].data.wrench[-1, 2] == pytest.approx(-99.999)
 
 
 @pytest.mark.parametrize("how", ["sheet", "file", "own", "blank_row"])
