@@ -75,7 +75,7 @@ def stiffness_at(structure: Structure, node: int, elements: int = ELEMENTS) -> F
     force = float(np.abs(np.diag(K) * motion**2).max(initial=1.0))
     whole = np.block([[K, C.T], [C, -np.diag(give)]])
     # Motions in mm of arc, joint forces in units of `force`: rows and columns then weigh alike.
-    scale = np.concatenate((motion / np.sqrt(force), _joint_scale(C, motion, force)))
+    scale = np.concatenate((motion / np.sqrt(force), _joint_scale(C, give, motion, force)))
     whole = scale[:, None] * whole * scale
     held = [6 * n + i for n in structure.fixed for i in range(6)]
     own = [6 * node + i for i in range(6)]
@@ -90,12 +90,15 @@ def stiffness_at(structure: Structure, node: int, elements: int = ELEMENTS) -> F
     return np.asarray(0.5 * (left + left.T))
 
 
-def _joint_scale(C: Floats, motion: Floats, force: float) -> Floats:
-    """Size of joint forces that brings the largest entry of each scaled row of C to one."""
+def _joint_scale(C: Floats, give: Floats, motion: Floats, force: float) -> Floats:
+    """Size of joint forces that brings the largest entry of each scaled row, of C or of what the joint gives, to one.
+
+    A joint that gives much is nearly free: its row says that it carries nothing, and is no measure of the others.
+    """
     if not len(C):
         return np.zeros(0)
     largest = np.abs(C * motion / np.sqrt(force)).max(1)
-    return np.asarray(1.0 / largest)
+    return np.asarray(1.0 / np.maximum(largest, np.sqrt(give)))
 
 
 def _assembled(structure: Structure, elements: int) -> tuple[Floats, Floats, Floats]:

@@ -12,6 +12,7 @@ from math import cos, sin
 import numpy as np
 from numpy.typing import NDArray
 
+from fem.frame.errors import Errors
 from fem.frame.section import section_of
 from fem.frame.structure import ELEMENTS, FREE, RIGID, Beam, Joint, Structure, stiffness_at
 from pipeline.manipulator.frame_hinges import HINGE, hinge_give, refuse
@@ -30,23 +31,31 @@ from vjm.sensors import BaseSpring, DeadWeight, TrueMoment
 
 Array = NDArray[np.float64]
 BASE, PLATFORM = 0, 1
+DRAWN = Errors()
 _GAP = 1e-6
 """How far, mm, a leg may end from the platform point."""
 
 
 def frame_stiffness(
-    manipulator: Manipulator, pose: Array, coordinates: tuple[Array, ...], elements: int = ELEMENTS
+    manipulator: Manipulator,
+    pose: Array,
+    coordinates: tuple[Array, ...],
+    elements: int = ELEMENTS,
+    errors: Errors = DRAWN,
 ) -> Array:
     """(6, 6) at the platform point by finite elements, base frame; pose (6,), per leg (m,) coordinates.
 
-    ValueError for a leg that does not end at the platform point, and `fem.frame.structure.NoStiffness`.
+    errors: of bars and hinges of every parallelogram; those of other things are for others. ValueError for a leg that
+    does not end at the platform point, and `fem.frame.structure.NoStiffness`.
     """
-    return np.asarray(stiffness_at(frame_of(manipulator, pose, coordinates), PLATFORM, elements))
+    return np.asarray(stiffness_at(frame_of(manipulator, pose, coordinates, errors), PLATFORM, elements))
 
 
-def frame_of(manipulator: Manipulator, pose: Array, coordinates: tuple[Array, ...]) -> Structure:
+def frame_of(
+    manipulator: Manipulator, pose: Array, coordinates: tuple[Array, ...], errors: Errors = DRAWN
+) -> Structure:
     """The structure: node 0 is the base, node 1 the platform."""
-    build = _Builder([np.zeros(3), np.asarray(pose[:3], dtype=float)])
+    build = _Builder([np.zeros(3), np.asarray(pose[:3], dtype=float)], errors=errors)
     grounds = _ground(build, manipulator)
     for leg, x in zip(manipulator.legs, coordinates, strict=True):
         _leg(build, leg, [float(v) for v in x])
@@ -72,6 +81,7 @@ class _Builder:
     """The structure so far, and the end of the leg that is being placed: node, place, triad."""
 
     positions: list[Array]
+    errors: Errors
     beams: list[Beam] = field(default_factory=list)
     joints: list[Joint] = field(default_factory=list)
     node: int = BASE
@@ -163,17 +173,23 @@ def _linkage(build: _Builder, part: Parallelogram, q: float) -> None:
     turned = build.triad @ _turn(np.array([0.0, 1.0, 0.0]), q)
     end = build.place + part.length * turned[:, 0]
     body = build.new(end)
-    width, hinge = part.width + part.as_built.wider, hinge_give(part)
-    for side, link in zip((-0.5, 0.5), part.as_built.links, strict=True):
+    errors, scale = build.errors, build.errors.modulus_error.scale
+    width = part.width + part.as_built.wider + errors.dimension_error.width_mm
+    hinge = hinge_give(part, errors.joint_torsional_stiffness.stiffness_Nmm_per_rad)
+    radial, tilt = errors.axis_flexibility.radial_mm_per_N, errors.axis_flexibility.tilt_rad_per_Nmm
+    softer = np.array([radial, 0.0, radial, tilt, 0.0, tilt])
+    scales = (scale, scale * errors.bar_stiffness_asymmetry.ratio)
+    for side, link, own in zip((-0.5, 0.5), part.as_built.links, scales, strict=True):
         refuse(link, part)
         arm = side * width * build.triad[:, 2]
         base, tip = build.new(build.place + arm), build.new(end + arm)
-        build.beams.append(Beam(base, tip, section_of(link.stiffness, link.length), turned))
+        section = section_of(link.stiffness, link.length)
+        build.beams.append(Beam(base, tip, section if own == 1.0 else section.scaled(own), turned))
         for nodes, place, give in (
             ((build.node, base), build.place + arm, link.base_give),
             ((tip, body), end + arm, link.tip_give),
         ):
-            compliance = [float(c) for c in np.diag(give)]
+            compliance = [float(c) for c in np.diag(give) + softer]
             compliance[HINGE] = hinge
             build.join(*nodes, place, turned, compliance)
     build.node, build.place = body, end

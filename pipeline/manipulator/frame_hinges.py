@@ -11,9 +11,12 @@ HINGE = 4
 """The axis of a hinge among the six of its frame: about y."""
 
 
-def hinge_give(part: Parallelogram) -> float:
-    """rad/(N·mm) of one hinge about its axis: free, or linear springs in parallel. ValueError for another law."""
-    stiffness = 0.0
+def hinge_give(part: Parallelogram, more: float = 0.0) -> float:
+    """rad/(N·mm) of one hinge about its axis: free, or linear springs in parallel. ValueError for another law.
+
+    more: N·mm/rad of one that is not in the description.
+    """
+    stiffness = more
     for law in part.as_built.hinges:
         if not isinstance(law, Linear):
             raise ValueError(f"finite elements at rest have no {type(law).__name__} in a hinge")

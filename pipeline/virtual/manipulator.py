@@ -8,20 +8,19 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
-from functools import reduce
 
 import numpy as np
 from numpy.typing import NDArray
 
+from fem.frame.errors import Errors
 from pipeline.campaign import Campaign, Data, Noise, Rig, Test
 from pipeline.campaign.model import Role, Vector
 from pipeline.errors import InputError
-from pipeline.inference.rigs import manipulator_of, mechanism_of
-from pipeline.manipulator.frame import frame_stiffness
-from vjm.effects import catalogue
-from vjm.manipulator.effects import linkages
-from vjm.manipulator.parts import Manipulator
-from vjm.manipulator.posture import postures
+from pipeline.virtual.bench import as_frame
+from pipeline.virtual.machine import Machine, refused
+from vjm.effects.paths import path_of
+from vjm.manipulator.parts import Manipulator, Parallelogram
+from vjm.manipulator.posture import Postures, postures
 
 Array = NDArray[np.float64]
 STEPS = 12
@@ -73,14 +72,15 @@ def measure_manipulator(
 
     InputError for an effect that the frame at rest does not have.
     """
-    changed = _changed(rig, hidden)
+    assert rig.manipulator is not None
+    errors = _errors(rig, hidden)
     generator = np.random.default_rng(seed)
     rigs: dict[Vector, Rig] = {}
     tests = []
     for one in loadings:
         own = rigs.setdefault(one.point, replace(rig, point=one.point))
-        k = _stiffness(rig, changed, np.array([*one.point, 0.0, 0.0, 0.0]))
-        way = np.linalg.solve(k, (one.loads + _weight(rig)).T).T
+        machine = Machine(rig.manipulator, errors, _posture(rig, one.point))
+        way = machine.displacements(one.loads, _weight(rig))
         data = Data(
             np.arange(len(one.loads)),
             way + generator.normal(size=way.shape) * NOISE.displacement,
@@ -94,30 +94,27 @@ def measure_manipulator(
 
 
 def _weight(rig: Rig) -> Array:
-    weight = np.zeros(6)
-    if rig.down is not None:
-        weight[:3] = rig.platform_weight * rig.down
-    return weight
+    return np.zeros(3) if rig.down is None else rig.platform_weight * rig.down
 
 
-def _changed(rig: Rig, hidden: Mapping[str, Mapping[str, float]]) -> Manipulator:
-    known = catalogue()
-    bench = reduce(lambda it, name: known[name].apply(it, hidden[name]), hidden, mechanism_of(rig, ()))
-    changed = manipulator_of(rig, bench)
+def _errors(rig: Rig, hidden: Mapping[str, Mapping[str, float]]) -> Errors:
+    """What is hidden, in the truth's own record."""
     assert rig.manipulator is not None
-    pairs = zip(linkages(rig.manipulator), linkages(changed), strict=True)
-    if any(type(one.as_built.model) is not type(other.as_built.model) for one, other in pairs):
+    if "bar_geometric_nonlinearity" in hidden:
         raise InputError("--effect: frame elements at rest do not show how bars stiffen or soften under load")
-    return changed
+    paths = {path_of(name, p): value for name, own in hidden.items() for p, value in own.items()}
+    errors = Errors.of(as_frame(paths, rig))
+    if said := refused(
+        errors, any(isinstance(p, Parallelogram) for leg in rig.manipulator.legs for p in leg.parts)
+    ):
+        raise InputError(f"--effect: the virtual bench cannot have it: {said}")
+    return errors
 
 
-def _stiffness(rig: Rig, changed: Manipulator, pose: Array) -> Array:
-    """(6, 6) by frame elements, joints where the drawing has them."""
+def _posture(rig: Rig, point: Vector) -> Postures:
+    """The joints, where the drawing has them."""
     assert rig.manipulator is not None
-    at = postures(rig.manipulator, pose)
+    at = postures(rig.manipulator, np.array(point))
     if not at.reached:
-        raise InputError(f"the plan has a posture at {pose[:3].round(1).tolist()} mm: {at.reason}")
-    try:
-        return frame_stiffness(changed, at.pose, at.coordinates)
-    except ValueError as error:
-        raise InputError(f"--effect: the virtual bench cannot have it: {error}") from None
+        raise InputError(f"the plan has a posture at {np.round(point, 1).tolist()} mm: {at.reason}")
+    return at

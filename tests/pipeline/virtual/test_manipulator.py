@@ -65,10 +65,10 @@ def test_what_was_hidden_is_fitted() -> None:
 @pytest.mark.parametrize(
     ("hidden", "said"),
     [
-        ({"joint_friction": {"torque_Nmm": 100.0, "presliding_rad": 1e-3}}, "have no Jenkins in a hinge"),
+        ({"joint_friction": {"torque_Nmm": 100.0, "presliding_rad": 1e-3}}, "joint_friction does not show"),
         ({"bar_geometric_nonlinearity": {}}, "stiffen or soften under load"),
-        ({"load_offset": {"x_mm": 1.0, "y_mm": 0.0, "z_mm": 0.0}}, "have no CellOffset"),
-        ({"mounting_tilt": {"rx_rad": 0.01, "ry_rad": 0.0, "rz_rad": 0.0}}, "from the platform point"),
+        ({"dimension_error": {"length_mm": 0.1, "width_mm": 0.0}}, "dimension_error.length_mm does not show"),
+        ({"self_weight": {"line_N_per_mm": 0.01}}, r"self_weight.line_z_N_per_mm does not show"),
     ],
 )
 def test_what_the_frame_cannot_have_is_refused(hidden: dict[str, dict[str, float]], said: str) -> None:
