@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 
 import numpy as np
@@ -10,7 +11,10 @@ import pytest
 from pipeline.errors import InputError
 from pipeline.manipulator.description import describe, read
 from vjm import paper
+from vjm.manipulator.equilibrium import equilibrium, loaded_stiffness
+from vjm.manipulator.lagrangian import system
 from vjm.manipulator.parts import Actuator, ElasticLink, Frame, Parallelogram, Passive, Virtual
+from vjm.manipulator.posture import postures
 
 TEXT = read("orthoglide").text
 
@@ -144,3 +148,16 @@ def test_files(tmp_path: Path) -> None:
         read(file)
     file.write_text(OTHER, encoding="utf-8")
     assert read(file).manipulator.name == "one arm"
+
+
+def test_two_members_of_a_leg_in_segments_are_two() -> None:
+    """The shipped Orthoglide with its links and its bars in segments has the stiffness of the one without, at rest."""
+    text = re.sub(r'part = "(link|parallelogram)"\n', r"\g<0>segments = 4\n", TEXT)
+    assert text.count("segments = 4") == 2
+    found = []
+    for each in (TEXT, text):
+        whole = describe(each, "o.toml").manipulator
+        state = equilibrium(system(whole, postures(whole, [[50.0, -40.0, 60.0]])), np.zeros(6))
+        assert state.converged.all()
+        found.append(loaded_stiffness(state)[0])
+    np.testing.assert_allclose(found[1], found[0], rtol=1e-6, atol=1e-7 * np.abs(found[0]).max())
