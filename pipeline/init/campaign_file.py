@@ -75,7 +75,8 @@ def campaign_text(name: str, kind: str, file: str = "", found: Found | None = No
     more = WEIGHTS + NOISE if kind == "manipulator" else MORE + NOISE + GAUGES
     head = f"schema = 1\nname = {_quoted(name)}\n\n[rig]\n{RIG[kind]}{more}"
     tables = "" if found is None else _file(file, found) + _columns(found) + CELL
-    return head + tables + _test(kind)
+    names = ("test-1",) if found is None or not found.tests else found.tests
+    return head + tables + _test(kind, names[0]) + "".join(_further(kind, each) for each in names[1:])
 
 
 def _file(file: str, found: Found) -> str:
@@ -146,21 +147,30 @@ def _times(found: Found) -> list[str]:
     return sorted(every, key=lambda name: name in found.still)
 
 
-def _test(kind: str) -> str:
+def _control(kind: str) -> str:
+    """What controls each coordinate; a parallelogram swings along z unless something holds it there."""
+    held = {"z"} if kind == "parallelogram" else set()
+    return ", ".join(f'{c} = "{"displacement" if c in held else "force"}"' for c in COORDINATES)
+
+
+def _further(kind: str, name: str) -> str:
+    """A test after the first, of which every key is explained."""
+    angle = 'q_deg = "?"\n' if kind == "parallelogram" else ""
+    return f'\n[[tests]]\nid = {_quoted(name)}\n{angle}role = "fit"\ncontrol = {{ {_control(kind)} }}\n'
+
+
+def _test(kind: str, name: str) -> str:
     angle = {
         "parallelogram": 'q_deg = "?"                  # angle of the bars\n',
         "manipulator": "# at_mm = [x, y, z]          where the platform stands; or columns at_x_mm, at_y_mm, at_z_mm\n",
     }.get(kind, "")
-    # A parallelogram swings along z unless something holds it there.
-    held = {"z"} if kind == "parallelogram" else set()
-    control = ", ".join(f'{c} = "{"displacement" if c in held else "force"}"' for c in COORDINATES)
     return f"""
 [[tests]]                    # one for each run of the bench, from the unloaded state
-id = "test-1"
+id = {_quoted(name)}
 {angle}role = "fit"                 # or "holdout": kept to look at the result with
 # zero = "nominal"           or "first_row" (sensors zeroed there), "fitted" (offsets not known)
 # "displacement" for what was moved or held, "force" for what was pushed or left free (an empty cell is no force)
-control = {{ {control} }}
+control = {{ {_control(kind)} }}
 """
 
 

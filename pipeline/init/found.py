@@ -15,12 +15,14 @@ from pipeline.campaign.mapped.layout import word
 from pipeline.campaign.mapped.numbers import Marks, decimal_of, plain
 from pipeline.campaign.mapped.schema import FileTable
 from pipeline.campaign.mapped.units import meant
+from pipeline.init.words import quantity_of
 
 MARKS = (";", "\t", ",", " ")
 """In the order in which they are preferred where they part a file alike."""
 NAMES = {"\t": "tab", " ": "space"}
 ENCODINGS = ("utf-8", "cp1252")
 REMARKS = ("#", "%", "//")
+MOST_TESTS = 50
 LOOKED_AT = 2000
 """Lines."""
 _NUMBER = re.compile(r"[+-]?(?:\d{1,3}(?:[.,' ]\d{3})+(?:[.,]\d*)?|\d+(?:[.,]\d*)?|[.,]\d+)(?:[eE][+-]?\d+)?")
@@ -35,7 +37,7 @@ class Found:
     readings. question: what to ask then. merged: columns with a word in their first row and nothing in most others.
     others: lines among the data that are not like them. sheets: of a workbook with several that hold numbers.
     comment: what the header of a text begins with, as a remark does; None where it does not. still: columns with one
-    word throughout.
+    word throughout. tests: words of the column that names the test of each row, in their order.
     """
 
     encoding: str
@@ -53,6 +55,7 @@ class Found:
     sheets: tuple[str, ...] = ()
     comment: str | None = None
     still: tuple[str, ...] = ()
+    tests: tuple[str, ...] = ()
 
 
 def looked(path: Path) -> Found:
@@ -153,7 +156,18 @@ def _of_rows(rows: list[tuple[Cell, ...]], encoding: str, separator: str | None,
         still=tuple(
             names[k] for k in range(width) if _still([row[k] for row in rows[first:] if len(row) > k])
         ),
+        tests=_tests(names, units, [row for row in rows[first:] if len(row) == width and _numbers(row)]),
     )
+
+
+def _tests(names: tuple[str, ...], units: tuple[str, ...], rows: list[tuple[Cell, ...]]) -> tuple[str, ...]:
+    """Words of the one column of tests; none where there is none, or more of them than anybody would write down."""
+    columns = [k for k, name in enumerate(names) if quantity_of(name, units[k]) == "test"]
+    if len(columns) != 1:
+        return ()
+    found = dict.fromkeys(word(row[columns[0]]) for row in rows)
+    found.pop("", None)
+    return tuple(found) if len(found) <= MOST_TESTS else ()
 
 
 def _still(column: list[Cell]) -> bool:

@@ -25,7 +25,6 @@ ANSWERS = {
     "material = { E_MPa = 7e4, nu = 0.33 }",
     r'"Dial" = \{ is = "\?", sign = "\?" \}': '"Dial" = { is = "z" }',
     r'"Weight" = \{ is = "\?", sign = "\?" \}': '"Weight" = { is = "fz" }',
-    r'id = "test-1"': 'id = "load"',
     r"# z_mm = 0.001": "z_mm = 0.0127",
     r"# fz_N = 0.5": "fz_N = 0.05",
 }

@@ -51,7 +51,7 @@ def test_a_workbook_is_read_once_its_questions_are_answered(
     assert len({re.search(r"line (\d+)", line)[1] for line in lines}) == 2  # type: ignore[index]
     filled_in(tmp_path, Dial='"z", unit = "in"', Weight='"fz", unit = "lbf"')
     path = tmp_path / "campaign.toml"
-    path.write_text(path.read_text().replace('"test-1"', '"load"'))
+    assert 'id = "load"' in path.read_text()
     (test,) = read(tmp_path).tests
     np.testing.assert_allclose(
         test.data.displacement[:, 2], 25.4 * np.array([0, 0.02, 0.04, 0.06, 0.081, 0.101, 0.12])
@@ -267,3 +267,15 @@ def test_of_a_date_and_its_time_the_one_that_goes_on_is_the_time(tmp_path: Path)
     init(tmp_path / "out", tmp_path / "a.csv", "bar")
     raw = tomllib.loads((tmp_path / "out" / "campaign.toml").read_text())
     assert raw["file"]["time_column"] == "Time" and raw["columns"]["Date"] == {"is": "ignore"}
+
+
+@pytest.mark.parametrize("kind", ["bar", "parallelogram"])
+def test_the_tests_are_those_that_the_rows_name(tmp_path: Path, kind: str) -> None:
+    rows = "\n".join(
+        f'"{test}",{0.1 * k},{5 * k}' for test in ("lateral", "axial +30", "lateral") for k in range(3)
+    )
+    (tmp_path / "a.csv").write_text(f"Test,Travel (mm),Load (N)\n{rows}\n")
+    init(tmp_path / "out", tmp_path / "a.csv", kind)
+    raw = tomllib.loads((tmp_path / "out" / "campaign.toml").read_text())
+    assert [test["id"] for test in raw["tests"]] == ["lateral", "axial +30"]
+    assert raw["tests"][0] == {**raw["tests"][1], "id": "lateral"}
