@@ -133,11 +133,14 @@ def init(
         Path | None, typer.Argument(metavar="FILE", help="Readings: a text, a workbook, TDMS.")
     ] = None,
     kind: Annotated[str, typer.Option(help="Of the rig: bar, parallelogram, manipulator.")] = "bar",
+    known: Annotated[
+        str | None, typer.Option("--from", metavar="BAR", help="A case, or the result.json of run: its bar.")
+    ] = None,
 ) -> None:
     """A campaign to fill in, commented; what a file of readings says by itself is filled in already."""
     from pipeline.init.command import init
 
-    guarded(lambda: init(out, file, kind))
+    guarded(lambda: init(out, file, kind, known))
 
 
 @app.command()

@@ -8,6 +8,7 @@ from collections.abc import Sequence
 from pipeline.campaign.mapped.layout import header_unit
 from pipeline.campaign.names import COORDINATES, known_columns
 from pipeline.init.found import Found
+from pipeline.init.known_bar import KnownBar
 from pipeline.init.words import quantity_of
 
 CHOICES = {
@@ -70,13 +71,25 @@ NOISE = """
 """
 
 
-def campaign_text(name: str, kind: str, file: str = "", found: Found | None = None) -> str:
+def campaign_text(
+    name: str, kind: str, file: str = "", found: Found | None = None, bar: KnownBar | None = None
+) -> str:
     """campaign.toml. file: beside it, of which `found` was found; without it measurements.csv is to be written."""
     more = WEIGHTS + NOISE if kind == "manipulator" else MORE + NOISE + GAUGES
-    head = f"schema = 1\nname = {_quoted(name)}\n\n[rig]\n{RIG[kind]}{more}"
+    head = f"schema = 1\nname = {_quoted(name)}\n\n[rig]\n{_rig(kind, bar)}{more}"
     tables = "" if found is None else _file(file, found) + _columns(found) + CELL
     names = ("test-1",) if found is None or not found.tests else found.tests
     return head + tables + _test(kind, names[0]) + "".join(_further(kind, each) for each in names[1:])
+
+
+def _rig(kind: str, bar: KnownBar | None) -> str:
+    """The rig, with the bar where it is known."""
+    text = RIG[kind]
+    if bar is not None:
+        text = text.replace('length_mm = "?"', f"length_mm = {bar.length!r}")
+        text = text.replace('width_mm = "?"', f"width_mm = {bar.width!r}")
+        text = "".join(bar.lines if line.startswith("bar =") else line for line in text.splitlines(True))
+    return text
 
 
 def _file(file: str, found: Found) -> str:

@@ -12,16 +12,23 @@ from pipeline.command import usable
 from pipeline.errors import InputError
 from pipeline.init.campaign_file import KINDS, campaign_text, plain_header
 from pipeline.init.found import Found, looked
+from pipeline.init.known_bar import known_bar
 from pipeline.typed import command
 
 
-def init(folder: Path, file: Path | None, kind: str) -> None:
-    """Write the campaign. InputError where there is one, or for a file that holds no table."""
+def init(folder: Path, file: Path | None, kind: str, known: str | None = None) -> None:
+    """Write the campaign. known: case or result that has the bar. InputError where there is a campaign, for a file that
+    holds no table, or for no such bar."""
     if kind not in KINDS:
         raise InputError(f"--kind is {kind!r}, allowed are {', '.join(KINDS)}")
     if (folder / DESCRIPTION).exists():
         raise InputError(f"{folder / DESCRIPTION} is there already, allowed is a folder without one")
     usable(folder, f"the folder {folder}")
+    if known is not None and kind == "manipulator":
+        raise InputError(
+            "--from is the bar of a bar or a parallelogram, a manipulator is described in its own file"
+        )
+    bar = None if known is None else known_bar(known)
     found = None if file is None else _found(file)
     folder.mkdir(parents=True, exist_ok=True)
     if file is not None and found is not None:
@@ -30,9 +37,9 @@ def init(folder: Path, file: Path | None, kind: str) -> None:
             raise InputError(f"{copy} is there already and is another file, allowed is a folder without it")
         if not copy.exists():
             shutil.copyfile(file, copy)
-        text = campaign_text(file.stem, kind, file.name, found)
+        text = campaign_text(file.stem, kind, file.name, found, bar)
     else:
-        text = campaign_text(folder.resolve().name, kind)
+        text = campaign_text(folder.resolve().name, kind, bar=bar)
         if not (folder / MEASUREMENTS).exists():
             (folder / MEASUREMENTS).write_text(plain_header(known_columns(())), encoding="utf-8")
     (folder / DESCRIPTION).write_text(text, encoding="utf-8")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import re
 import tomllib
 from collections.abc import Callable
@@ -279,3 +280,42 @@ def test_the_tests_are_those_that_the_rows_name(tmp_path: Path, kind: str) -> No
     raw = tomllib.loads((tmp_path / "out" / "campaign.toml").read_text())
     assert [test["id"] for test in raw["tests"]] == ["lateral", "axial +30"]
     assert raw["tests"][0] == {**raw["tests"][1], "id": "lateral"}
+
+
+ROOT = Path(__file__).parents[3]
+
+
+@pytest.mark.parametrize("kind", ["bar", "parallelogram"])
+@pytest.mark.parametrize("source", ["plain_i_bar", str(ROOT / "reports" / "validation" / "result.json")])
+def test_a_bar_may_be_taken_from_a_case_or_a_result(tmp_path: Path, kind: str, source: str) -> None:
+    """The case's rigidities are those of its section, the result's K_b is the identified one."""
+    init(tmp_path, None, kind, source)
+    path = tmp_path / "campaign.toml"
+    path.write_text(path.read_text().replace('q_deg = "?"', "q_deg = 0.0"))
+    (tmp_path / "measurements.csv").write_text("test,step,z_mm,fz_N\ntest-1,0,0.0,0.0\ntest-1,1,0.1,2.0\n")
+    rig = read(tmp_path).rig
+    assert rig.length == 310.0 and rig.width == (80.0 if kind == "parallelogram" else None)
+    if source == "plain_i_bar":
+        area = 2 * 12.0 * 2.2 + 4.0 * (15.5 - 2 * 2.2)
+        assert rig.bar is not None and pytest.approx(7e4 * area, rel=1e-12) == rig.bar.EA
+        return
+    identified = json.loads(Path(source).read_text())["bar"]["stiffness"]
+    np.testing.assert_allclose(rig.stiffness, identified, rtol=1e-6, atol=1e-6 * np.abs(identified).max())
+
+
+@pytest.mark.parametrize(
+    ("kind", "source", "said"),
+    [
+        ("bar", "orthoglide", "its bar is searched for; run it, and give its result.json"),
+        ("bar", "nothing", "case 'nothing' is unknown"),
+        ("bar", "nothing.json", "cannot be read: No such file"),
+        ("manipulator", "plain_i_bar", "a manipulator is described in its own file"),
+    ],
+)
+def test_a_bar_that_is_not_there_is_said(tmp_path: Path, kind: str, source: str, said: str) -> None:
+    with pytest.raises(InputError, match=said):
+        init(tmp_path / "c", None, kind, source)
+    assert not (tmp_path / "c").exists()
+    (tmp_path / "a.json").write_text("{}")
+    with pytest.raises(InputError, match="is no result of run"):
+        init(tmp_path / "c", None, "bar", str(tmp_path / "a.json"))
