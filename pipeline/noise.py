@@ -59,10 +59,13 @@ def lag_one(series: Sequence[Array], fitted: Array | None = None) -> Check:
     if degrees < 3:
         raise ValueError(f"{degrees} degrees of freedom are left, allowed are 3 or more")
     _finite(residual)
-    squares = float(residual @ residual)
-    if squares == 0.0:
+    largest = float(np.abs(residual).max())
+    if largest == 0.0:
         raise ValueError("the residual is zero")
-    statistic = sum(float(r[1:] @ r[:-1]) for r in series) / squares
+    # The squares of what is nearly met may be below the smallest float.
+    scaled = [np.asarray(r, dtype=float) / largest for r in series]
+    squares = float(np.sum((residual / largest) ** 2))
+    statistic = sum(float(r[1:] @ r[:-1]) for r in scaled) / squares
     values = _eigenvalues([len(r) for r in series], fitted)
     return Check(statistic, degrees, positive_form(values - statistic))
 

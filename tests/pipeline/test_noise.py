@@ -157,3 +157,11 @@ def test_held_loads_and_rounded_readings() -> None:
     assert held.value == pytest.approx(1.0, abs=3.0 * (held.std or 0.0))
     assert from_roughness([(np.arange(4.0), np.zeros(4))]).reason == "1 differences, allowed are 6 or more"
     assert "rounded" in from_roughness([(np.arange(30.0), np.zeros(30))]).reason
+
+
+@pytest.mark.parametrize("size", [1e-200, 1e-310, 1e200])
+def test_the_size_of_the_residual_does_not_count(size: float) -> None:
+    """Nor does it where its squares are no floats any more."""
+    series = np.split(np.random.default_rng(3).normal(size=12), [5])
+    found, expected = lag_one([size * each for each in series]), lag_one(series)
+    assert found.p_value == pytest.approx(expected.p_value, rel=1e-3)
