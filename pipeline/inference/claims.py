@@ -28,7 +28,8 @@ TEN = 10.0
 SURE = 3.0
 """Standard errors of the scatter by which it has to be."""
 COMPUTED = 1e-6
-"""Of the largest reading: a scatter below that is none of a sensor, the readings were computed."""
+"""Of the largest reading, or of what the sigmas say: a scatter below that is none of a sensor, the readings were
+computed, or stand still."""
 CHANCE = 1e-4
 """Chance that noise leaves so little, where the series are too short for a scatter."""
 
@@ -93,7 +94,7 @@ def _caps(found: Fit, channel: int, share: float) -> Iterator[tuple[int, float]]
         np.sum(np.linalg.inv(whitening(cases, found.prediction).factors)[rows, channel] ** 2, axis=-1)
     )
     target = share * float(np.sqrt(np.mean(spread**2)))
-    if target < COMPUTED * float(np.max(np.abs(cases.measured[rows, channel]))):
+    if share < COMPUTED or target < COMPUTED * float(np.max(np.abs(cases.measured[rows, channel]))):
         return
     parts = {channel: (float(cases.sigma[channel]), 1.0)}
     for j in range(6):

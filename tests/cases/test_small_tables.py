@@ -215,3 +215,34 @@ def test_a_model_that_explains_nothing_is_not_saved(
     add_effects(tmp_path, ["modulus_error"], quiet=True)
     assert not (tmp_path / NAME).exists()
     assert capsys.readouterr().out
+
+
+STILL = """schema = 1
+name = "still"
+
+[rig]
+kind = "bar"
+length_mm = 1000.0
+bar = { EA_N = 6.12e5, EIy_Nmm2 = 1.62e6, EIz_Nmm2 = 3.645e5, GJ_Nmm2 = 8.91e4 }
+base = "pinned"
+tip = "pinned"
+
+[noise]
+x_mm = 0.1
+fz_N = 10.0
+
+[[tests]]
+id = "a"
+role = "fit"
+control = { x = "displacement" }
+"""
+
+
+def test_readings_that_stand_still_refute_no_sigma(tmp_path: Path) -> None:
+    """A bar of two pins that is moved along itself and reads no force at all: its sigma is not that of rounding, by
+    which anything would be an effect."""
+    (tmp_path / "campaign.toml").write_text(STILL)
+    (tmp_path / "measurements.csv").write_text("test,step,x_mm,fz_N\na,0,0,0\na,1,5,0\na,2,10,0\n")
+    campaign = read(tmp_path)
+    found = answered(diagnose(campaign, Model(), known_effects(()).effects))
+    assert (found.verdict, found.effects) == ("within_noise", ())
