@@ -19,7 +19,6 @@ from pipeline.inference.parts import at_rows, joined
 from pipeline.inference.prediction import Prediction
 from pipeline.inference.program import Program
 from pipeline.inference.residual import Residual, residual
-from pipeline.inference.span import basis
 from vjm.effects.base import Parameter
 from vjm.work import spent
 
@@ -83,7 +82,7 @@ class Fit:
     @cached_property
     def degrees(self) -> int:
         """Residuals less fitted numbers and unknown zeros."""
-        zeros = basis(self.residual.flat(self.residual.offsets)).shape[1]
+        zeros = self.residual.zeros.shape[1]
         # Rows that a model loses have no column of their zero, but it is still there to be spent.
         zeros = max(zeros, self.residual.program.unknown_zeros)
         return int(self.whitened.size - zeros - len(self.model.free))

@@ -25,6 +25,7 @@ from numpy.typing import NDArray
 from pipeline.inference.prediction import Prediction
 from pipeline.inference.program import LOST, Program
 from pipeline.inference.sides import SIDE, SPREAD
+from pipeline.inference.span import basis
 
 Array = NDArray[np.float64]
 FARTHEST = 5.0
@@ -127,12 +128,17 @@ class Residual:
 
     def free(self, array: Array) -> Array:
         """(N, ...) of the tests that may be fitted, unknown zeros projected out."""
-        columns, values = self.flat(self.offsets), self.flat(array)
-        if not columns.shape[1]:
-            return values
-        basis, triangle = np.linalg.qr(columns / np.maximum(np.linalg.norm(columns, axis=0), 1e-300))
-        basis = basis[:, np.abs(np.diag(triangle)) > 1e-9]
-        return np.asarray(values - basis @ (basis.T @ values))
+        zeros, values = self.zeros, self.flat(array)
+        return np.asarray(values - zeros @ (zeros.T @ values)) if zeros.shape[1] else values
+
+    @cached_property
+    def zeros(self) -> Array:
+        """(N, r) orthonormal basis of what unknown zeros can make of the residuals of the tests that may be fitted.
+
+        Zeros may be of channels without a reading, or be seen only together: a QR without pivots would keep other
+        directions than theirs.
+        """
+        return basis(self.flat(self.offsets))
 
     @cached_property
     def aimed(self) -> Array:
