@@ -14,6 +14,7 @@ from pipeline.campaign import Campaign, Rig, write
 from pipeline.campaign.reading import DESCRIPTION, MEASUREMENTS
 from pipeline.command import usable
 from pipeline.errors import InputError
+from pipeline.parameter_names import path_of
 from pipeline.progress import Progress
 from pipeline.provenance import commit, versions
 from pipeline.virtual.bench import measure
@@ -21,7 +22,6 @@ from pipeline.virtual.hidden import hidden
 from pipeline.virtual.plan import GAUGES, SENSORS, bench_plan
 from vjm import paper
 from vjm.effects import catalogue
-from vjm.effects.paths import path_of
 
 LENGTH, WIDTH = 310.0, 80.0
 FIBRE_Y, FIBRE_Z = 6.0, 7.75

@@ -10,12 +10,12 @@ import numpy as np
 
 from pipeline.campaign import Campaign, Rig
 from pipeline.manipulator.description import SHIPPED, read
+from pipeline.parameter_names import path_of
 from pipeline.progress import Progress
 from pipeline.simulate import require_free, seal
 from pipeline.virtual.hidden import hidden
 from pipeline.virtual.manipulator import measure_manipulator, plan
 from vjm.effects import catalogue
-from vjm.effects.paths import path_of
 
 
 def simulate_manipulator(

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from pipeline.answer import LEVEL, Answer, ModelError
+from pipeline.parameter_names import parted
 from reports.quantities import short, sigma
-from vjm.effects.paths import parted
 
 CLEARLY = 1.0 - LEVEL
 

@@ -14,7 +14,7 @@ from pipeline.inference.intervals import Interval
 from pipeline.inference.model import Model, at_bound
 from pipeline.inference.program import Program
 from pipeline.noise import chi_square, lag_one
-from vjm.effects.paths import parted, path_of
+from pipeline.parameter_names import parted, path_of
 
 
 def values_of(model: Model, intervals: Sequence[Interval]) -> dict[str, Value]:

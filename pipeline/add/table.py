@@ -11,6 +11,7 @@ from rich.table import Table
 from rich.text import Text
 
 from pipeline.answer import LEVEL, Answer, TestChange, TestNoise, Value
+from pipeline.parameter_names import parted
 from pipeline.terminal import cell, folded, lean, terminal
 from reports.quantities import (
     AT_BOUND,
@@ -22,7 +23,6 @@ from reports.quantities import (
     sigma,
     value_text,
 )
-from vjm.effects.paths import parted
 
 BAR = 21
 NAME, UNIT = 27, 12

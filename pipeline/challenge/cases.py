@@ -22,10 +22,10 @@ from pipeline.challenge.benches import (
 )
 from pipeline.challenge.faults import FAULTS
 from pipeline.coverage.cases import is_size
+from pipeline.parameter_names import parted, path_of
 from pipeline.simulate import bench_rig
 from pipeline.virtual.plan import SENSORS
 from vjm.effects import catalogue
-from vjm.effects.paths import parted, path_of
 
 Kind = Literal["clean", "single", "pair", "outside", "untold"]
 SEED = 20_261_123

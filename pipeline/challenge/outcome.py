@@ -23,11 +23,11 @@ from pipeline.inference.model import Model
 from pipeline.inference.prediction import predict
 from pipeline.inference.program import program
 from pipeline.inference.residual import whitening
+from pipeline.parameter_names import parted
 from pipeline.record import Record
 from pipeline.virtual.bench import read_out, true_readings
 from pipeline.virtual.plan import GAUGES
 from vjm.effects import catalogue
-from vjm.effects.paths import parted
 
 Array = NDArray[np.float64]
 Score = Literal["right", "in set", "part", "missed", "undecided", "wrong", "false alarm", "failed"]

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from pipeline.parameter_names import path_of
 from vjm.effects import catalogue
-from vjm.effects.paths import path_of
 
 BASE = "bar_geometric_nonlinearity"
 """Always there on the virtual bench, so always in the model."""

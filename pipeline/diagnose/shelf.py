@@ -20,8 +20,8 @@ from pipeline.inference.residual import residual
 from pipeline.inference.sent import fits_at_once
 from pipeline.inference.sides import sided
 from pipeline.inference.starts import best_fit, height
+from pipeline.parameter_names import parted, path_of
 from vjm.effects.base import Effect
-from vjm.effects.paths import parted, path_of
 from vjm.work import TooMuch, spent
 
 Names = frozenset[str]

@@ -22,9 +22,9 @@ from pipeline.inference.parts import at_rows
 from pipeline.inference.prediction import Prediction, predict
 from pipeline.inference.program import Program
 from pipeline.inference.residual import residual, whitening
+from pipeline.parameter_names import path_of
 from pipeline.processors import at_once
 from vjm.effects.base import Effect, Parameter
-from vjm.effects.paths import path_of
 
 Array = NDArray[np.float64]
 Say = Callable[[str], None]

@@ -21,9 +21,9 @@ from pipeline.diagnose.merit import badness
 from pipeline.diagnose.seen_at import only_place
 from pipeline.inference.driving import column_name
 from pipeline.inference.fit import Fit
+from pipeline.parameter_names import path_of
 from reports.quantities import estimate, p_is, percent, phrase, short, sigma
 from vjm.effects.base import Effect
-from vjm.effects.paths import path_of
 
 CARRIES = 0.7
 """Part of the misfit that may be left of a test, for the others to foretell it."""

@@ -12,9 +12,9 @@ from numpy.typing import NDArray
 from pipeline.campaign import Gauge
 from pipeline.campaign import Rig as Described
 from pipeline.inference.rigs import mechanism_of
+from pipeline.parameter_names import path_of
 from vjm.effects import shipped
 from vjm.effects.base import Effect, Parameter, Rig
-from vjm.effects.paths import path_of
 
 Array = NDArray[np.float64]
 START = 3e-3

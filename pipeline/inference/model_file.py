@@ -30,7 +30,7 @@ from tomlkit.items import InlineTable, Table
 from meshes.files import replacing
 from pipeline.errors import InputError
 from pipeline.inference.model import Model, Term
-from vjm.effects.paths import path_of
+from pipeline.parameter_names import path_of
 
 NAME = "model.toml"
 SCHEMA, BASE = 1, "vjm"

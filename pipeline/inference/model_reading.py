@@ -15,12 +15,12 @@ from pipeline.errors import InputError
 from pipeline.inference.model import Model, Term
 from pipeline.inference.model_file import BASE, SCHEMA, ModelFile, Uncertainty
 from pipeline.inference.suitable import Known, known_effects
+from pipeline.parameter_names import path_of
 from pipeline.toml.complaints import Complaints, shown
 from pipeline.toml.fields import Table, sentences
 from pipeline.toml.lines import TomlLines
 from pipeline.toml.spelling import unknown_name
 from vjm.effects.base import Effect, Parameter
-from vjm.effects.paths import path_of
 
 Number = Annotated[float, Field(strict=True)]
 

@@ -12,9 +12,9 @@ from pipeline.inference.suitable import known_effects
 from pipeline.manipulator.box import numbers
 from pipeline.manipulator.loaded import with_true_moments
 from pipeline.manipulator.question import Question
+from pipeline.parameter_names import parted
 from pipeline.toml.spelling import unknown_name
 from vjm.effects.base import Effect
-from vjm.effects.paths import parted
 from vjm.effects.thermal_expansion import DRIVE
 from vjm.manipulator.effects import with_effect
 from vjm.manipulator.loops import looped

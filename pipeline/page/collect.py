@@ -21,9 +21,9 @@ from pipeline.page.curves import rig_of, tests_of
 from pipeline.page.record import CandidatePage, EffectPage, Isolability, Page, Sigma
 from pipeline.page.stages import Stages, stages
 from pipeline.page.words import SOURCES, assumptions, reading, why
+from pipeline.parameter_names import path_of
 from pipeline.provenance import commit, versions
 from reports.quantities import sigma
-from vjm.effects.paths import path_of
 
 Say = Callable[[str], None]
 

@@ -13,10 +13,10 @@ from pipeline.diagnose.signatures import Say
 from pipeline.inference.model import Model
 from pipeline.inference.prediction import predict
 from pipeline.inference.program import program
+from pipeline.parameter_names import path_of
 from pipeline.plan.isolability import Visible, visible
 from pipeline.plan.seen import Seen, seen
 from vjm.effects.base import Effect
-from vjm.effects.paths import path_of
 
 
 @dataclass(frozen=True, eq=False)

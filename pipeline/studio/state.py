@@ -9,12 +9,12 @@ from pipeline.answer import Answer, Value
 from pipeline.campaign.reading import DESCRIPTION
 from pipeline.page.record import Page, TestPage
 from pipeline.page.words import why
+from pipeline.parameter_names import parted
 from pipeline.studio.planning import planning
 from pipeline.studio.session import Session
 from reports.campaign.names import channel_label, measured, test_label
 from reports.formats import number
 from reports.quantities import estimate, phrase, sigma
-from vjm.effects.paths import parted
 
 DEEP = 3
 """Folders below the present one in which campaigns are looked for."""

@@ -16,8 +16,8 @@ from fem.frame.section import Section, uniform
 from pipeline.campaign import Campaign, Data, Gauge, Noise, Rig, Test
 from pipeline.campaign.model import Role
 from pipeline.errors import InputError
+from pipeline.parameter_names import parted
 from pipeline.virtual.plan import PlannedTest
-from vjm.effects.paths import parted
 
 DISPLAYED = 20.0
 """Steps of a display in a sigma, at least: rounding then adds 1e-4 of the noise."""

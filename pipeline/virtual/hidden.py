@@ -11,10 +11,10 @@ from pipeline.campaign import Rig
 from pipeline.effect_options import number_asked, parameter_asked
 from pipeline.errors import InputError
 from pipeline.inference.rigs import mechanism_of
+from pipeline.parameter_names import parted, path_of
 from pipeline.toml.spelling import unknown_name
 from pipeline.virtual.bench import as_frame
 from vjm.effects.base import Effect
-from vjm.effects.paths import parted, path_of
 
 FACTOR = 2.0
 """An effect without a value is up to so many times larger or smaller than its typical size."""

@@ -16,9 +16,9 @@ from fem.frame.errors import Errors
 from pipeline.campaign import Campaign, Data, Noise, Rig, Test
 from pipeline.campaign.model import Role, Vector
 from pipeline.errors import InputError
+from pipeline.parameter_names import path_of
 from pipeline.virtual.bench import as_frame
 from pipeline.virtual.machine import Machine, refused
-from vjm.effects.paths import path_of
 from vjm.manipulator.parts import Manipulator, Parallelogram
 from vjm.manipulator.posture import Postures, postures
 

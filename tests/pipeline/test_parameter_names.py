@@ -6,8 +6,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from pipeline.parameter_names import parted, path_of
 from vjm.effects import catalogue
-from vjm.effects.paths import parted, path_of
 
 WORDS = st.from_regex(r"[a-z_@.]{1,20}", fullmatch=True)
 
