@@ -33,6 +33,8 @@ from vjm.work import at_most
 Array = NDArray[np.float64]
 Out = TypeVar("Out")
 Z = float(norm.ppf(0.975))
+ROUNDING = 1e-14
+"""Of the largest eigenvalue of a matrix of unit columns: what is less is rounding."""
 FARTHER = 3.0
 """Times the distance at which a profile is looked at next, at most, where it has not risen enough."""
 
@@ -283,7 +285,9 @@ def correlations(land: Landscape, least: float = 0.9) -> list[tuple[int, int, fl
     if len(seen) < 2:
         return []
     scaled = land.jacobian[:, seen] / np.linalg.norm(land.jacobian[:, seen], axis=0)
-    covariance = np.linalg.inv(scaled.T @ scaled)
+    values, axes = np.linalg.eigh(scaled.T @ scaled)
+    # Numbers that go together exactly leave a value that is rounding, of either sign.
+    covariance = (axes / np.maximum(values, ROUNDING * values.max())) @ axes.T
     std = np.sqrt(np.diag(covariance))
     both = covariance / np.outer(std, std)
     pairs = [

@@ -247,6 +247,17 @@ def test_correlations_are_those_of_the_inverse() -> None:
     assert correlations(there, least=0.98) == []
 
 
+@pytest.mark.filterwarnings("error")
+@pytest.mark.parametrize("angle", [1e-3, 1e-5, 1e-6, 1e-7, 3e-8, 1e-8, 1e-9])
+def test_numbers_that_nearly_go_together_correlate_by_one_at_most(angle: float) -> None:
+    """Or are not seen apart at all: the inverse of their matrix is rounding then, of either sign."""
+    matrix = np.array([[1.0, np.cos(angle), 0.1], [0.0, np.sin(angle), 0.2], [0.0, 0.0, 1.0]])
+    there = land(linear(matrix, np.ones(3)), np.zeros(3), [WIDE] * 3)
+    found = correlations(there)
+    assert all(-1.0 - 1e-9 <= r <= 1.0 + 1e-9 for _, _, r in found)
+    assert angle < 1e-4 or [(i, j) for i, j, _ in found] == [(0, 1)]
+
+
 def test_whether_an_interval_holds_null_needs_no_ends() -> None:
     """Curved sums of squares of three numbers, the last of one sign only; both answers occur for each."""
     rng, said = np.random.default_rng(3), []
