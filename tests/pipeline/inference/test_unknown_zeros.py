@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from pipeline.campaign import read
 from pipeline.compare.error import Discrepancy
 from pipeline.inference.fit import unfitted
 from pipeline.inference.model import Model
@@ -38,8 +39,6 @@ def test_a_fit_and_its_table_have_one_chi_square(tmp_path: Path) -> None:
     """A bar of which not every channel is read in every test, its zeros all unknown."""
     (tmp_path / "campaign.toml").write_text(BAR)
     (tmp_path / "measurements.csv").write_text(ROWS)
-    from pipeline.campaign import read
-
     cases = program(read(tmp_path))
     found = unfitted(Model(), cases)
     size = Discrepancy(cases, found.prediction).size()
