@@ -139,7 +139,9 @@ class Equilibrium:
         return np.concatenate([chain.remember(*strain) for chain, strain in self._strains()], axis=-1)
 
     def _responses(self) -> list[Response]:
-        return [chain.respond(*strain) for chain, strain in self._strains()]
+        linear = lagrangian.linear_stiffness(self.mechanism, self.drives)
+        parts = zip(self._strains(), linear, strict=True)
+        return [chain.respond(*strain, stiffness) for (chain, strain), stiffness in parts]
 
     def _strains(self) -> list[tuple[ElasticChain, tuple[Array, Array]]]:
         """Each chain with its strain (..., m) and the memory (..., M) of its laws."""

@@ -80,7 +80,8 @@ def _newton(problem: Problem, start: Array, tolerance: float, limit: int) -> Ite
 def _in_chunks(problem: Problem, start: Array, tolerance: float, limit: int) -> Iterate:
     place = problem.place
     motion = np.arange(place.platform.stop)
-    step = max(4, _NUMBERS // (max(x.stop - x.start for x in place.coordinates) + 6) ** 2)
+    sizes = zip(place.coordinates, place.closing, strict=True)
+    step = max(4, _NUMBERS // max(x.stop - x.start + dual.stop - dual.start for x, dual in sizes) ** 2)
     end = unsolved(start)
     for first in range(0, len(start), step):
         part = np.arange(first, min(first + step, len(start)))

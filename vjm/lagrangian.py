@@ -1,23 +1,22 @@
 """The Lagrange function of Eq. 4 with the platform pose among the unknowns: gradient and bordered Hessian.
 
 Unknowns u, in this order: the moving coordinates (theta and q) of each chain, the platform pose t (6), the
-multiplier lambda_i (6) of each chain. L = sum of elastic energies + sum lambda_i^T (t - g_i) - F^T t.
-The gradient is Eq. 5 together with the platform's balance; its Hessian is symmetric, bordered by the loop
-closures t = g_i. All arrays carry leading batch axes. Chains meet at the platform only, so Newton's step
-needs no larger system than that of one chain (`chain_rows`, `newton_step`).
+multiplier lambda_i (6) of each chain with those mu (6) of the loops inside it. L = sum of elastic energies
++ sum lambda_i^T (t - g_i) + sum mu^T (g_2 - g_1) - F^T t, g_1 and g_2 at the ends of the two paths of a loop.
+The gradient is Eq. 5 together with the platform's balance; its Hessian is symmetric, bordered by the
+closures t = g_i and g_1 = g_2. All arrays carry leading batch axes. `vjm.blocks` solves with it.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import lru_cache
+from functools import cached_property, lru_cache
 from itertools import pairwise
 
 import numpy as np
 
 from vjm.frames import Array
-from vjm.mechanism import ElasticChain, Mechanism
-from vjm.newton import negative_pivots, solve_each
+from vjm.mechanism import ElasticChain, Mechanism, Path
 from vjm.work import note
 
 
@@ -25,8 +24,8 @@ from vjm.work import note
 class Layout:
     """Where each unknown stands in u, and its typical size.
 
-    coordinates, multipliers, memories: one slice per chain, the last of the memory of the laws; platform:
-    one slice.
+    coordinates, closing, memories: one slice per chain, of its closures' multipliers, lambda first, and of the
+    memory of its laws; platform: one slice.
     scale: (N,) size of each unknown: length for translations, 1 rad, stiffness x length for forces.
     energy: stiffness x length², N·mm, the size of L. scale_i scale_j H_ij / energy is dimensionless.
     drives: names of the D inputs; defaults: (D,) their values; rest_slopes: (D, n) per chain.
@@ -35,7 +34,7 @@ class Layout:
 
     coordinates: tuple[slice, ...]
     platform: slice
-    multipliers: tuple[slice, ...]
+    closing: tuple[slice, ...]
     memories: tuple[slice, ...]
     scale: Array
     energy: float
@@ -48,10 +47,15 @@ class Layout:
     def size(self) -> int:
         return self.scale.size
 
+    @cached_property
+    def multipliers(self) -> tuple[slice, ...]:
+        """lambda (6) of each chain."""
+        return tuple(slice(dual.start, dual.start + 6) for dual in self.closing)
+
     @property
     def closures(self) -> int:
-        """Number of scalar loop-closure equations: six per chain."""
-        return 6 * len(self.multipliers)
+        """Number of scalar closure equations, those of the loops inside chains included."""
+        return self.size - self.platform.stop
 
     @property
     def pose_scale(self) -> Array:
@@ -72,13 +76,14 @@ def layout(mechanism: Mechanism) -> Layout:
 @lru_cache(maxsize=256)
 def _layout(chains: tuple[ElasticChain, ...], length: float) -> Layout:
     sizes = [chain.moving.size for chain in chains]
-    pieces = _slices([*sizes, 6, *[6] * len(sizes)])
+    pieces = _slices([*sizes, 6, *(chain.closures for chain in chains)])
     memories = _slices([chain.initial_memory.size for chain in chains])
     force = length * max(_translational_stiffness(chain) for chain in chains)
     pose_scale = np.repeat([length, 1.0], 3)
     scales = [_coordinate_scale(chain, length) for chain in chains]
     wrench_scale = force * np.repeat([1.0, length], 3)
-    scale = np.concatenate([*scales, pose_scale, *[wrench_scale] * len(sizes)])
+    closures = sum(chain.closures for chain in chains)
+    scale = np.concatenate([*scales, pose_scale, *[wrench_scale] * (closures // 6)])
     n = len(sizes)
     drives = _drives(chains)
     return Layout(pieces[:n], pieces[n], pieces[n + 1 :], memories, scale, force * length, *drives)
@@ -109,24 +114,25 @@ def at_rest(mechanism: Mechanism, drives: Array) -> Array:
     batch = drives.shape[:-1]
     values = [np.broadcast_to(x, (*batch, x.shape[-1])) for x in rest(mechanism, drives)]
     moving = [x[..., chain.moving] for x, chain in zip(values, mechanism.chains, strict=True)]
-    pose = mechanism.chains[0].chain.pose(values[0])
-    return np.concatenate([*moving, pose, np.zeros((*batch, 6 * len(values)))], axis=-1)
+    first = mechanism.chains[0].main
+    pose = first.chain.pose(values[0][..., first.numbers])
+    return np.concatenate([*moving, pose, np.zeros((*batch, layout(mechanism).closures))], axis=-1)
 
 
 def chain_coordinates(chain: ElasticChain, moving: Array, rest: Array) -> Array:
     """All coordinates (..., n) of a chain from its moving ones (..., m) and the rest values (..., n) of all."""
-    full = np.broadcast_to(rest, (*moving.shape[:-1], chain.chain.size)).copy()
+    full = np.broadcast_to(rest, (*moving.shape[:-1], chain.size)).copy()
     full[..., chain.moving] = moving
     return full
 
 
 @dataclass(frozen=True, eq=False)
 class ChainRows:
-    """One chain's share of gradient and Hessian.
+    """One chain's share of gradient and Hessian, with c closures, that of the platform first.
 
-    balance: (..., m) by its coordinates. gap: (..., 6) t - g. matrix: (..., m + 6, m + 6) by its coordinates
-    and its multiplier. order: (m + 6,) virtual coordinates, multiplier, passive coordinates: eliminated in
-    this order the matrix at rest has no zero pivot.
+    balance: (..., m) by its coordinates. gap: (..., c) t - g and g_2 - g_1. matrix: (..., m + c, m + c) by its
+    coordinates and its multipliers. order: (m + c,) virtual coordinates, multipliers, passive coordinates:
+    eliminated in this order the matrix at rest has no zero pivot.
     """
 
     balance: Array
@@ -140,38 +146,98 @@ def chain_rows(
     moving: Array,
     rest: Array,
     pose: Array,
-    multiplier: Array,
+    multipliers: Array,
     memory: Array,
     second: bool,
+    linear: Array | None = None,
 ) -> ChainRows:
-    """Rows of a chain at its moving coordinates (..., m), the platform pose t and lambda (..., 6).
+    """Rows of a chain at its moving coordinates (..., m), the platform pose t and the multipliers (..., c).
 
-    rest: (..., n) of all its coordinates. Without `second` the matrix is empty.
+    rest: (..., n) of all its coordinates. linear: of `ElasticChain.linear`. Without `second` the matrix is empty.
     """
     coordinates = chain_coordinates(chain, moving, rest)
-    kinematics = chain.chain.kinematics(coordinates)
     strain = moving - rest[..., chain.moving]
-    m = chain.moving.size
+    m, batch = chain.moving.size, moving.shape[:-1]
     if second:
-        answer, jacobian = chain.respond(strain, memory), kinematics.jacobian
-        curvature = kinematics.hessian(multiplier)
-        if m < chain.chain.size:
-            jacobian = jacobian[..., chain.moving]
-            curvature = curvature[..., chain.moving[:, None], chain.moving]
-        matrix = np.zeros((*moving.shape[:-1], m + 6, m + 6))
-        matrix[..., :m, :m] = answer.tangent - curvature
-        matrix[..., m:, :m] = -jacobian
-        matrix[..., :m, m:] = -np.swapaxes(jacobian, -1, -2)
-        balance = answer.force - np.einsum("...ji,...j->...i", jacobian, multiplier)
+        answer = chain.respond(strain, memory, linear)
+        size = m + chain.closures
+        matrix, balance = np.zeros((*batch, size, size)), answer.force
+        matrix[..., :m, :m] = answer.tangent
     else:
-        matrix = np.zeros(0)
-        balance = chain.force(strain, memory) - kinematics.pull(multiplier)[..., chain.moving]
+        matrix, balance = np.zeros(0), chain.force(strain, memory, linear)
+    gap = np.zeros((*batch, chain.closures))
+    gap[..., :6] = pose
+    for number, sides in enumerate(_closures(chain)):
+        dual = slice(6 * number, 6 * number + 6)
+        for path, sign in sides:
+            end, pull = _closed(
+                path, sign, coordinates, multipliers[..., dual], chain, matrix, m + dual.start
+            )
+            gap[..., dual] += sign * end
+            balance = balance + sign * pull
     for load in chain.loads:
         pull, slope = load.pull(coordinates, second)
         balance = balance - pull[..., chain.moving]
         if second:
             matrix[..., :m, :m] -= slope[..., chain.moving[:, None], chain.moving]
-    return ChainRows(balance, pose - kinematics.pose, matrix, chain.elimination_order)
+    return ChainRows(balance, gap, matrix, chain.elimination_order)
+
+
+def closing_force(chain: ElasticChain, coordinates: Array, multipliers: Array) -> Array:
+    """Force (..., m) on the moving coordinates of a chain by its closures, at all its coordinates (..., n) and the
+    multipliers (..., c): what its springs carry."""
+    nothing, out = np.zeros(0), np.zeros((*coordinates.shape[:-1], chain.moving.size))
+    for number, sides in enumerate(_closures(chain)):
+        dual = multipliers[..., 6 * number : 6 * number + 6]
+        for path, sign in sides:
+            out = out - sign * _closed(path, sign, coordinates, dual, chain, nothing, 0)[1]
+    return out
+
+
+def _closures(chain: ElasticChain) -> list[tuple[tuple[Path, float], ...]]:
+    """Of each closure the paths that are in it, with their signs."""
+    return [((chain.main, -1.0),), *(loop.sides for loop in chain.loops)]
+
+
+def _closed(
+    path: Path,
+    sign: float,
+    coordinates: Array,
+    multiplier: Array,
+    chain: ElasticChain,
+    matrix: Array,
+    row: int,
+) -> tuple[Array, Array]:
+    """Pose (..., 6) at the end of a path, and Jacobian^T multiplier (..., m) by the moving coordinates of the chain.
+
+    Adds sign x its Jacobian to the matrix at this row and column, and sign x its curvature, unless that is empty.
+    """
+    whole = path.numbers.size == chain.size
+    here = path.chain.kinematics(coordinates if whole else coordinates[..., path.numbers])
+    second, m = matrix.size > 0, chain.moving.size
+    if whole and m == chain.size:
+        mine: np.ndarray | slice = slice(None)
+        place: np.ndarray | slice = slice(0, m)
+    else:
+        mine = np.flatnonzero(np.isin(path.numbers, chain.moving))
+        place = np.searchsorted(chain.moving, path.numbers[mine])
+    if not second:
+        own = here.pull(multiplier)[..., mine]
+    else:
+        jacobian, curvature = here.jacobian[..., mine], here.hessian(multiplier)
+        dual = slice(row, row + 6)
+        matrix[..., dual, place] = matrix[..., dual, place] + sign * jacobian
+        matrix[..., place, dual] = matrix[..., place, dual] + sign * np.swapaxes(jacobian, -1, -2)
+        if isinstance(place, slice):
+            matrix[..., place, place] += sign * curvature
+        else:
+            matrix[..., place[:, None], place] += sign * curvature[..., mine, :][..., mine]
+        own = np.einsum("...ji,...j->...i", jacobian, multiplier)
+    if isinstance(place, slice):
+        return here.pose, own
+    pull = np.zeros((*own.shape[:-1], m))
+    pull[..., place] = own
+    return here.pose, pull
 
 
 def all_rows(
@@ -183,146 +249,47 @@ def all_rows(
     parts = zip(
         mechanism.chains,
         rest(mechanism, drives),
+        linear_stiffness(mechanism, drives),
         place.coordinates,
-        place.multipliers,
+        place.closing,
         place.memories,
         strict=True,
     )
     pose = unknowns[..., place.platform]
     return tuple(
-        chain_rows(chain, unknowns[..., x], start, pose, unknowns[..., dual], memory[..., past], second)
-        for chain, start, x, dual, past in parts
+        chain_rows(
+            chain, unknowns[..., x], start, pose, unknowns[..., dual], memory[..., past], second, linear
+        )
+        for chain, start, linear, x, dual, past in parts
     )
+
+
+def linear_stiffness(mechanism: Mechanism, drives: Array) -> tuple[Array, ...]:
+    """(m, m), or (..., m, m) of chains with springs that follow an input, at the inputs (..., D)."""
+    place = layout(mechanism)
+    inputs = {name: drives[..., k] + place.defaults[k] for k, name in enumerate(place.drives)}
+    return tuple(chain.linear(inputs) for chain in mechanism.chains)
 
 
 def gradient(place: Layout, rows: tuple[ChainRows, ...], unknowns: Array) -> Array:
     """Gradient (..., N) of L without external load: at the platform stands the sum of the multipliers."""
     out = np.zeros_like(unknowns)
-    for row, x, dual in zip(rows, place.coordinates, place.multipliers, strict=True):
+    for row, x, dual, load in zip(rows, place.coordinates, place.closing, place.multipliers, strict=True):
         out[..., x], out[..., dual] = row.balance, row.gap
-        out[..., place.platform] += unknowns[..., dual]
+        out[..., place.platform] += unknowns[..., load]
     return out
 
 
 def hessian(place: Layout, rows: tuple[ChainRows, ...]) -> Array:
     """Hessian (..., N, N) of L."""
     out = np.zeros((*rows[0].gap.shape[:-1], place.size, place.size))
-    for row, x, dual in zip(rows, place.coordinates, place.multipliers, strict=True):
+    for row, x, dual, load in zip(rows, place.coordinates, place.closing, place.multipliers, strict=True):
         m = x.stop - x.start
         out[..., x, x] = row.matrix[..., :m, :m]
         out[..., dual, x] = row.matrix[..., m:, :m]
         out[..., x, dual] = row.matrix[..., :m, m:]
-        out[..., dual, place.platform] = out[..., place.platform, dual] = np.eye(6)
+        out[..., load, place.platform] = out[..., place.platform, load] = np.eye(6)
     return out
-
-
-@dataclass(frozen=True, eq=False)
-class Control:
-    """Six equations of the platform, one for each of its coordinates, linearised and dimensionless.
-
-    by_pose, by_load: (B, 6, 6) by the pose and by the sum of the multipliers. by_coordinates: (B, 6, m) by a
-    chain's coordinates, None where no gauge on it is controlled. held: (B, 6) equations that hold a motion.
-    plain: whether each equation is about the coordinate itself, its pose or its load.
-    """
-
-    by_pose: Array
-    by_load: Array
-    by_coordinates: tuple[Array | None, ...]
-    held: np.ndarray
-    plain: bool
-
-
-@dataclass(frozen=True, eq=False)
-class Solution:
-    """step: (B, N, r) dimensionless. regular: (B,). stiffness: (B, 6, 6) dimensionless, the sum of Eq. 10.
-
-    control: (B, 6, 6) the platform's equations by its motion, all else following.
-    """
-
-    step: Array
-    regular: np.ndarray
-    stiffness: Array
-    control: Array
-
-
-def newton_step(place: Layout, rows: tuple[ChainRows, ...], right: Array, control: Control) -> Solution:
-    """Dimensionless solutions of H step = right, chain by chain; the platform's rows are those of the control.
-
-    right: (B, N, r) dimensionless. Each chain is solved for its own right side and for six unit motions of the
-    platform, which leaves 6x6 equations with the sum of the chains' stiffness (Eq. 10).
-    """
-    count = right.shape[-1]
-    step = np.empty_like(right)
-    stiffness = np.zeros((len(right), 6, 6))
-    load = np.zeros((len(right), 6, count))
-    regular = np.ones(len(right), dtype=bool)
-    answers = []
-    for row, x, dual in zip(rows, place.coordinates, place.multipliers, strict=True):
-        m = x.stop - x.start
-        sides = np.zeros((len(right), m + 6, count + 6))
-        sides[:, :m, :count], sides[:, m:, :count] = right[:, x], right[:, dual]
-        sides[:, m:, count:] = -np.eye(6)
-        answer, solvable = solve_each(_dimensionless(place, row, x, dual), sides)
-        load += answer[:, m:, :count]
-        stiffness += answer[:, m:, count:]
-        regular &= solvable
-        answers.append(answer)
-    platform = right[:, place.platform] - control.by_load @ load
-    matrix = control.by_pose + control.by_load @ stiffness
-    for answer, by in zip(answers, control.by_coordinates, strict=True):
-        if by is not None:
-            platform -= by @ answer[:, : by.shape[-1], :count]
-            matrix += by @ answer[:, : by.shape[-1], count:]
-    motion, solvable = solve_each(matrix, platform)
-    step[:, place.platform] = motion
-    for answer, x, dual in zip(answers, place.coordinates, place.multipliers, strict=True):
-        m = x.stop - x.start
-        whole = answer[..., :count] + answer[..., count:] @ motion
-        step[:, x], step[:, dual] = whole[:, :m], whole[:, m:]
-    return Solution(step, regular & solvable, stiffness, matrix)
-
-
-def unstable_directions(
-    place: Layout, rows: tuple[ChainRows, ...], found: Solution, control: Control, members: np.ndarray
-) -> np.ndarray:
-    """Number of unstable directions of these members, chain by chain.
-
-    Inertia adds up over the elimination (E. V. Haynsworth, "Determination of the inertia of a partitioned
-    Hermitian matrix", Linear Algebra and its Applications 1, 1968): what each chain's matrix has beyond the six
-    negative eigenvalues of its closure, and what is left on the motions of the platform that the control allows.
-    """
-    count = np.zeros(members.size, dtype=int)
-    if members.size == 0:
-        return count
-    for row, x, dual in zip(rows, place.coordinates, place.multipliers, strict=True):
-        part = ChainRows(row.balance, row.gap, row.matrix[members], row.order)
-        matrix = _dimensionless(place, part, x, dual)[:, row.order[:, None], row.order]
-        count += negative_pivots(matrix) - 6
-    stiffness, held = found.stiffness[members], control.held[members]
-    if not control.plain:
-        return count + _on_allowed(stiffness, found.control[members], held)
-    both = ~held[:, :, None] & ~held[:, None, :]
-    return count + negative_pivots(np.where(both, stiffness, np.eye(6)))
-
-
-def _on_allowed(stiffness: Array, control: Array, held: np.ndarray) -> np.ndarray:
-    """Negative eigenvalues (B,) of the stiffness on the motions that leave the held equations alone.
-
-    Bordered with k such equations, the stiffness has k negative eigenvalues more.
-    """
-    bordered = np.zeros((len(stiffness), 12, 12))
-    bordered[:, :6, :6] = 0.5 * (stiffness + np.swapaxes(stiffness, -1, -2))
-    rows = np.where(held[..., None], control, 0.0)
-    size = np.linalg.norm(rows, axis=-1, keepdims=True)
-    rows = rows / np.where(size > 0, size, 1.0)
-    bordered[:, 6:, :6], bordered[:, :6, 6:] = rows, np.swapaxes(rows, -1, -2)
-    bordered[:, range(6, 12), range(6, 12)] = ~held
-    return np.sum(np.linalg.eigvalsh(bordered) < 0, axis=-1) - np.sum(held, axis=-1)
-
-
-def _dimensionless(place: Layout, row: ChainRows, x: slice, dual: slice) -> Array:
-    scale = np.concatenate([place.scale[x], place.scale[dual]])
-    return row.matrix * np.outer(scale, scale / place.energy)
 
 
 def _drives(chains: tuple[ElasticChain, ...]) -> tuple[tuple[str, ...], Array, tuple[Array, ...], np.ndarray]:
@@ -331,7 +298,7 @@ def _drives(chains: tuple[ElasticChain, ...]) -> tuple[tuple[str, ...], Array, t
     names = tuple(every)
     slopes = []
     for chain in chains:
-        slope = np.zeros((len(names), chain.chain.size))
+        slope = np.zeros((len(names), chain.size))
         for drive in chain.drives:
             slope[names.index(drive.name)] += drive.slope
         slopes.append(slope)
@@ -340,14 +307,17 @@ def _drives(chains: tuple[ElasticChain, ...]) -> tuple[tuple[str, ...], Array, t
 
 
 def _coordinate_scale(chain: ElasticChain, length: float) -> Array:
-    joints = chain.chain.joints
+    joints = chain.joints
     return np.array([length if joints[k].kind == "translation" else 1.0 for k in chain.moving])
 
 
 def _translational_stiffness(chain: ElasticChain) -> float:
-    joints = chain.chain.joints
-    entries = zip(chain.virtual, np.diag(chain.stiffness), strict=True)
-    return max((float(k) for j, k in entries if joints[j].kind == "translation"), default=1.0)
+    """The largest, N/mm, with inputs at their defaults."""
+    defaults = {drive.name: np.asarray(drive.default) for drive in chain.drives}
+    entries = zip(chain.moving, np.diag(chain.linear(defaults)), strict=True)
+    joints = chain.joints
+    found = [float(k) for j, k in entries if joints[j].kind == "translation" and j in chain.virtual]
+    return max(found, default=1.0)
 
 
 def _slices(sizes: list[int]) -> tuple[slice, ...]:

@@ -1,16 +1,19 @@
-"""What the solvers need to know of a mechanism: elastic chains that meet at one platform, and its sensors."""
+"""What the solvers need to know of a mechanism: elastic chains that meet at one platform, and its sensors.
+
+A chain may have closed loops inside: further paths between bodies on it, with coordinates of their own.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import pairwise
 from typing import Protocol
 
 import numpy as np
 
-from vjm.chain import Chain, Role
+from vjm.chain import Chain, Joint, Role
 from vjm.frames import Array
 from vjm.gauges import Gauge
 from vjm.laws import Direct, Response, Spring
@@ -36,13 +39,53 @@ class Drive:
 
 
 @dataclass(frozen=True, eq=False)
+class Path:
+    """A chain and the numbers (n,) of its coordinates among those of the leg that it belongs to."""
+
+    chain: Chain
+    numbers: np.ndarray
+
+
+@dataclass(frozen=True, eq=False)
+class Loop:
+    """A closed loop: two paths from one body of a leg to another one, T_1 = T_2 of the paper."""
+
+    first: Path
+    second: Path
+
+    @property
+    def sides(self) -> tuple[tuple[Path, float], tuple[Path, float]]:
+        """Both paths with their sign in the closure g_2 - g_1 = 0."""
+        return (self.second, 1.0), (self.first, -1.0)
+
+
+@dataclass(frozen=True, eq=False)
+class Varying:
+    """A linear spring that follows an input: stiffness(value (...)) is the (..., k, k) of the k coordinates."""
+
+    coordinates: np.ndarray
+    drive: str
+    stiffness: Callable[[Array], Array]
+
+
+def joints_of(chain: Chain, loops: tuple[Loop, ...]) -> tuple[Joint, ...]:
+    """The joint of every coordinate of a chain and the second paths of its loops."""
+    every = dict(enumerate(chain.joints))
+    for loop in loops:
+        every |= dict(zip(loop.second.numbers.tolist(), loop.second.chain.joints, strict=True))
+    return tuple(every[k] for k in range(len(every)))
+
+
+@dataclass(frozen=True, eq=False)
 class ElasticChain:
-    """A chain with its springs.
+    """A chain with its springs, from the base to the platform: the leg of a mechanism.
 
     stiffness: (v, v) of the v virtual coordinates together, N, mm, rad; may couple them.
-    rest: (n,) coordinates of the unloaded chain, where the springs carry nothing.
+    rest: (n,) coordinates of the unloaded leg, where the springs carry nothing.
     springs: further laws on groups of coordinates, added to the linear part.
     loads: dead loads along the chain. drives: inputs that move the rest values.
+    loops: closed loops inside, whose second paths have the coordinates that follow those of the chain.
+    varying: linear springs that follow an input, beside `stiffness`. name: for messages.
     """
 
     chain: Chain
@@ -51,9 +94,12 @@ class ElasticChain:
     springs: tuple[Spring, ...] = ()
     loads: tuple[DeadLoads, ...] = ()
     drives: tuple[Drive, ...] = ()
+    loops: tuple[Loop, ...] = ()
+    varying: tuple[Varying, ...] = ()
+    name: str = ""
 
     def __post_init__(self) -> None:
-        v, n = self.virtual.size, self.chain.size
+        v, n = self.virtual.size, self.size
         if self.stiffness.shape != (v, v):
             raise ValueError(f"{v} virtual coordinates need a {v}x{v} stiffness, got {self.stiffness.shape}")
         if self.rest.shape != (n,):
@@ -63,32 +109,98 @@ class ElasticChain:
                 raise ValueError(f"a spring acts on moving coordinates only, got {spring.coordinates}")
 
     @cached_property
+    def joints(self) -> tuple[Joint, ...]:
+        """The joint of every coordinate, which stands for its kind and role."""
+        return joints_of(self.chain, self.loops)
+
+    @property
+    def size(self) -> int:
+        """Number of coordinates n, those of the loops included."""
+        return len(self.joints)
+
+    @property
+    def closures(self) -> int:
+        """Number of scalar closure equations: six at the platform and six of each loop."""
+        return 6 + 6 * len(self.loops)
+
+    @cached_property
     def virtual(self) -> np.ndarray:
         """Numbers of the virtual coordinates theta."""
-        return self.chain.indices(Role.VIRTUAL)
+        return self._numbers(Role.VIRTUAL)
 
     @cached_property
     def passive(self) -> np.ndarray:
         """Numbers of the passive coordinates q."""
-        return self.chain.indices(Role.PASSIVE)
+        return self._numbers(Role.PASSIVE)
 
     @cached_property
     def moving(self) -> np.ndarray:
         """Numbers of the coordinates that equilibrium decides: passive and virtual, in chain order."""
-        return self.chain.indices(Role.PASSIVE, Role.VIRTUAL)
+        return self._numbers(Role.PASSIVE, Role.VIRTUAL)
+
+    def _numbers(self, *roles: Role) -> np.ndarray:
+        return np.array([k for k, joint in enumerate(self.joints) if joint.role in roles], dtype=int)
+
+    @cached_property
+    def main(self) -> Path:
+        """The chain with the numbers of its coordinates, which come first."""
+        return Path(self.chain, np.arange(self.chain.size))
 
     @cached_property
     def elimination_order(self) -> np.ndarray:
-        """Numbers of virtual coordinates, multiplier and passive ones among moving coordinates and multiplier."""
+        """Numbers of virtual coordinates, multipliers and passive ones among moving coordinates and multipliers."""
         m = self.moving.size
         place = {int(number): k for k, number in enumerate(self.moving)}
         virtual, passive = ([place[int(k)] for k in numbers] for numbers in (self.virtual, self.passive))
-        return np.array([*virtual, *range(m, m + 6), *passive], dtype=int)
+        return np.array([*virtual, *range(m, m + self.closures), *passive], dtype=int)
+
+    def at_inputs(self, values: Mapping[str, float]) -> ElasticChain:
+        """The same leg with other defaults of these inputs: it is at rest there."""
+        moved = [drive for drive in self.drives if drive.name in values]
+        rest = sum(((values[d.name] - d.default) * d.slope for d in moved), start=self.rest)
+        drives = [replace(d, default=float(values.get(d.name, d.default))) for d in self.drives]
+        return replace(self, rest=rest, drives=tuple(drives))
+
+    @cached_property
+    def rigid(self) -> bool:
+        """Whether no motion of its joints and springs reaches some closure of it, at rest: a direction of its end in
+        which it is rigid."""
+        return self._rank(self.moving) < self.closures
+
+    @cached_property
+    def sprung(self) -> bool:
+        """Whether its springs alone reach all its closures, at rest, so that no joint has to."""
+        return self._rank(self.virtual) == self.closures
+
+    def _rank(self, numbers: np.ndarray) -> int:
+        """Of its closures by these coordinates."""
+        length = max(float(np.max(np.abs(self.rest), initial=0.0)), self._reach, 1e-300)
+        jacobian = (
+            self.closure_jacobian(self.rest)
+            / np.tile(np.repeat([length, 1.0], 3), self.closures // 6)[:, None]
+        )
+        size = np.array([length if joint.kind == "translation" else 1.0 for joint in self.joints])
+        return rank((jacobian * size)[:, numbers])
+
+    @property
+    def _reach(self) -> float:
+        """How far from the base it gets on its way, mm."""
+        return float(np.linalg.norm(self.chain.pose(self.rest[: self.chain.size])[:3]))
+
+    def closure_jacobian(self, coordinates: Array) -> Array:
+        """(c, n) of the closures at coordinates (n,): the end of the chain, then g_2 - g_1 of each loop."""
+        out = np.zeros((self.closures, self.size))
+        out[:6, self.main.numbers] = self.chain.jacobian(coordinates[self.main.numbers])
+        for number, loop in enumerate(self.loops):
+            for path, sign in loop.sides:
+                rows = slice(6 * number + 6, 6 * number + 12)
+                out[rows, path.numbers] += sign * path.chain.jacobian(coordinates[path.numbers])
+        return out
 
     @cached_property
     def full_stiffness(self) -> Array:
         """(m, m) linear stiffness of the moving coordinates, zero for the passive ones."""
-        full = np.zeros((self.chain.size, self.chain.size))
+        full = np.zeros((self.size, self.size))
         full[np.ix_(self.virtual, self.virtual)] = self.stiffness
         return full[np.ix_(self.moving, self.moving)]
 
@@ -97,13 +209,28 @@ class ElasticChain:
         """(M,) memory of all laws before any load."""
         return np.concatenate([np.zeros(0), *[s.law.initial_memory for s in self.springs]])
 
-    def respond(self, strain: Array, memory: Array) -> Response:
-        """Linear part and laws together at the strain (..., m) of the moving coordinates."""
-        force = strain @ self.full_stiffness
+    def linear(self, inputs: Mapping[str, Array]) -> Array:
+        """(m, m) or (..., m, m) linear stiffness of the moving coordinates at the inputs (...)."""
+        if not self.varying:
+            return self.full_stiffness
+        batch = np.broadcast_shapes(*(np.shape(inputs[v.drive]) for v in self.varying))
+        full = np.broadcast_to(self.full_stiffness, (*batch, *self.full_stiffness.shape)).copy()
+        for each in self.varying:
+            at = np.searchsorted(self.moving, each.coordinates)
+            full[..., at[:, None], at] += each.stiffness(np.asarray(inputs[each.drive]))
+        return full
+
+    def respond(self, strain: Array, memory: Array, linear: Array | None = None) -> Response:
+        """Linear part and laws together at the strain (..., m) of the moving coordinates.
+
+        linear: of `linear`, default the stiffness that does not follow an input.
+        """
+        stiffness = self.full_stiffness if linear is None else linear
+        force = _along(stiffness, strain)
         energy = 0.5 * np.sum(strain * force, axis=-1)
         if not self.springs:
-            return Response(energy, force, self.full_stiffness, memory)
-        tangent = np.broadcast_to(self.full_stiffness, (*strain.shape, self.moving.size)).copy()
+            return Response(energy, force, stiffness, memory)
+        tangent = np.broadcast_to(stiffness, (*strain.shape, self.moving.size)).copy()
         remembered = []
         for spring, numbers, part in zip(self.springs, self._groups, self._memories, strict=True):
             answer = spring.law.respond(strain[..., numbers], memory[..., part])
@@ -114,9 +241,9 @@ class ElasticChain:
             remembered.append(answer.memory)
         return Response(energy, force, tangent, np.concatenate(remembered, axis=-1))
 
-    def force(self, strain: Array, memory: Array) -> Array:
+    def force(self, strain: Array, memory: Array, linear: Array | None = None) -> Array:
         """(..., m) as in `respond`; laws that can do so leave out their tangent."""
-        force = strain @ self.full_stiffness
+        force = _along(self.full_stiffness if linear is None else linear, strain)
         for spring, numbers, part in zip(self.springs, self._groups, self._memories, strict=True):
             own, past = strain[..., numbers], memory[..., part]
             law = spring.law
@@ -171,6 +298,25 @@ class Mechanism(Protocol):
 
     @property
     def gauges(self) -> tuple[Gauge, ...]: ...
+
+
+RANK = 1e-9
+"""Singular value, over the largest, below which a direction counts as missing."""
+
+
+def rank(matrix: Array) -> int:
+    """Number of singular values of a dimensionless matrix (m, n) that are not zero to rounding."""
+    if not matrix.size:
+        return 0
+    values = np.linalg.svd(matrix, compute_uv=False)
+    return int(np.sum(values > RANK * values[0]))
+
+
+def _along(stiffness: Array, strain: Array) -> Array:
+    """Forces (..., m) of a symmetric stiffness (m, m) or (..., m, m)."""
+    if stiffness.ndim == 2:
+        return np.asarray(strain @ stiffness)
+    return np.asarray((stiffness @ strain[..., None])[..., 0])
 
 
 def _followed(numbers: np.ndarray) -> np.ndarray | slice:

@@ -8,7 +8,7 @@ from functools import cached_property
 
 import numpy as np
 
-from vjm import lagrangian
+from vjm import blocks, lagrangian
 from vjm.clearance import Clearance
 from vjm.frames import POSE_NAMES, Array
 from vjm.lagrangian import ChainRows
@@ -101,8 +101,8 @@ class Problem:
         rows = part.residual(chains, seen)
 
         def step(done: np.ndarray) -> tuple[Array, np.ndarray, np.ndarray]:
-            found = lagrangian.newton_step(self.place, chains, -rows[..., None], control)
-            unstable = lagrangian.unstable_directions(self.place, chains, found, control, done)
+            found = blocks.newton_step(self.mechanism, chains, -rows[..., None], control)
+            unstable = blocks.unstable_directions(self.mechanism, chains, found, control, done)
             return found.step[..., 0], found.regular, unstable
 
         return rows, step

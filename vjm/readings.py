@@ -8,9 +8,9 @@ from functools import cached_property
 import numpy as np
 
 from vjm import lagrangian
+from vjm.blocks import Control
 from vjm.frames import Array
 from vjm.gauges import Gauge
-from vjm.lagrangian import Control
 from vjm.mechanism import Mechanism
 from vjm.sensors import Channels, through
 

@@ -15,7 +15,7 @@ from typing import TypeVar
 import numpy as np
 from numpy.typing import ArrayLike
 
-from vjm import lagrangian
+from vjm import blocks, lagrangian
 from vjm.equilibrium import Equilibrium
 from vjm.frames import Array
 from vjm.mechanism import Mechanism
@@ -205,7 +205,7 @@ def _solve(state: Equilibrium, right: Array) -> tuple[Array, np.ndarray]:
     chains = lagrangian.all_rows(state.mechanism, flat.unknowns, flat.memory, flat.drives)
     control = flat.seen.control(flat.channels)
     sides = right.reshape(len(flat.unknowns), place.size, right.shape[-1])
-    found = lagrangian.newton_step(place, chains, sides, control)
+    found = blocks.newton_step(state.mechanism, chains, sides, control)
     unknowns = (found.step * place.scale[:, None]).reshape(right.shape)
     return unknowns, found.regular.reshape(state.converged.shape)
 

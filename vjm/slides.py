@@ -39,17 +39,22 @@ def with_slides(state: Equilibrium, mechanism: Mechanism) -> Equilibrium:
     unknowns[..., new.platform] = state.unknowns[..., old.platform]
     rest = lagrangian.rest(mechanism, state.drives)
     for k, chain in enumerate(mechanism.chains):
-        multiplier = state.unknowns[..., old.multipliers[k]]
+        multiplier = state.unknowns[..., old.closing[k]]
         others = _others(state.mechanism.chains[k], before[k])
         moving = np.zeros((*state.converged.shape, chain.moving.size))
         moving[..., _others(chain, after[k])] = state.unknowns[..., old.coordinates[k]][..., others]
-        jacobian = chain.chain.jacobian(lagrangian.chain_coordinates(chain, moving, rest[k]))
+        coordinates = lagrangian.chain_coordinates(chain, moving, rest[k])
+        force = lagrangian.closing_force(chain, coordinates, multiplier)
         for number, at in zip(after[k], np.searchsorted(chain.moving, after[k]), strict=True):
-            force = np.einsum("...j,...j->...", jacobian[..., number], multiplier)
-            moving[..., at] = _law(chain, number).give(force)
+            moving[..., at] = _law(chain, number).give(force[..., at])
         unknowns[..., new.coordinates[k]] = moving
-        unknowns[..., new.multipliers[k]] = multiplier
+        unknowns[..., new.closing[k]] = multiplier
     return replace(state, mechanism=mechanism, unknowns=unknowns)
+
+
+def slides(mechanism: Mechanism) -> bool:
+    """Whether any of its bars slides in a hinge."""
+    return any(_slides(chain) for chain in mechanism.chains)
 
 
 def _slides(chain: ElasticChain) -> list[int]:

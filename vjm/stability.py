@@ -40,20 +40,23 @@ def bordered_tangent(state: Equilibrium, held: Held) -> Array:
 
     held: the platform coordinates that do not move, x included if it is driven. Closures stand last.
     """
+    free = _free(lagrangian.layout(state.mechanism), held)
+    return scaled_hessian(state)[..., free[:, None], free]
+
+
+def scaled_hessian(state: Equilibrium) -> Array:
+    """Symmetric dimensionless Hessian (..., N, N) of the Lagrange function by all unknowns."""
     place = lagrangian.layout(state.mechanism)
-    hessian = lagrangian.hessian(
-        place, lagrangian.all_rows(state.mechanism, state.unknowns, state.memory, state.drives)
-    )
-    free = _free(place, held)
-    scaled = place.scale[:, None] * hessian * place.scale / place.energy
-    return scaled[..., free[:, None], free]
+    rows = lagrangian.all_rows(state.mechanism, state.unknowns, state.memory, state.drives)
+    return place.scale[:, None] * lagrangian.hessian(place, rows) * place.scale / place.energy
 
 
 def negative_eigenvalues(state: Equilibrium, held: Held) -> np.ndarray:
     """Number (...) of unstable directions: negatives of the bordered tangent less those the closures bring.
 
-    Each chain closes with six equations t = g_i whose gradients are independent (six springs reach every
-    motion of its end), so the closures bring exactly six negatives per chain: twelve for a parallelogram.
+    Each chain closes with six equations t = g_i, and six for each loop inside it, whose gradients are independent
+    (springs, or motions of the platform, reach every one), so that they bring exactly as many negatives: twelve for a
+    parallelogram of two chains.
     Held coordinates are left out and bring none.
     """
     values = np.linalg.eigvalsh(bordered_tangent(state, held))

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike
 
-from vjm import lagrangian
+from vjm import blocks, lagrangian
 from vjm.equilibrium import Equilibrium, unloaded
 from vjm.frames import Array, rotate_stiffness, rotation_y
 from vjm.mechanism import ElasticChain, Mechanism
@@ -74,14 +74,18 @@ def chain_stiffness(
 
 
 def stiffness_by_chain(state: Equilibrium) -> Array:
-    """K_ci (..., chains, 6, 6) at an equilibrium, base frame, conjugate to the rotation vector."""
-    parts = zip(
-        state.mechanism.chains,
-        state.coordinates,
-        np.moveaxis(state.multipliers, -2, 0),
-        lagrangian.layout(state.mechanism).memories,
-        strict=True,
-    )
+    """K_ci (..., chains, 6, 6) at an equilibrium, base frame, conjugate to the rotation vector.
+
+    numpy.linalg.LinAlgError where a chain has none: it is rigid in some direction, or critical.
+    """
+    place, chains = lagrangian.layout(state.mechanism), state.mechanism.chains
+    if any(chain.loops or chain.varying for chain in chains):
+        flat = state.reshaped(state.converged.size)
+        rows = lagrangian.all_rows(state.mechanism, flat.unknowns, flat.memory, flat.drives)
+        found = blocks.chain_stiffnesses(state.mechanism, rows)
+        return found.reshape(*state.converged.shape, *found.shape[1:])
+    loads = np.moveaxis(state.multipliers, -2, 0)
+    parts = zip(chains, state.coordinates, loads, place.memories, strict=True)
     return np.stack(
         [chain_stiffness(chain, x, dual, state.memory[..., past]) for chain, x, dual, past in parts], axis=-3
     )
@@ -91,8 +95,34 @@ def loaded_stiffness(state: Equilibrium, q: float = 0.0) -> Array:
     """K_c (..., 6, 6), the sum over the chains at an equilibrium, conjugate to the rotation vector.
 
     q: angle of the bar frame in which the matrix is written; 0 is the base frame.
+    numpy.linalg.LinAlgError in a critical state with the platform held.
     """
+    if any(chain.rigid for chain in state.mechanism.chains):
+        return in_bar_frame(_of_the_whole(state), q)
     return in_bar_frame(np.sum(stiffness_by_chain(state), axis=-3), q)
+
+
+def _of_the_whole(state: Equilibrium) -> Array:
+    """(..., 6, 6) with all unknowns but the pose eliminated together, as no chain has a stiffness of its own."""
+    place = lagrangian.layout(state.mechanism)
+    rows = lagrangian.all_rows(state.mechanism, state.unknowns, state.memory, state.drives)
+    scaled = place.scale[:, None] * lagrangian.hessian(place, rows) * place.scale / place.energy
+    pose = np.arange(place.size)[place.platform]
+    inner = np.setdiff1d(np.arange(place.size), pose)
+    mixed = scaled[..., inner[:, None], pose]
+    # L is stationary in all but the pose, so its second derivative along the pose is the Schur complement.
+    k = -_transpose(mixed) @ np.linalg.solve(scaled[..., inner[:, None], inner], mixed)
+    k = k * place.load_scale[:, None] / place.pose_scale
+    return np.asarray(0.5 * (k + _transpose(k)))
+
+
+def read_stiffness(state: Equilibrium) -> Array:
+    """(..., 6, 6) change of the load read with the pose read: `loaded_stiffness` seen through the sensors."""
+    slope, k = state.seen.channels.slope, loaded_stiffness(state)
+    pose = slope[..., :6, :6] + slope[..., :6, 6:] @ k
+    load = slope[..., 6:, :6] + slope[..., 6:, 6:] @ k
+    # load x pose^-1, from the right.
+    return np.asarray(np.swapaxes(np.linalg.solve(_transpose(pose), _transpose(load)), -1, -2))
 
 
 def unloaded_stiffness(mechanism: Mechanism, q: float = 0.0) -> Array:

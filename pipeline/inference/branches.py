@@ -14,9 +14,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pipeline.inference.program import LOST, Group, Program
+from pipeline.inference.rigs import Solvable
 from vjm import lagrangian
 from vjm.bent import along, leave, neutral_is_stable
-from vjm.effects.base import Rig
 from vjm.equilibrium import Equilibrium, drive_values, unloaded
 from vjm.mechanism import Mechanism
 from vjm.reasons import Reason
@@ -76,7 +76,7 @@ def driven(group: Group) -> Mask:
 
 
 def branched(
-    mechanism: Rig,
+    mechanism: Solvable,
     group: Group,
     sight: Sight,
     inputs: dict[str, Array],
@@ -107,7 +107,7 @@ def branched(
 
 
 def _of_test(
-    mechanism: Rig, group: Group, sight: Sight, drives: Array, rows: tuple[NDArray[np.int64], ...]
+    mechanism: Solvable, group: Group, sight: Sight, drives: Array, rows: tuple[NDArray[np.int64], ...]
 ) -> Equilibrium | None:
     """States (N,) of the lost rows of one test on the side that its readings choose; None where no branch is found."""
     targets, channels, inputs = group.targets[rows], group.channels[rows[0]], drives[rows]

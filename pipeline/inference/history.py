@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pipeline.inference.program import Group
-from vjm.effects.base import Rig
+from pipeline.inference.rigs import Solvable
 from vjm.equilibrium import Equilibrium, equilibrium, nearby
 from vjm.mechanism import initial_memory
 from vjm.reasons import Reason
@@ -24,7 +24,7 @@ SAME = 1e-10
 
 
 def history(
-    mechanism: Rig, group: Group, inputs: Mapping[str, Array], start: Equilibrium | None
+    mechanism: Solvable, group: Group, inputs: Mapping[str, Array], start: Equilibrium | None
 ) -> Equilibrium:
     """States (T, S), each with the memory that the one before it leaves.
 
@@ -56,7 +56,7 @@ def history(
 
 
 def _kept(
-    mechanism: Rig,
+    mechanism: Solvable,
     group: Group,
     inputs: Mapping[str, Array],
     state: Equilibrium,
@@ -78,7 +78,7 @@ def _kept(
 
 
 def _all_at_once(
-    mechanism: Rig, group: Group, inputs: Mapping[str, Array], start: Equilibrium | None
+    mechanism: Solvable, group: Group, inputs: Mapping[str, Array], start: Equilibrium | None
 ) -> tuple[Equilibrium, NDArray[np.int64]]:
     """States (T, S), and how many of the first steps of each test (T,) are the ones looked for.
 
@@ -122,7 +122,7 @@ def _handed_on(state: Equilibrium, memory: Array, new: NDArray[np.bool_]) -> tup
 
 
 def _solved(
-    mechanism: Rig,
+    mechanism: Solvable,
     group: Group,
     inputs: Mapping[str, Array],
     start: Equilibrium | None,
@@ -138,7 +138,7 @@ def _solved(
 
 
 def _next(
-    mechanism: Rig,
+    mechanism: Solvable,
     group: Group,
     inputs: Mapping[str, Array],
     tests: NDArray[np.int64],

@@ -22,7 +22,6 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.stats import chi2
 
-from pipeline.inference.manipulator_states import States
 from pipeline.inference.model import Model
 from pipeline.inference.parts import ARRAYS, states_at, states_with
 from pipeline.inference.prediction import Prediction, predict
@@ -129,14 +128,11 @@ def kinked(model: Model) -> bool:
 def begun(model: Model, cases: Program, start: Prediction | None) -> Array | None:
     """Shift (R, 7) at which a fit from a start is first linearised: that of the start, none where laws begin to
     remember. There the inputs of the start have taken up what the laws will explain, such as a loop, each a little, and
-    what is remembered follows them: the fit would end near them. States of a manipulator do not say what is remembered:
-    with such laws it begins at the measured ones.
+    what is remembered follows them: the fit would end near them.
     """
     if start is None:
         return None
     if remembering(model):
-        if any(isinstance(state, States) for state in start.states):
-            return None
         own = [model.mechanism(group.rig, cases.campaign.gauges) for group in cases.groups]
         pairs = zip(own, start.states, strict=True)
         if any(initial_memory(rig).size != state.memory.shape[-1] for rig, state in pairs):

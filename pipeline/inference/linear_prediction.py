@@ -44,7 +44,7 @@ def _group(program: Program, group: Group) -> tuple[np.ndarray, np.ndarray, np.n
     """Readings (T, S, C), tangents (T, C, 6) and why there is none (T,)."""
     mechanism = Model().mechanism(group.rig, program.campaign.gauges)
     if program.campaign.gauges:
-        mechanism = mechanism.refined()
+        mechanism = mechanism.changed(mechanism.view.refined())
     nominal = group.nominal[:, 0]
     free = np.where(group.channels < 6, nominal, 0.0)
     drives = {"q": group.q} if "q" in layout(mechanism).drives else {}

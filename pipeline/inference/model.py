@@ -4,17 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field, fields, replace
-from functools import reduce
 
 import numpy as np
 from numpy.typing import NDArray
 
 from pipeline.campaign import Gauge
 from pipeline.campaign import Rig as Described
-from pipeline.inference.rigs import mechanism_of
+from pipeline.inference.rigs import Solvable, mechanism_of
 from pipeline.parameter_names import path_of
 from vjm.effects import shipped
-from vjm.effects.base import Effect, Parameter, Rig
+from vjm.effects.base import Effect, Parameter
+from vjm.manipulator.parts import Manipulator
 
 Array = NDArray[np.float64]
 START = 3e-3
@@ -113,7 +113,7 @@ class Model:
         """The model without one of its effects."""
         return replace(self, terms=tuple(term for term in self.terms if term.effect.name != name))
 
-    def mechanism(self, rig: Described, gauges: tuple[Gauge, ...]) -> Rig:
+    def mechanism(self, rig: Described, gauges: tuple[Gauge, ...]) -> Solvable:
         """The mechanism of a rig. ValueError for an effect that this rig cannot have."""
         return self._built(self.terms, mechanism_of(rig, gauges))
 
@@ -132,8 +132,10 @@ class Model:
         return _in_sensors_alone(*(self._built((term,), before) for term in (own, other)))
 
     @staticmethod
-    def _built(terms: tuple[Term, ...], rig: Rig) -> Rig:
-        return reduce(lambda it, term: term.effect.apply(it, term.values), terms, rig)
+    def _built(terms: tuple[Term, ...], it: Solvable) -> Solvable:
+        for term in terms:
+            it = term.effect.apply(it, term.values)
+        return it
 
 
 def at_bound(model: Model) -> tuple[str, ...]:
@@ -155,13 +157,15 @@ def _beside_null(each: Free) -> float:
     return float(np.clip(p.null + START * p.typical, *each.bounds))
 
 
-def _in_sensors_alone(one: Rig, other: Rig) -> bool:
+def _in_sensors_alone(one: object, other: object) -> bool:
     """Whether two mechanisms differ at most in their sensors. What cannot be told to be the same is not."""
-    names = (each.name for each in fields(one) if each.name != "sensors")
+    names = [each.name for each in fields(one) if each.name != "sensors"]  # type: ignore[arg-type]
     return type(one) is type(other) and all(_same(getattr(one, n), getattr(other, n)) for n in names)
 
 
 def _same(one: object, other: object) -> bool:
     if isinstance(one, np.ndarray) and isinstance(other, np.ndarray):
         return np.array_equal(one, other)
+    if isinstance(one, Manipulator) and isinstance(other, Manipulator):
+        return _in_sensors_alone(one, other)
     return one is other

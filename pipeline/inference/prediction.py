@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import cache
-from typing import Any, cast
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,12 +13,11 @@ from numpy.typing import NDArray
 from pipeline.campaign.names import COORDINATES
 from pipeline.inference.branches import Sight, branched
 from pipeline.inference.history import history
-from pipeline.inference.manipulator_prediction import predict_manipulator
-from pipeline.inference.manipulator_states import States
 from pipeline.inference.model import Model
 from pipeline.inference.program import INPUTS, Group, Program
+from pipeline.inference.rigs import Solvable
 from vjm.effects.bar_initial_bow import BarInitialBow
-from vjm.effects.base import Rig, for_bars
+from vjm.effects.base import for_bars
 from vjm.effects.thermal_expansion import DRIVE
 from vjm.equilibrium import Equilibrium, drive_values, equilibrium
 from vjm.history import by_history
@@ -36,7 +35,7 @@ from vjm.sensitivity import (
     by_parameters,
     differences,
 )
-from vjm.slides import with_slides
+from vjm.slides import slides, with_slides
 from vjm.stops import pressed, slid
 
 Array = NDArray[np.float64]
@@ -187,29 +186,23 @@ def _group(
     held: bool,
     bent: bool,
 ) -> _Part:
-    if group.rig.manipulator is not None:
-        # Its states have what is asked of those of a bench: unknowns, whether they converged and are stable.
-        whole = predict_manipulator(model, group, slopes, cast(States | None, start))
-        real, state = group.real, cast(Equilibrium, whole.state)
-        read = whole.values[real], whole.by_inputs[real], whole.by_free[real]
-        return _Part(*read, state, whole.stops[real], whole.slides[real])
     mechanism, rows = model.mechanism(group.rig, program.campaign.gauges), program.rows_of(group)
     if held or not initial_memory(mechanism).size:
         # Filling would be solved for nothing; it gets the state that it repeats.
         alone = group.by_steps
         begin = None if start is None else start.member(np.nonzero(group.real)).reshaped(len(alone.q), 1)
-        part = _of_bench(model, program, alone, rows[:, None], mechanism, slopes, begin, order, held, bent)
+        part = _solved(model, program, alone, rows[:, None], mechanism, slopes, begin, order, held, bent)
         state = part.state.member((group.places, np.zeros_like(group.places)))
         return replace(part, state=state)
-    return _of_bench(model, program, group, rows[group.places], mechanism, slopes, start, order, held, bent)
+    return _solved(model, program, group, rows[group.places], mechanism, slopes, start, order, held, bent)
 
 
-def _of_bench(
+def _solved(
     model: Model,
     program: Program,
     group: Group,
     rows: NDArray[np.int64],
-    mechanism: Rig,
+    mechanism: Solvable,
     slopes: bool,
     start: Equilibrium | None,
     order: int,
@@ -281,7 +274,7 @@ def _inputs(slopes: Array, heated: bool) -> Array:
     return np.concatenate([slopes[..., :6], warm], axis=-1)
 
 
-def _branched(mechanism: Rig, group: Group, inputs: dict[str, Array], state: Equilibrium) -> Equilibrium:
+def _branched(mechanism: Solvable, group: Group, inputs: dict[str, Array], state: Equilibrium) -> Equilibrium:
     """Rows that a gauge drives and that were lost, once more from bowed bars: straight ones bend only past a
     bifurcation, and from rest no load moves the gauge."""
     lost = ~state.converged | (state.unstable > 0)
@@ -301,7 +294,7 @@ def _branched(mechanism: Rig, group: Group, inputs: dict[str, Array], state: Equ
 
 
 def _begin(
-    mechanism: Rig, group: Group, inputs: dict[str, Array], start: Equilibrium | None
+    mechanism: Solvable, group: Group, inputs: dict[str, Array], start: Equilibrium | None
 ) -> Equilibrium | None:
     """Where to begin: at the start where it fits; with slides, where the linkage without them would be."""
     if start is not None and layout(start.mechanism).drives != layout(mechanism).drives:
@@ -311,12 +304,12 @@ def _begin(
     if start is not None and not remembers:
         # A model that remembers nothing may follow one that does.
         start = replace(start, memory=start.memory[..., :0])
-    sliding = any(link.slides for link in mechanism.links) and not remembers
+    sliding = slides(mechanism) and not remembers
     if start is not None and start.unknowns.shape[-1] == layout(mechanism).size:
         return with_slides(start, mechanism) if sliding else replace(start, mechanism=mechanism)
     if not sliding:
         return None
-    bare = for_bars(mechanism, lambda link: replace(link, slides=()))
+    bare = mechanism.changed(for_bars(mechanism.view, lambda link: replace(link, slides=())))
     fits = start is not None and start.unknowns.shape[-1] == layout(bare).size
     tight = replace(start, mechanism=bare) if start is not None and fits else None
     state = equilibrium(bare, group.targets, group.channels[:, None], tight, drives=inputs)
@@ -343,7 +336,7 @@ def _direction(model: Model, number: int, group: Group, program: Program) -> Dir
     gauges = program.campaign.gauges
 
     @cache
-    def moved(other: float) -> Rig:
+    def moved(other: float) -> Solvable:
         values = model.values
         values[number] = other
         return model.at(values).mechanism(group.rig, gauges)

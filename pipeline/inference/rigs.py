@@ -11,26 +11,28 @@ from pipeline.campaign import Gauge
 from pipeline.campaign import Rig as Described
 from vjm.effects.base import Rig
 from vjm.effects.sized import Scale, scale_of
-from vjm.manipulator.effects import Surroundings, bench, like_bench
-from vjm.manipulator.parts import Manipulator
+from vjm.manipulator.effects import Surroundings
+from vjm.manipulator.machine import machine
+from vjm.manipulator.posed import Posed
+from vjm.manipulator.posture import Postures, postures
 from vjm.mechanisms.assembly import GaugeAt
 from vjm.mechanisms.bar import Bar
 from vjm.mechanisms.parallelogram import Parallelogram
 from vjm.sensors import DeadWeight, Sensor, TrueMoment
 
+Solvable = Rig | Posed
+"""A mechanism that effects can change."""
 
-def mechanism_of(rig: Described, gauges: tuple[Gauge, ...]) -> Rig:
-    """The plain mechanism: lumped springs (Eq. 1), known weights, sensors that read true moments.
 
-    Of a manipulator one of its parallelograms, for effects to act on: `manipulator_of` puts them into all of it.
-    """
+def mechanism_of(rig: Described, gauges: tuple[Gauge, ...]) -> Solvable:
+    """The plain mechanism: lumped springs (Eq. 1), known weights, sensors that read true moments."""
     sensors: tuple[Sensor, ...] = (TrueMoment(),)
     down = rig.down
     if down is not None and rig.platform_weight:
         sensors = (*sensors, DeadWeight(rig.platform_weight * down))
     if rig.manipulator is not None:
         down = rig.manipulator.gravity if down is None else down
-        return bench(replace(rig.manipulator, sensors=sensors, gravity=down))
+        return Posed(replace(rig.manipulator, sensors=sensors, gravity=down), _posture(rig))
     places = tuple(GaugeAt(g.bar, g.station, g.vector, g.offset) for g in gauges)
     it: Rig
     if rig.kind == "parallelogram":
@@ -44,20 +46,25 @@ def mechanism_of(rig: Described, gauges: tuple[Gauge, ...]) -> Rig:
     return replace(it, gravity=down, line_load=rig.line_weight * down)
 
 
+@lru_cache(maxsize=256)
+def _posture(rig: Described) -> Postures:
+    """Where the joints of a manipulator stand: at the point of the rig, or at home."""
+    assert rig.manipulator is not None
+    if rig.point is not None:
+        return postures(rig.manipulator, np.array(rig.point, dtype=float))
+    pose = machine(rig.manipulator).unloaded_pose
+    home = tuple(leg.home for leg in rig.manipulator.legs)
+    return Postures(pose, home, np.array(True), np.array("", dtype=object))
+
+
 @lru_cache(maxsize=64)
 def scale_of_rig(rig: Described) -> Scale:
     """By what typical sizes of effects differ from those of the catalogue; a machine without bars has no measure."""
-    whole = mechanism_of(rig, ())
-    if isinstance(whole, Surroundings):
+    view = mechanism_of(rig, ()).view
+    if isinstance(view, Surroundings):
         return Scale()
-    first = whole.links[0]
+    first = view.links[0]
     return scale_of(first.length, first.stiffness)
-
-
-def manipulator_of(rig: Described, changed: Rig) -> Manipulator:
-    """The whole manipulator with what effects have made of its `mechanism_of`."""
-    assert rig.manipulator is not None and isinstance(changed, Parallelogram)
-    return like_bench(rig.manipulator, changed)
 
 
 def nominal_pose(rig: Described, q: np.ndarray) -> np.ndarray:

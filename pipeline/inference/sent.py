@@ -5,13 +5,11 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 from functools import partial
-from typing import cast
 
 import numpy as np
 from numpy.typing import NDArray
 
 from pipeline.inference.fit import Fit
-from pipeline.inference.manipulator_states import States
 from pipeline.inference.model import Model
 from pipeline.inference.prediction import Prediction
 from pipeline.inference.program import Group, Program
@@ -19,7 +17,7 @@ from pipeline.inference.residual import residual
 from pipeline.processors import at_once
 from vjm.equilibrium import Equilibrium
 
-Bare = States | list[np.ndarray]
+Bare = list[np.ndarray]
 """A state without its mechanism: what laws of a user's own are made of may not be sent."""
 Numbers = tuple[NDArray[np.float64], Prediction, list[Bare], int, bool]
 
@@ -32,11 +30,7 @@ def fits_at_once(calls: Sequence[tuple[Model, Callable[[], Fit]]], program: Prog
 
 def _numbers(call: Callable[[], Fit]) -> Numbers:
     found = call()
-    # Of a manipulator they are `States`.
-    bare = [
-        s if isinstance(s, States) else s.arrays
-        for s in cast(list[Equilibrium | States], found.prediction.states)
-    ]
+    bare = [state.arrays for state in found.prediction.states]
     return found.model.values, replace(found.prediction, states=()), bare, found.evaluations, found.ended
 
 
@@ -49,6 +43,4 @@ def _fit(model: Model, numbers: Numbers, program: Program) -> Fit:
 
 
 def _state(model: Model, program: Program, group: Group, bare: Bare) -> Equilibrium:
-    if isinstance(bare, States):
-        return cast(Equilibrium, bare)
     return Equilibrium(model.mechanism(group.rig, program.campaign.gauges), *bare)

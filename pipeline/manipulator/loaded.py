@@ -5,13 +5,15 @@ from dataclasses import replace
 import numpy as np
 
 from pipeline.manipulator.question import Array, Question
-from vjm.manipulator.assembled import relaxed, settled
-from vjm.manipulator.equilibrium import Loaded, equilibrium, read_stiffness, unstable_directions
-from vjm.manipulator.lagrangian import System, system
+from vjm.equilibrium import Drives, Equilibrium, equilibrium
+from vjm.lagrangian import layout
+from vjm.manipulator.assembled import settled
+from vjm.manipulator.machine import Machine, known_inputs, machine, posture_inputs
 from vjm.manipulator.measures import principal, rotational, translational
 from vjm.manipulator.parts import Manipulator
 from vjm.manipulator.posture import Postures
 from vjm.sensors import TrueMoment
+from vjm.stiffness import read_stiffness
 
 SPACE = 2e7
 """Bytes of one set of Hessians; a solution holds some ten of them."""
@@ -28,9 +30,7 @@ def loaded_columns(manipulator: Manipulator, question: Question, at: Postures) -
     at: postures (B,) that are reached and have a stiffness. Zeros where not.
     """
     drawn = with_true_moments(manipulator)
-    size = system(drawn, at.take(slice(0, 1))).size
-    if question.changed is not None:
-        size = max(size, system(question.changed, at.take(slice(0, 1))).size)
+    size = max(layout(machine(it)).size for it in (drawn, question.changed) if it is not None)
     block = max(1, int(SPACE / (8 * size**2)))
     parts = [_block(drawn, question, at.take(slice(k, k + block))) for k in range(0, len(at.pose), block)]
     return np.concatenate([values for values, _ in parts]), np.concatenate([good for _, good in parts])
@@ -38,12 +38,13 @@ def loaded_columns(manipulator: Manipulator, question: Question, at: Postures) -
 
 def _block(drawn: Manipulator, question: Question, at: Postures) -> tuple[Array, np.ndarray]:
     columns: list[Array] = []
-    plain = _States(system(drawn, at), question.wrench)
+    plain = _States(machine(drawn), posture_inputs(at), len(at.pose), question.wrench)
     good = plain.good
     other = None
     if question.changed is not None:
-        of = relaxed(system(question.changed, at, question.inputs), settled(question.changed, at))
-        other = _States(of, question.wrench)
+        of = machine(question.changed)
+        inputs = posture_inputs(at) | settled(of, at) | known_inputs(of, question.inputs)
+        other = _States(of, inputs, len(at.pose), question.wrench)
         good = good & other.good
     if plain.under is not None:
         columns += [*plain.moved(), *plain.stiffness(plain.under)]
@@ -60,20 +61,18 @@ def _block(drawn: Manipulator, question: Question, at: Postures) -> tuple[Array,
 class _States:
     """Equilibria at rest and, if there is a wrench, under it; ones take the place of stiffness that is lost."""
 
-    def __init__(self, of: System, wrench: Array | None) -> None:
+    def __init__(self, of: Machine, inputs: Drives, count: int, wrench: Array | None) -> None:
         self.wrench = wrench
-        self.rest = equilibrium(of, np.zeros(6))
-        self.under = None if wrench is None else equilibrium(of, wrench, start=self.rest)
+        self.rest = equilibrium(of, np.zeros((count, 6)), (), drives=inputs)
+        self.under = None if wrench is None else equilibrium(of, wrench, (), self.rest, drives=inputs)
         states = [state for state in (self.rest, self.under) if state is not None]
-        self.good = np.all([_stable(state) for state in states], axis=0)
+        self.good = np.all([state.converged & (state.unstable <= 0) for state in states], axis=0)
 
-    def stiffness(self, state: Loaded) -> list[Array]:
+    def stiffness(self, state: Equilibrium) -> list[Array]:
         """K_tran least and largest, K_rot least and largest; (B,) each."""
         k = np.tile(np.eye(6), (len(self.good), 1, 1))
         if self.good.any():
-            numbers = np.flatnonzero(self.good)
-            part = replace(state, system=state.system.take(numbers), unknowns=state.unknowns[numbers])
-            k[numbers] = read_stiffness(part)
+            k[self.good] = read_stiffness(state.member(self.good))
         tran, rot = principal(translational(k)), principal(rotational(k))
         return [tran[:, 0], tran[:, -1], rot[:, 0], rot[:, -1]]
 
@@ -91,13 +90,3 @@ class _States:
         """(B,) displacement along the wrench; one where the equilibrium is lost."""
         assert self.wrench is not None
         return np.where(self.good, self._way() @ self.wrench, 1.0)
-
-
-def _stable(state: Loaded) -> np.ndarray:
-    """(B,) whether an equilibrium is found and stable."""
-    out = state.converged.copy()
-    numbers = np.flatnonzero(out)
-    if numbers.size:
-        part = replace(state, system=state.system.take(numbers), unknowns=state.unknowns[numbers])
-        out[numbers] = unstable_directions(part) <= 0
-    return out

@@ -16,8 +16,9 @@ from pipeline.parameter_names import parted
 from pipeline.toml.spelling import unknown_name
 from vjm.effects.base import Effect
 from vjm.effects.thermal_expansion import DRIVE
+from vjm.lagrangian import layout
 from vjm.manipulator.effects import with_effect
-from vjm.manipulator.loops import looped
+from vjm.manipulator.machine import machine
 from vjm.manipulator.parts import Manipulator
 
 Sizes = dict[str, dict[str, float]]
@@ -81,8 +82,7 @@ def _changed(manipulator: Manipulator, sizes: Sizes, known: Mapping[str, Effect]
     for name, values in sizes.items():
         try:
             it = with_effect(it, known[name], values)
-            for leg in it.legs:
-                looped(leg)
+            _ = machine(it).chains
         except ValueError as error:
             raise InputError(f"--effect {name}: {error}") from None
         except Exception as error:
@@ -92,9 +92,7 @@ def _changed(manipulator: Manipulator, sizes: Sizes, known: Mapping[str, Effect]
 
 
 def _check_inputs(changed: Manipulator | None, rise: float | None) -> None:
-    followed = changed is not None and any(
-        name == DRIVE for leg in changed.legs for name, _ in looped(leg).inputs
-    )
+    followed = changed is not None and DRIVE in layout(machine(changed)).drives
     if rise is not None and not isfinite(rise):
         raise InputError(f"--rise is {rise}, allowed is a number of kelvin")
     if followed and rise is None:

@@ -13,11 +13,9 @@ from vjm.clearance import Clearance
 from vjm.effects import catalogue
 from vjm.effects.base import for_bars
 from vjm.manipulator.effects import with_effect
-from vjm.manipulator.equilibrium import equilibrium
-from vjm.manipulator.lagrangian import system
+from vjm.manipulator.machine import machine, posture_inputs
 from vjm.manipulator.parts import Leg, Manipulator, Parallelogram
 from vjm.manipulator.posture import postures
-from vjm.manipulator.sensitivity import unknowns_by_targets
 from vjm.mechanisms.parallelogram import Parallelogram as Bench
 from vjm.sensitivity import by_targets
 from vjm.stops import pressed, slid
@@ -83,9 +81,9 @@ def test_stops_of_one_parallelogram_are_pressed_as_on_the_bench() -> None:
     targets = plain.unloaded_pose * [0, 1, 1, 1, 1, 1] + forces[:, None] * [1, 0, 0, 0, 0, 0]
     expected = parallel.equilibrium(theirs, targets, HELD)
     at = postures(one, np.tile(plain.unloaded_pose, (forces.size, 1)))
-    found = equilibrium(system(ours, at), targets, HELD)
+    found = parallel.equilibrium(machine(ours), targets, HELD, drives=posture_inputs(at))
     assert expected.converged.all() and found.converged.all()
-    force, slope = pressed(found, unknowns_by_targets(found, HELD))
+    force, slope = pressed(found, by_targets(found).unknowns)
     other, way = pressed(expected, by_targets(expected).unknowns)
     assert force.shape == (forces.size, 2)
     np.testing.assert_array_equal(force[1:3], 0.0)

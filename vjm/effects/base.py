@@ -10,7 +10,7 @@ from abc import ABC, abstractmethod
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from functools import partial
-from typing import ClassVar, Literal, TypeAlias
+from typing import ClassVar, Literal, Protocol, Self, TypeAlias, TypeVar
 
 import numpy as np
 
@@ -21,6 +21,18 @@ from vjm.mechanisms.parallelogram import Parallelogram
 
 Rig: TypeAlias = Parallelogram | Bar
 Values = Mapping[str, float]
+
+
+class Viewed(Protocol):
+    """What effects can change: it shows a rig of bars and hinges, and takes what has been made of that."""
+
+    @property
+    def view(self) -> Rig: ...
+
+    def changed(self, view: object) -> Self: ...
+
+
+Changing = TypeVar("Changing", bound=Viewed)
 
 
 @dataclass(frozen=True)
@@ -74,17 +86,20 @@ class Effect(ABC):
     def change(self, rig: Rig, values: Values) -> Rig:
         """The mechanism with the effect at values that are not all null."""
 
-    def apply(self, rig: Rig, values: Values) -> Rig:
+    def apply(self, mechanism: Changing, values: Values) -> Changing:
         """The mechanism with the effect; itself where all values are null.
 
         values: by parameter name, complete. ValueError for a kind of rig that cannot have it.
         """
-        if kind_of(rig) not in self.kinds:
-            raise ValueError(f"{self.name} needs a rig of kind {' or '.join(self.kinds)}, not {kind_of(rig)}")
-        if self.hinge and not _hinged(rig, self.hinge):
+        view = mechanism.view
+        if kind_of(view) not in self.kinds:
+            raise ValueError(
+                f"{self.name} needs a rig of kind {' or '.join(self.kinds)}, not {kind_of(view)}"
+            )
+        if self.hinge and not _hinged(view, self.hinge):
             where = "at its base" if self.hinge == "base" else "at either end"
             raise ValueError(f"{self.name} needs a bar with a hinge {where}")
-        return rig if self.absent(values) else self.change(rig, values)
+        return mechanism if self.absent(values) else mechanism.changed(self.change(view, values))
 
     def absent(self, values: Values) -> bool:
         """Whether the values leave every mechanism as it is."""

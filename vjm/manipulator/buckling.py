@@ -7,15 +7,16 @@ where its 6x6 is lumped decides what is found, as for the single parallelogram.
 from __future__ import annotations
 
 from collections.abc import Collection
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import ArrayLike
 
+from vjm import lagrangian
+from vjm.equilibrium import Equilibrium, nearby
 from vjm.frames import Array
-from vjm.manipulator.equilibrium import Loaded, bordered_tangent, equilibrium
-from vjm.manipulator.lagrangian import System, gradient_and_hessian
 from vjm.problem import held_mask
+from vjm.stability import reduced_modes, scaled_hessian
 
 # Of the length, or rad: what the linear path moves in the difference that gives the slope of its tangent.
 _MOTION = 1e-6
@@ -42,7 +43,7 @@ class Critical:
     sharp: bool
     left: float
     leg: int
-    state: Loaded
+    state: Equilibrium
     linear: float
     reason: str
 
@@ -53,88 +54,85 @@ class _Point:
 
     factor: float
     lowest: float
-    state: Loaded
+    state: Equilibrium
 
 
-def critical_load(of: System, load: ArrayLike, largest: float = np.inf) -> Critical:
-    """Follow the equilibrium of one posture under factor x load (6,), up to the factor `largest`.
+def critical_load(start: Equilibrium, load: ArrayLike, largest: float = np.inf) -> Critical:
+    """Follow the equilibrium of a machine under factor x load (6,) from its state without load, no batch axes, up to
+    the factor `largest`.
 
     Steps follow the linear estimate until the lowest eigenvalue of the tangent has lost half of its value; from there
     on they go nine tenths of the way to where it would vanish, so that the path is never overrun: beyond, another
     stable one may lie near. A sharp critical load is found to 1e-8. ValueError for more than one posture, or no bound
     while the linear estimate finds none.
     """
-    if len(of.pose) != 1:
-        raise ValueError(f"the critical load of one posture at a time, got {len(of.pose)}")
+    if start.converged.ndim:
+        raise ValueError(f"the critical load of one posture at a time, got {start.converged.shape}")
     unit = np.asarray(load, dtype=float)
-    estimate = linear_factor(of, unit)
+    estimate = linear_factor(start, unit)
     end = min(largest, 4.0 * estimate)
     if not np.isfinite(end):
         raise ValueError("nothing buckles to first order: give the largest factor to search")
-    first = here = _point(of, unit, 0.0, None)
+    first = here = _point(unit, 0.0, start)
     before, step = here, min(estimate, end) / _STEPS
     while here.factor < end:
         falling = here.lowest < _FALLING * first.lowest
         if falling:
             zero = here.factor - here.lowest * (here.factor - before.factor) / (here.lowest - before.lowest)
             if zero - here.factor < _ACCURACY * zero:
-                return _record(of, here, first, zero, True, estimate)
+                return _record(here, first, zero, True, estimate)
             step = min(step, _SHARE * (zero - here.factor))
-        following = _point(of, unit, min(here.factor + step, end), here.state)
+        following = _point(unit, min(here.factor + step, end), here.state)
         if following.lowest > 0.0 and (following.lowest < here.lowest or not falling):
             before, here = here, following
         else:
             step *= 0.5
             if step < _ACCURACY * end:
-                return _record(of, here, first, here.factor, following.lowest < 0.0, estimate)
+                return _record(here, first, here.factor, following.lowest < 0.0, estimate)
     reason = f"stable up to {here.factor:.6g} of the load"
     return Critical(False, np.nan, False, here.lowest / first.lowest, -1, here.state, estimate, reason)
 
 
-def _point(of: System, unit: Array, factor: float, start: Loaded | None) -> _Point:
-    state = equilibrium(of, factor * unit, start=start, increments=False)
-    if not state.converged[0]:
+def _point(unit: Array, factor: float, start: Equilibrium) -> _Point:
+    state = _beside(start, factor * unit)
+    if not state.converged:
         return _Point(factor, -1.0, state)
-    lowest = float(reduced_modes(state)[0][0])
+    lowest = float(reduced_modes(state, ()).values[0])
     return _Point(factor, lowest if lowest > 0.0 else -1.0, state)
 
 
-def reduced_modes(state: Loaded) -> tuple[Array, Array]:
-    """Eigenvalues (r,), ascending and dimensionless, of the tangent of one state on the motions that keep all loops
-    closed, and these motions (moving, r), platform free."""
-    of = state.system
-    tangent = bordered_tangent(state)[0]
-    closing = of.multipliers
-    closures = tangent[np.ix_(closing, ~closing)]
-    basis = np.linalg.svd(closures)[2][of.closures :].T
-    values, vectors = np.linalg.eigh(basis.T @ tangent[np.ix_(~closing, ~closing)] @ basis)
-    return values, basis @ vectors
+def _beside(start: Equilibrium, load: Array) -> Equilibrium:
+    """The equilibrium under a load on the branch of the start, by Newton's method alone."""
+    names, defaults = (getattr(lagrangian.layout(start.mechanism), name) for name in ("drives", "defaults"))
+    drives = {name: start.drives[k] + defaults[k] for k, name in enumerate(names)}
+    return nearby(start.mechanism, load, (), start, drives, start.memory)
 
 
-def _record(of: System, here: _Point, first: _Point, factor: float, sharp: bool, estimate: float) -> Critical:
-    mode = np.zeros(of.size)
-    mode[~of.multipliers] = reduced_modes(here.state)[1][:, 0]
-    leg = int(np.argmax([float(np.linalg.norm(mode[x])) for x in of.coordinates]))
+def _record(here: _Point, first: _Point, factor: float, sharp: bool, estimate: float) -> Critical:
+    mechanism = here.state.mechanism
+    mode = reduced_modes(here.state, ()).vectors[:, 0] / lagrangian.layout(mechanism).scale
+    leg = int(np.argmax([float(np.linalg.norm(mode[x])) for x in lagrangian.layout(mechanism).coordinates]))
     how = "loses stability" if sharp else "gives way smoothly"
-    reason = f"leg {of.legs[leg].leg.name} {how} at {factor:.6g} of the load"
+    reason = f"leg {mechanism.chains[leg].name} {how} at {factor:.6g} of the load"
     return Critical(True, factor, sharp, here.lowest / first.lowest, leg, here.state, estimate, reason)
 
 
-def linear_factor(of: System, load: ArrayLike, held: Collection[str] = ()) -> float:
+def linear_factor(start: Equilibrium, load: ArrayLike, held: Collection[str] = ()) -> float:
     """Lowest positive factor at which the tangent, linear along the unloaded path, is singular; inf if there is none.
 
-    load: (6,) of free coordinates, displacement from the unloaded pose of held ones. Classic linear buckling with the
-    change of geometry of first order included: det(B + factor dB) = 0 of the bordered tangent.
+    start: the state without load, no batch axes. load: (6,) of free coordinates, displacement from the unloaded pose of
+    held ones. Classic linear buckling with the change of geometry of first order included: det(B + factor dB) = 0 of
+    the bordered tangent.
     """
-    mask = held_mask(held)
-    rest, way = of.at_rest(), linear_path(of, np.asarray(load, dtype=float), mask)
-    share = _MOTION / np.max(np.abs(way / of.scale)[:, ~of.multipliers], initial=1e-300)
-    free = np.setdiff1d(np.arange(of.size), np.arange(of.size)[of.platform][mask])
-    scaled = of.scale[:, None] * of.scale / of.energy
+    mask, place = held_mask(held), lagrangian.layout(start.mechanism)
+    way = linear_path(start, np.asarray(load, dtype=float), mask)
+    motion = slice(place.platform.stop)
+    share = _MOTION / np.max(np.abs(way / place.scale)[motion], initial=1e-300)
+    free = np.setdiff1d(np.arange(place.size), np.arange(place.size)[place.platform][mask])
 
     def tangent(factor: float) -> Array:
-        _, hessian = gradient_and_hessian(of, rest + factor * way)
-        return np.asarray((hessian[0] * scaled)[np.ix_(free, free)])
+        moved = replace(start, unknowns=start.unknowns + factor * way)
+        return np.asarray(scaled_hessian(moved)[np.ix_(free, free)])
 
     slope = (tangent(share) - tangent(-share)) / (2.0 * share)
     values = -np.linalg.eigvals(np.linalg.solve(tangent(0.0), slope))
@@ -143,14 +141,13 @@ def linear_factor(of: System, load: ArrayLike, held: Collection[str] = ()) -> fl
     return 1.0 / largest if largest > 0.0 else np.inf
 
 
-def linear_path(of: System, target: Array, mask: np.ndarray) -> Array:
-    """(1, size) first-order change of the unknowns under loads, or displacements where the mask (6,) holds."""
-    _, hessian = gradient_and_hessian(of, of.at_rest())
-    matrix = hessian[0] * of.scale[:, None] * (of.scale / of.energy)
-    right = np.zeros(of.size)
-    pose = np.arange(of.size)[of.platform]
-    pose_scale = of.scale[pose]
-    right[pose] = np.where(mask, target / pose_scale, target * pose_scale / of.energy)
+def linear_path(start: Equilibrium, target: Array, mask: np.ndarray) -> Array:
+    """(N,) first-order change of the unknowns of the state without load under loads, or displacements where the mask
+    (6,) holds."""
+    place = lagrangian.layout(start.mechanism)
+    matrix, right = scaled_hessian(start).copy(), np.zeros(place.size)
+    pose = np.arange(place.size)[place.platform]
+    right[pose] = np.where(mask, target / place.pose_scale, target / place.load_scale)
     matrix[pose[mask]] = 0.0
     matrix[pose[mask], pose[mask]] = 1.0
-    return np.asarray(np.linalg.solve(matrix, right) * of.scale)[None]
+    return np.asarray(np.linalg.solve(matrix, right) * place.scale)

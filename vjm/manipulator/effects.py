@@ -23,13 +23,21 @@ def with_effect(manipulator: Manipulator, effect: Effect, values: Values) -> Man
     values: by parameter name, complete. Drives and inverse kinematics still go by the drawing. ValueError for an
     effect that it cannot have, as that of bars where there is no parallelogram.
     """
-    rig = bench(manipulator)
-    if effect.absent(values):
-        return manipulator
-    changed = effect.apply(rig, values)
-    if not isinstance(changed, Bench):
-        raise ValueError(f"{effect.name} makes something else of a parallelogram")
-    return like_bench(manipulator, changed)
+    return effect.apply(_Shown(manipulator), values).manipulator
+
+
+@dataclass(frozen=True, eq=False)
+class _Shown:
+    """A manipulator for effects to change (`vjm.effects.base.Viewed`)."""
+
+    manipulator: Manipulator
+
+    @property
+    def view(self) -> Bench:
+        return view_of(self.manipulator)
+
+    def changed(self, view: object) -> _Shown:
+        return _Shown(with_view(self.manipulator, view))
 
 
 def linkages(manipulator: Manipulator) -> list[Parallelogram]:
@@ -37,12 +45,20 @@ def linkages(manipulator: Manipulator) -> list[Parallelogram]:
     return [part for leg in manipulator.legs for part in leg.parts if isinstance(part, Parallelogram)]
 
 
-def like_bench(manipulator: Manipulator, rig: Bench) -> Manipulator:
-    """The manipulator with what has been made of its `bench`, done to every parallelogram."""
-    first = bench(manipulator)
+def with_view(manipulator: Manipulator, rig: object) -> Manipulator:
+    """The manipulator with what has been made of its `view_of`, done to every parallelogram.
+
+    ValueError where it has been made something else. Legs in which nothing changes stay the same objects.
+    """
+    if not isinstance(rig, Bench):
+        raise ValueError(f"an effect makes {type(rig).__name__} of a parallelogram")
+    first = view_of(manipulator)
     more = rig.alterations[len(first.alterations) :]
     turned = exp(rig.mount) @ exp(manipulator.mount).T
     tilted = bool(np.any(rig.mount != manipulator.mount))
+    same = all(getattr(rig, name) is getattr(first, name) for name in ("bar", "hinges", "line_load"))
+    if same and not more and not tilted and rig.wider == first.wider:
+        return replace(manipulator, sensors=rig.sensors)
 
     def changed(part: Part) -> Part:
         if not isinstance(part, Parallelogram):
@@ -60,7 +76,7 @@ def like_bench(manipulator: Manipulator, rig: Bench) -> Manipulator:
     return replace(manipulator, legs=legs, sensors=rig.sensors, mount=rig.mount)
 
 
-def bench(manipulator: Manipulator) -> Bench:
+def view_of(manipulator: Manipulator) -> Bench:
     """The first parallelogram as a rig of the bench at q = 0, with what stands around it; effects act on that.
 
     Without a parallelogram it is a `Surroundings`.

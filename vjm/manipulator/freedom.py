@@ -8,11 +8,10 @@ from __future__ import annotations
 import numpy as np
 
 from vjm.frames import Array
+from vjm.mechanism import rank
 
 RIGID = "is rigid in some direction: nothing of it gives way there"
 LOOSE = "has a part that moves without load while both ends of the leg are held"
-_RANK = 1e-9
-"""Singular value, over the largest, below which a direction counts as missing."""
 
 
 def undetermined(jacobian: Array, free: np.ndarray) -> str:
@@ -21,15 +20,8 @@ def undetermined(jacobian: Array, free: np.ndarray) -> str:
     The m closures are those at its end and of loops inside it. free: (n,) of bool, coordinates without a spring.
     A leg that is both rigid and loose is called rigid.
     """
-    if _rank(jacobian) < len(jacobian):
+    if rank(jacobian) < len(jacobian):
         return RIGID
-    if _rank(jacobian[:, free]) < int(np.sum(free)):
+    if rank(jacobian[:, free]) < int(np.sum(free)):
         return LOOSE
     return ""
-
-
-def _rank(matrix: Array) -> int:
-    if not matrix.size:
-        return 0
-    values = np.linalg.svd(matrix, compute_uv=False)
-    return int(np.sum(values > _RANK * values[0]))

@@ -11,14 +11,17 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from vjm.equilibrium import Equilibrium, unloaded
 from vjm.frames import POSE_NAMES, Array
+from vjm.lagrangian import layout
 from vjm.manipulator.buckling import linear_factor, linear_path
 from vjm.manipulator.freedom import undetermined
-from vjm.manipulator.lagrangian import System, gradient_and_hessian, system
+from vjm.manipulator.machine import machine, posture_inputs
 from vjm.manipulator.parts import ElasticLink, Frame, Leg, Manipulator, Parallelogram, Passive
 from vjm.manipulator.posture import Postures
 from vjm.manipulator.rest import RestStiffness
 from vjm.refined import Refined
+from vjm.stability import scaled_hessian
 
 SEGMENTS = 4
 """Segments that stand for a bar that buckles: its critical load is then good to 0.1 %."""
@@ -119,29 +122,29 @@ def critical_forces(
             if not at.reached[member]:
                 reason[member, number] = str(at.reason[member])
                 continue
-            one = at.take(slice(member, member + 1))
-            of = system(alone, Postures(one.pose, (one.coordinates[number],), one.reached, one.reason))
+            one = at.take(member)
+            here = Postures(one.pose, (one.coordinates[number],), one.reached, one.reason)
+            start = unloaded(machine(alone), posture_inputs(here))
             push = np.concatenate([-direction[member, number], np.zeros(3)])
-            force[member, number], reason[member, number] = _critical_force(of, push)
+            force[member, number], reason[member, number] = _critical_force(start, push)
     return CriticalForces(force, reason)
 
 
-def _critical_force(of: System, push: Array) -> tuple[float, str]:
+def _critical_force(start: Equilibrium, push: Array) -> tuple[float, str]:
     """Compression at which a leg buckles when its end is moved along `push`, or nan and what is wrong with the leg."""
-    why = _undetermined(of)
+    why = _undetermined(start)
     if why:
         return np.nan, why
     try:
-        force = linear_path(of, push, np.ones(6, dtype=bool))[0, of.multiplier(0)][:3] @ push[:3]
-        return float(force) * linear_factor(of, push, POSE_NAMES), ""
+        (load,) = layout(start.mechanism).multipliers
+        force = linear_path(start, push, np.ones(6, dtype=bool))[load][:3] @ push[:3]
+        return float(force) * linear_factor(start, push, POSE_NAMES), ""
     except np.linalg.LinAlgError:
         return np.nan, UNSOLVED
 
 
-def _undetermined(of: System) -> str:
-    """What is wrong with the system of one leg at one posture while its platform is held; "" if nothing is."""
-    _, hessian = gradient_and_hessian(of, of.at_rest())
-    matrix = hessian[0] * of.scale[:, None] * (of.scale / of.energy)
-    closing = np.flatnonzero(of.multipliers)
-    moving = np.setdiff1d(np.flatnonzero(~of.multipliers), np.arange(of.size)[of.platform])
+def _undetermined(start: Equilibrium) -> str:
+    """What is wrong with a mechanism of one leg while its platform is held; "" if nothing is."""
+    place, matrix = layout(start.mechanism), scaled_hessian(start)
+    closing, moving = np.arange(place.platform.stop, place.size), np.arange(place.platform.start)
     return undetermined(matrix[np.ix_(closing, moving)], matrix[moving, moving] == 0.0)

@@ -7,8 +7,7 @@ paper's T_1 = T_2, written between these bodies: both sides are short chains of 
 from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
-from functools import cached_property, lru_cache
-from itertools import pairwise
+from functools import lru_cache, partial
 
 import numpy as np
 
@@ -19,63 +18,10 @@ from vjm.laws import Spring
 from vjm.link import Link
 from vjm.loads import DeadLoads
 from vjm.manipulator.parts import MOVING, ElasticLink, Leg, Parallelogram, Part
-from vjm.manipulator.rest import elastic_elements
+from vjm.manipulator.rest import elastic_elements, pseudo_rigid_springs
+from vjm.mechanism import Drive, ElasticChain, Loop, Path, Varying, joints_of
 from vjm.mechanisms.assembly import Assembly
 from vjm.refined import Refined
-
-
-@dataclass(frozen=True, eq=False)
-class Path:
-    """A chain and the numbers (n,) of its coordinates in the leg."""
-
-    chain: Chain
-    numbers: np.ndarray
-
-
-@dataclass(frozen=True, eq=False)
-class LoopedLeg:
-    """A leg of N coordinates.
-
-    main: from base to platform. loops: pairs of paths between the same two bodies. moving: (m,) numbers of the
-    coordinates that equilibrium decides. rest: (N,) unloaded coordinates apart from the posture. posture: (M, N)
-    how its coordinates move them. linear: (N, N) stiffness, zero for coordinates without a spring, that of an
-    equivalent bar left out. springs: further laws. equivalents: linkages as pseudo-rigid bars: part, number in the
-    posture, numbers (5,) of its springs. loads: dead loads along it. inputs: change (N,) of the unloaded coordinates
-    with a unit of an input, by its name.
-    """
-
-    leg: Leg
-    main: Path
-    loops: tuple[tuple[Path, Path], ...]
-    moving: np.ndarray
-    rest: Array
-    posture: Array
-    linear: Array
-    springs: tuple[Spring, ...]
-    equivalents: tuple[tuple[Parallelogram, int, np.ndarray], ...]
-    translations: np.ndarray
-    loads: tuple[DeadLoads, ...] = ()
-    inputs: tuple[tuple[str, Array], ...] = ()
-
-    @cached_property
-    def initial_memory(self) -> Array:
-        """(M,) memory of all laws before any load."""
-        return np.concatenate([np.zeros(0), *[s.law.initial_memory for s in self.springs]])
-
-    @cached_property
-    def memories(self) -> tuple[slice, ...]:
-        """Of each law in the memory."""
-        edges = np.cumsum([0, *[s.law.initial_memory.size for s in self.springs]])
-        return tuple(slice(int(a), int(b)) for a, b in pairwise(edges))
-
-    @property
-    def closures(self) -> int:
-        """Number of scalar equations of the inner loops."""
-        return 6 * len(self.loops)
-
-    def at(self, coordinates: Array) -> Array:
-        """(..., N) unloaded coordinates at the posture (..., M)."""
-        return np.asarray(self.rest + coordinates @ self.posture)
 
 
 @dataclass(frozen=True, eq=False)
@@ -159,7 +105,7 @@ class _Builder:
         self.size = first + bar.chain.size
         return self.size - 1
 
-    def close(self) -> tuple[tuple[Path, Path], ...]:
+    def close(self) -> tuple[Loop, ...]:
         """Second bars, numbered after all else, and the loops that they close."""
         loops = []
         for place in self.pending:
@@ -173,47 +119,67 @@ class _Builder:
             chains = (Chain(tuple(first)), Chain(tuple(second)))
             starts = (place.first, own)
             paths = [Path(c, start + np.arange(c.size)) for c, start in zip(chains, starts, strict=True)]
-            loops.append((paths[0], paths[1]))
+            loops.append(Loop(paths[0], paths[1]))
         return tuple(loops)
+
+    def hinges(self) -> tuple[int, ...]:
+        """Numbers of the hinges of all pairs of bars."""
+        return tuple(k for place in self.pending for k in self.posture[place.number])
 
 
 @lru_cache(maxsize=256)
-def looped(leg: Leg) -> LoopedLeg:
-    """The leg with the bars of its pairs one by one."""
+def leg_chain(leg: Leg, name: str, turning: bool = False) -> ElasticChain:
+    """A leg with its bars one by one. Its posture are inputs, see `posture_inputs`.
+
+    name: of the leg, before those of its inputs. turning: whether where its hinges are relaxed is an input too.
+    """
     build = _Builder()
     for number, part in enumerate(leg.parts):
         build.add(part, f"q{number}")
     main = Chain(tuple(build.elements))
     loops = build.close()
-    size = build.size
-    rest, posture, linear = np.zeros(size), np.zeros((len(build.posture), size)), np.zeros((size, size))
+    size, home = build.size, leg.home
+    rest, linear = np.zeros(size), np.zeros((size, size))
     for k, value in build.rest.items():
         rest[k] = value
-    for row, shares in zip(posture, build.posture, strict=True):
-        for k, share in shares.items():
-            row[k] = share
+    drives = []
+    for number, shares in enumerate(build.posture):
+        slope = np.zeros(size)
+        slope[list(shares)] = list(shares.values())
+        drives.append(Drive(posture_input(name, number), float(home[number]), slope, posture=True))
+        rest += home[number] * slope
+    if turning:
+        drives += [Drive(turn_input(name, k), 0.0, np.eye(size)[k], posture=True) for k in build.hinges()]
+    drives += [Drive(of, 0.0, slope) for of, slope in _slopes(build.inputs, size)]
     for numbers, block in build.blocks:
         linear[numbers[:, None], numbers] = block
-    paths = [Path(main, np.arange(main.size)), *(second for _, second in loops)]
-    fixed = [int(p.numbers[k]) for p in paths for k in p.chain.indices(Role.ACTUATED)]
-    kinds = np.zeros(size, dtype=bool)
-    for path in paths:
-        kinds[path.numbers] = [joint.kind == "translation" for joint in path.chain.joints]
-    moving = np.setdiff1d(np.arange(size), fixed)
-    return LoopedLeg(
-        leg,
-        paths[0],
-        loops,
-        moving,
-        rest,
-        posture,
-        linear,
-        tuple(build.springs),
-        tuple(build.equivalents),
-        kinds[moving],
-        tuple(build.loads),
-        _slopes(build.inputs, size),
+    joints = enumerate(joints_of(main, loops))
+    virtual = np.array([k for k, joint in joints if joint.role is Role.VIRTUAL], dtype=int)
+    varying = tuple(
+        Varying(numbers, posture_input(name, number), partial(pseudo_rigid_springs, part))
+        for part, number, numbers in build.equivalents
     )
+    return ElasticChain(
+        main,
+        linear[np.ix_(virtual, virtual)],
+        rest,
+        tuple(build.springs),
+        tuple(build.loads),
+        tuple(drives),
+        loops,
+        varying,
+        leg.name,
+    )
+
+
+def posture_input(leg: str, number: int) -> str:
+    """Name of the input that is the coordinate `number` of the posture of a leg."""
+    return f"{leg}.q{number}"
+
+
+def turn_input(leg: str, coordinate: int) -> str:
+    """Name of the input that is the turn of a hinge from where it is drawn to where it stands unloaded."""
+    return f"{leg}.turn{coordinate}"
 
 
 def _slopes(inputs: list[tuple[str, int, Array]], size: int) -> tuple[tuple[str, Array], ...]:

@@ -40,8 +40,8 @@ class Postures:
     reached: np.ndarray
     reason: np.ndarray
 
-    def take(self, members: np.ndarray | slice | int) -> Postures:
-        """Some members of the batch."""
+    def take(self, members: np.ndarray | slice | int | None) -> Postures:
+        """Some members of the batch; None: all, with one batch axis more."""
         parts = tuple(x[members] for x in self.coordinates)
         reason = np.asarray(self.reason[members], dtype=object)
         return Postures(self.pose[members], parts, np.asarray(self.reached[members]), reason)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import Literal, get_args
+from typing import Literal, Self, get_args
 
 import numpy as np
 
@@ -98,6 +98,17 @@ class Bar:
     def gauge(self, station: float, direction: tuple[float, float, float]) -> Gauge:
         """Displacement of the bar's axis at `station` (0 base, 1 tip) along a base-frame direction."""
         return self._assembly.gauge(0, self.chains[0], GaugeAt(1, station, direction))
+
+    @property
+    def view(self) -> Self:
+        """What effects see of it: itself (`vjm.effects.base`)."""
+        return self
+
+    def changed(self, view: object) -> Self:
+        """It as its view has been changed. ValueError for something else than a bar."""
+        if not isinstance(view, type(self)):
+            raise ValueError(f"an effect makes {type(view).__name__} of a bar")
+        return view
 
     def altered(self, *alterations: Alteration) -> Bar:
         """The mechanism with further alterations of its bar."""

@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from functools import cached_property, partial
-from typing import get_args
+from typing import Self, get_args
 
 import numpy as np
 
@@ -103,6 +103,17 @@ class Parallelogram:
         """Displacement of the axis of bar 1 or 2 at `station` (0 base, 1 tip) along a base-frame direction."""
         place = GaugeAt(bar, station, direction)
         return replace(self, gauge_at=(place,))._gauge(place)
+
+    @property
+    def view(self) -> Self:
+        """What effects see of it: itself (`vjm.effects.base`)."""
+        return self
+
+    def changed(self, view: object) -> Self:
+        """It as its view has been changed. ValueError for something else than a parallelogram."""
+        if not isinstance(view, type(self)):
+            raise ValueError(f"an effect makes {type(view).__name__} of a parallelogram")
+        return view
 
     def altered(self, *alterations: Alteration) -> Parallelogram:
         """The linkage with further alterations of its bars."""

@@ -10,11 +10,11 @@ import pytest
 
 from pipeline.errors import InputError
 from pipeline.manipulator.description import describe, read
+from tests.vjm.manipulator.example import under
 from vjm import paper
-from vjm.manipulator.equilibrium import equilibrium, loaded_stiffness
-from vjm.manipulator.lagrangian import system
 from vjm.manipulator.parts import Actuator, ElasticLink, Frame, Parallelogram, Passive, Virtual
 from vjm.manipulator.posture import postures
+from vjm.stiffness import loaded_stiffness
 
 TEXT = read("orthoglide").text
 
@@ -157,7 +157,7 @@ def test_two_members_of_a_leg_in_segments_are_two() -> None:
     found = []
     for each in (TEXT, text):
         whole = describe(each, "o.toml").manipulator
-        state = equilibrium(system(whole, postures(whole, [[50.0, -40.0, 60.0]])), np.zeros(6))
+        state = under(whole, postures(whole, [[50.0, -40.0, 60.0]]), np.zeros(6))
         assert state.converged.all()
         found.append(loaded_stiffness(state)[0])
     np.testing.assert_allclose(found[1], found[0], rtol=1e-6, atol=1e-7 * np.abs(found[0]).max())

@@ -9,14 +9,13 @@ from pipeline.manipulator.description import read
 from pipeline.manipulator.frame import frame_stiffness
 from pipeline.manipulator.linkages import Relink, parallelogram, relinked, two_fold_bar
 from pipeline.manipulator.table import POSTURES
-from tests.vjm.manipulator.example import relative
+from tests.vjm.manipulator.example import relative, under
 from vjm.effects import catalogue
 from vjm.manipulator.effects import with_effect
-from vjm.manipulator.equilibrium import equilibrium, read_stiffness
-from vjm.manipulator.lagrangian import system
 from vjm.manipulator.measures import principal, rotational, translational
 from vjm.manipulator.posture import postures
 from vjm.manipulator.rest import stiffness_at_rest
+from vjm.stiffness import read_stiffness
 
 LINKAGES = {
     "2x-bar": two_fold_bar(),
@@ -71,7 +70,7 @@ def test_effects_in_both_models(name: str) -> None:
     drawn = read("orthoglide").manipulator
     whole = with_effect(drawn, catalogue()[name], LINEAR[name])
     at = postures(drawn, np.array(POSTURES))
-    state = equilibrium(system(whole, at), np.zeros(6))
+    state = under(whole, at, np.zeros(6))
     assert state.converged.all()
     ours, plain = read_stiffness(state), stiffness_at_rest(drawn, at).total
     for k in range(len(POSTURES)):

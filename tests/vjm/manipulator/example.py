@@ -2,11 +2,17 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 import numpy as np
+from numpy.typing import ArrayLike
 
 from vjm import paper
 from vjm.bars import X, Y, Z
+from vjm.equilibrium import Equilibrium, equilibrium, unloaded
 from vjm.frames import Array
+from vjm.manipulator.assembled import settled
+from vjm.manipulator.machine import machine, posture_inputs
 from vjm.manipulator.parts import (
     Actuator,
     ElasticLink,
@@ -17,6 +23,8 @@ from vjm.manipulator.parts import (
     Part,
     Passive,
 )
+from vjm.manipulator.posture import Postures
+from vjm.problem import Held
 
 LENGTH, WIDTH, FOOT = paper.LENGTH, paper.WIDTH, 100.0
 DRIVE, AXIAL, BENDING = 3500.0, 4.2e7, 4.5e8
@@ -54,6 +62,26 @@ def pair(bar: Array = paper.BAR_STIFFNESS, **change: object) -> tuple[Part, ...]
 def universal(bar: Array) -> tuple[Part, ...]:
     """One bar between universal joints."""
     return ABOUT_Z, ABOUT_Y, ElasticLink(LENGTH, bar), ABOUT_Y, ABOUT_Z
+
+
+def without_load(whole: Manipulator, at: Postures) -> Equilibrium:
+    """The states of rest at postures."""
+    return unloaded(machine(whole), posture_inputs(at))
+
+
+def under(
+    whole: Manipulator,
+    at: Postures,
+    targets: ArrayLike,
+    held: Held = (),
+    heat: Mapping[str, float] | None = None,
+    **more: object,
+) -> Equilibrium:
+    """Equilibria at postures under targets, see `vjm.equilibrium`; where hinges are relaxed follows from the rest."""
+    of = machine(whole)
+    inputs = {**posture_inputs(at), **settled(of, at), **(heat or {})}
+    targets = np.broadcast_to(np.asarray(targets, dtype=float), (*at.reached.shape, np.shape(targets)[-1]))
+    return equilibrium(of, targets, held, drives=inputs, **more)  # type: ignore[arg-type]
 
 
 def relative(k: Array, reference: Array) -> float:

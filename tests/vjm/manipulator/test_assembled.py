@@ -7,16 +7,15 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from tests.vjm.manipulator.example import LENGTH, POINTS, WIDTH, orthoglide, pair
-from vjm import equilibrium as parallel
+from tests.vjm.manipulator.example import LENGTH, POINTS, WIDTH, orthoglide, pair, under
 from vjm import paper
 from vjm.effects import catalogue
 from vjm.effects.base import Rig
+from vjm.equilibrium import equilibrium
 from vjm.frames import Array
-from vjm.manipulator.assembled import relaxed, settled
+from vjm.manipulator.assembled import settled
 from vjm.manipulator.effects import with_effect
-from vjm.manipulator.equilibrium import equilibrium
-from vjm.manipulator.lagrangian import system
+from vjm.manipulator.machine import machine, posture_inputs
 from vjm.manipulator.parts import Leg, Manipulator, Parallelogram
 from vjm.manipulator.posture import postures
 from vjm.mechanism import initial_memory
@@ -49,26 +48,23 @@ def test_one_parallelogram_is_relaxed_as_on_the_bench() -> None:
     one = Manipulator("one", (Leg("one", (part,)),), LENGTH, sensors=(TrueMoment(),))
     ours = changed(one, *VALUES)
     at = postures(one, plain.unloaded_pose[None])
-    of = relaxed(system(ours, at), settled(ours, at))
     memory, start, other = initial_memory(theirs), None, None
     for step in (1.0, 2.0, 0.5):
         target = replace(plain, q=q + 0.005 * step).unloaded_pose + step * np.array(
             [-0.02, 0, 0, 0.002, 1e-4, 0]
         )
         target[1] = 60.0 * step
-        expected = parallel.equilibrium(theirs, target, HELD, start=other, memory=memory)
-        found = equilibrium(of, target, HELD, start=start)
+        expected = equilibrium(theirs, target, HELD, start=other, memory=memory)
+        found = under(ours, at, target, HELD, start=start)
         assert found.converged.all() and expected.converged
         scale = np.array([1.0, 1.0, 1.0, 0.01, 0.01, 0.01, 100.0, 100.0, 100.0, 1e4, 1e4, 1e4])
         np.testing.assert_allclose(found.readings[0] / scale, expected.readings / scale, atol=1e-8)
         memory, other, start = expected.next_memory, expected, found
-        of = of.after(found.unknowns)
 
 
 def unloaded(whole: Manipulator, points: Array, drawn: Manipulator) -> Array:
     """(B, 6) platform without load."""
-    at = postures(drawn, points)
-    state = equilibrium(relaxed(system(whole, at), settled(whole, at)), np.zeros(6))
+    state = under(whole, postures(drawn, points), np.zeros(6))
     assert state.converged.all()
     return state.pose
 
@@ -81,11 +77,12 @@ def test_hinge_springs_do_not_move_the_unloaded_machine(name: str) -> None:
     stiff = with_effect(longer, EFFECTS[NAMES[1]], {"stiffness_Nmm_per_rad": 1e6})
     plain, sprung = (unloaded(whole, POINTS[:3], drawn) for whole in (longer, stiff))
     np.testing.assert_allclose(sprung, plain, atol=1e-9)
-    as_drawn = equilibrium(system(stiff, postures(drawn, POINTS[:3])), np.zeros(6)).pose
+    inputs = posture_inputs(postures(drawn, POINTS[:3]))
+    as_drawn = equilibrium(machine(stiff), np.zeros(6), (), drives=inputs).pose
     assert np.max(np.abs(as_drawn - plain)) > 1e-4
 
 
 def test_nothing_is_turned_where_bars_are_as_drawn() -> None:
     drawn = orthoglide(pair())
     whole = changed(drawn, "joint_friction", "joint_torsional_stiffness")
-    assert not any(turn.any() for turn in settled(whole, postures(drawn, POINTS[:2])))
+    assert settled(machine(whole), postures(drawn, POINTS[:2])) == {}

@@ -7,15 +7,22 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from tests.vjm.manipulator.example import LENGTH, POINTS, WIDTH, orthoglide, pair, relative
-from vjm import equilibrium as parallel
+from tests.vjm.manipulator.example import (
+    LENGTH,
+    POINTS,
+    WIDTH,
+    orthoglide,
+    pair,
+    relative,
+    under,
+    without_load,
+)
 from vjm import paper
 from vjm.effects import catalogue
 from vjm.effects.thermal_expansion import DRIVE
+from vjm.equilibrium import equilibrium
 from vjm.manipulator.buckling import critical_load
 from vjm.manipulator.effects import with_effect
-from vjm.manipulator.equilibrium import equilibrium, read_stiffness
-from vjm.manipulator.lagrangian import system
 from vjm.manipulator.parts import ElasticLink, Leg, Manipulator, Parallelogram
 from vjm.manipulator.posture import postures
 from vjm.manipulator.rest import stiffness_at_rest
@@ -23,6 +30,7 @@ from vjm.mechanism import initial_memory
 from vjm.mechanisms import parallelogram as chains
 from vjm.refined import SEGMENTS
 from vjm.sensors import TrueMoment
+from vjm.stiffness import read_stiffness
 
 EFFECTS = catalogue()
 HELD = ("x", "z", "rx", "ry", "rz")
@@ -47,21 +55,19 @@ def test_one_parallelogram_has_the_effect_as_on_the_bench(name: str) -> None:
     ours = with_effect(one, effect, values_of(name))
     assert ours is not one
     at = postures(one, plain.unloaded_pose[None])
-    of = system(ours, at, {DRIVE: RISE})
     drives = {DRIVE: RISE} if effect.name == "thermal_expansion" else {}
     memory, start, other = initial_memory(theirs), None, None
     for step in STEPS:
         swung = replace(plain, q=q + SWING * step).unloaded_pose
         target = swung + step * np.array([-0.02, 0.0, 0.0, 0.002, 1e-4, -0.003])
         target[1] = 60.0 * step
-        expected = parallel.equilibrium(theirs, target, HELD, start=other, drives=drives, memory=memory)
-        found = equilibrium(of, target, HELD, start=start)
+        expected = equilibrium(theirs, target, HELD, start=other, drives=drives, memory=memory)
+        found = under(ours, at, target, HELD, heat=drives, start=start)
         assert found.converged.all(), found.reason
         assert expected.converged, expected.reason
         scale = np.array([1.0, 1.0, 1.0, 0.01, 0.01, 0.01, 100.0, 100.0, 100.0, 1e4, 1e4, 1e4])
         np.testing.assert_allclose(found.readings[0] / scale, expected.readings / scale, atol=1e-8)
         memory, other, start = expected.next_memory, expected, found
-        of = of.after(found.unknowns)
 
 
 @pytest.mark.parametrize("name", [n for n in EFFECTS if EFFECTS[n].parameters])
@@ -72,7 +78,7 @@ def test_null_changes_nothing(name: str) -> None:
 
 def at_rest(whole: Manipulator, drawn: Manipulator) -> np.ndarray:
     """(5, 6, 6) as read, unloaded."""
-    state = equilibrium(system(whole, postures(drawn, POINTS)), np.zeros(6))
+    state = under(whole, postures(drawn, POINTS), np.zeros(6))
     assert state.converged.all(), state.reason
     return read_stiffness(state)
 
@@ -136,10 +142,10 @@ def test_bars_of_wrong_length_shift_the_platform() -> None:
     """All bars longer by e in the isotropic posture: every leg pushes by e along its own axis; no force is left."""
     whole = orthoglide(pair())
     longer = with_effect(whole, EFFECTS["dimension_error"], {"length_mm": 0.1, "width_mm": 0.0})
-    state = equilibrium(system(longer, postures(whole, POINTS[:1])), np.zeros(6))
+    state = under(longer, postures(whole, POINTS[:1]), np.zeros(6))
     # Second order: the bars of the other legs turn by e / L.
     np.testing.assert_allclose(state.pose[0, :3], 0.1, rtol=0.1 / LENGTH)
-    np.testing.assert_allclose(state.loads[0], 0.0, atol=1e-6)
+    np.testing.assert_allclose(state.multipliers[0], 0.0, atol=1e-6)
 
 
 def test_refined_bars_are_those_of_segments() -> None:
@@ -147,10 +153,10 @@ def test_refined_bars_are_those_of_segments() -> None:
     whole, push = orthoglide(pair()), np.array([-1.0, 0.0, 0.0, 0.0, 0.0, 0.0])
     refined = with_effect(whole, EFFECTS["bar_geometric_nonlinearity"], {})
     assert relative(at_rest(refined, whole), at_rest(whole, whole)) < 1e-8
-    at = postures(whole, POINTS[:1])
-    drawn = critical_load(system(orthoglide(pair(segments=SEGMENTS)), at), push)
-    assert critical_load(system(refined, at), push).factor == pytest.approx(drawn.factor, rel=1e-6)
-    assert not critical_load(system(whole, at), push, largest=2 * drawn.factor).found
+    at = postures(whole, POINTS[0])
+    drawn = critical_load(without_load(orthoglide(pair(segments=SEGMENTS)), at), push)
+    assert critical_load(without_load(refined, at), push).factor == pytest.approx(drawn.factor, rel=1e-6)
+    assert not critical_load(without_load(whole, at), push, largest=2 * drawn.factor).found
 
 
 def test_what_cannot_be_is_refused() -> None:
@@ -172,6 +178,6 @@ def test_effects_around_a_machine_need_no_parallelogram() -> None:
     give = dict.fromkeys(EFFECTS["base_compliance"].nulls, 0.0) | {"x_mm_per_N": 1e-4, "rz_rad_per_Nmm": 1e-9}
     soft = with_effect(lonely, EFFECTS["base_compliance"], give)
     at = postures(lonely, np.zeros((1, 3)))
-    k = read_stiffness(equilibrium(system(soft, at), np.zeros(6)))[0]
+    k = read_stiffness(under(soft, at, np.zeros(6)))[0]
     added = np.linalg.inv(k) - np.linalg.inv(paper.BAR_STIFFNESS)
     np.testing.assert_allclose(added, np.diag([1e-4, 0.0, 0.0, 0.0, 0.0, 1e-9]), atol=1e-12)

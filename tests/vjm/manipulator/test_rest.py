@@ -20,18 +20,18 @@ from tests.vjm.manipulator.example import (
     orthoglide,
     pair,
     relative,
+    under,
     universal,
 )
 from tests.vjm.strategies import bar_stiffness, fixed_seed
 from vjm import paper
 from vjm.frames import POSE_NAMES
-from vjm.manipulator.equilibrium import equilibrium, loaded_stiffness, unstable_directions
 from vjm.manipulator.freedom import LOOSE, RIGID
-from vjm.manipulator.lagrangian import system
 from vjm.manipulator.measures import principal, rotational, translational
 from vjm.manipulator.parts import Actuator, ElasticLink, Frame, Leg, Manipulator, Part, Passive
 from vjm.manipulator.posture import postures
 from vjm.manipulator.rest import stiffness_at_rest
+from vjm.stiffness import loaded_stiffness
 
 K = paper.BAR_STIFFNESS
 points = st.tuples(*[st.floats(-90.0, 90.0)] * 3).map(np.array)
@@ -65,16 +65,14 @@ def test_isotropic_posture_is_equal_in_all_directions(linkage: tuple[Part, ...])
 @given(bar_stiffness(), points, st.sampled_from([0.0, 1e-5]))
 def test_pseudo_rigid_bars_are_explicit_loops(bar: np.ndarray, point: np.ndarray, give: float) -> None:
     whole = orthoglide(pair(bar, radial=give, tilt=1e-2 * give))
-    of = system(whole, postures(whole, point[None]))
-    state = equilibrium(of, np.zeros(6))
-    assert state.converged.all() and unstable_directions(state).tolist() == [0]
+    state = under(whole, postures(whole, point[None]), np.zeros(6))
+    assert state.converged.all() and state.unstable.tolist() == [0]
     assert relative(loaded_stiffness(state)[0], at_rest(whole, point)) < 1e-6
 
 
 def test_refined_bars_have_the_same_stiffness_at_rest() -> None:
     lumped, refined = (orthoglide(pair(segments=n)) for n in (0, 3))
-    of = system(refined, postures(refined, POINTS))
-    k = loaded_stiffness(equilibrium(of, np.zeros(6)))
+    k = loaded_stiffness(under(refined, postures(refined, POINTS), np.zeros(6)))
     assert relative(k, at_rest(lumped, POINTS)) < 1e-9
 
 
@@ -131,7 +129,7 @@ def test_two_refined_links_of_a_leg_are_two() -> None:
     fine = Manipulator("arm", (Leg("arm", _two_links(3)),), LENGTH)
     at = postures(arm, np.array([[LENGTH + FOOT, 0.0, 0.0]]))
     expected = stiffness_at_rest(arm, at).total[0]
-    assert relative(loaded_stiffness(equilibrium(system(fine, at), np.zeros(6)))[0], expected) < 1e-8
+    assert relative(loaded_stiffness(under(fine, at, np.zeros(6)))[0], expected) < 1e-8
 
 
 def _two_links(segments: int) -> tuple[Part, ...]:
@@ -146,7 +144,7 @@ def test_two_refined_parallelograms_of_a_leg_are_two() -> None:
         linkage = pair(segments=segments)[1]
         whole = Manipulator("two", (Leg("two", (linkage, across, linkage)),), LENGTH)
         at = postures(whole, np.array([[2.0 * LENGTH, 0.0, 0.0, np.pi / 2, 0.0, 0.0]]))
-        k.append(loaded_stiffness(equilibrium(system(whole, at), at.pose, held=POSE_NAMES))[0])
+        k.append(loaded_stiffness(under(whole, at, at.pose, POSE_NAMES))[0])
     # Turns about the hinges have no stiffness, so entries are compared with the largest of their kind.
     sizes = np.array([1.0] * 3 + [LENGTH] * 3)
     scaled = [each / (sizes[:, None] * sizes) for each in k]
