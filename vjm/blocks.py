@@ -62,6 +62,7 @@ def newton_step(
     step = np.empty_like(right)
     stiffness = np.zeros((len(right), 6, 6))
     platform, matrix = right[:, place.platform], control.by_pose
+    carried = np.zeros((len(right), 6, count))
     regular, answers = np.ones(len(right), dtype=bool), {}
     for k, (chain, by) in enumerate(zip(mechanism.chains, control.by_coordinates, strict=True)):
         if chain.rigid:
@@ -69,12 +70,14 @@ def newton_step(
         m = place.coordinates[k].stop - place.coordinates[k].start
         answer, solvable = _answers(place, rows[k], k, right)
         load, own = np.split(answer[:, m : m + 6], [count], axis=-1)
-        platform, matrix = platform - control.by_load @ load, matrix + control.by_load @ own
+        carried += load
         if by is not None:
             platform, matrix = platform - by @ answer[:, :m, :count], matrix + by @ answer[:, :m, count:]
         stiffness += own
         regular &= solvable
         answers[k] = answer
+    platform = platform - control.by_load @ carried
+    matrix = matrix + control.by_load @ stiffness
     whole = _Whole.of(mechanism)
     if whole.numbers:
         matrix = whole.bordered(rows, control, matrix)
@@ -136,7 +139,7 @@ class _Whole:
         """(B, 6 + W, 6 + W) symmetric, of the platform and these chains: their matrices, and what ties them to it."""
         place = layout(self.mechanism)
         size = 6 + self.places.size
-        out, at = np.zeros((len(rows[0].gap), size, size)), 6
+        out, at = np.zeros((len(rows[0].matrix), size, size)), 6
         for k in self.numbers:
             x, dual = place.coordinates[k], place.closing[k]
             matrix = _dimensionless(place, rows[k], x, dual)
@@ -177,7 +180,7 @@ def unstable_directions(
     count = np.zeros(members.size, dtype=int)
     if members.size == 0:
         return count
-    taken = tuple(ChainRows(r.balance[members], r.gap[members], r.matrix[members], r.order) for r in rows)
+    taken = tuple(ChainRows(r.balance, r.gap, r.matrix[members], r.order) for r in rows)
     for chain, row, x, dual in zip(mechanism.chains, taken, place.coordinates, place.closing, strict=True):
         if not chain.rigid:
             count += _negative(chain, row, _dimensionless(place, row, x, dual)) - chain.closures

@@ -165,7 +165,7 @@ def chain_rows(
         matrix[..., :m, :m] = answer.tangent
     else:
         matrix, balance = np.zeros(0), chain.force(strain, memory, linear)
-    gap = np.zeros((*batch, chain.closures))
+    gap = np.zeros((*batch, chain.closures)) if chain.loops else np.empty((*batch, 6))
     gap[..., :6] = pose
     for number, sides in enumerate(_closures(chain)):
         dual = slice(6 * number, 6 * number + 6)
@@ -173,8 +173,12 @@ def chain_rows(
             end, pull = _closed(
                 path, sign, coordinates, multipliers[..., dual], chain, matrix, m + dual.start
             )
-            gap[..., dual] += sign * end
-            balance = balance + sign * pull
+            if sign > 0:
+                gap[..., dual] += end
+                balance = balance + pull
+            else:
+                gap[..., dual] -= end
+                balance = balance - pull
     for load in chain.loads:
         pull, slope = load.pull(coordinates, second)
         balance = balance - pull[..., chain.moving]
@@ -226,11 +230,17 @@ def _closed(
     else:
         jacobian, curvature = here.jacobian[..., mine], here.hessian(multiplier)
         dual = slice(row, row + 6)
-        matrix[..., dual, place] = matrix[..., dual, place] + sign * jacobian
-        matrix[..., place, dual] = matrix[..., place, dual] + sign * np.swapaxes(jacobian, -1, -2)
+        # No other path has these rows and columns.
         if isinstance(place, slice):
-            matrix[..., place, place] += sign * curvature
+            np.multiply(jacobian, sign, out=matrix[..., dual, place])
+            np.multiply(np.swapaxes(jacobian, -1, -2), sign, out=matrix[..., place, dual])
+            (np.add if sign > 0 else np.subtract)(
+                matrix[..., place, place], curvature, out=matrix[..., place, place]
+            )
         else:
+            signed = sign * jacobian
+            matrix[..., dual, place] = signed
+            matrix[..., place, dual] = np.swapaxes(signed, -1, -2)
             matrix[..., place[:, None], place] += sign * curvature[..., mine, :][..., mine]
         own = np.einsum("...ji,...j->...i", jacobian, multiplier)
     if isinstance(place, slice):

@@ -89,6 +89,24 @@ class Polynomial:
 
 
 @dataclass(frozen=True, eq=False)
+class OnSum:
+    """A scalar law of the sum of shares (k,) x strains: each coordinate carries the force by its share."""
+
+    law: Law
+    shares: tuple[float, ...]
+
+    @property
+    def initial_memory(self) -> Array:
+        return self.law.initial_memory
+
+    def respond(self, strain: Array, memory: Array) -> Response:
+        shares = np.array(self.shares)
+        answer = self.law.respond((strain @ shares)[..., None], memory)
+        tangent = answer.tangent * shares[:, None] * shares
+        return Response(answer.energy, answer.force * shares, tangent, answer.memory)
+
+
+@dataclass(frozen=True, eq=False)
 class BeamColumn:
     """Geometric nonlinearity of bar segments, on top of their linear springs K.
 

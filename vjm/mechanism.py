@@ -111,7 +111,7 @@ class ElasticChain:
     @cached_property
     def joints(self) -> tuple[Joint, ...]:
         """The joint of every coordinate, which stands for its kind and role."""
-        return joints_of(self.chain, self.loops)
+        return joints_of(self.chain, self.loops) if self.loops else self.chain.joints
 
     @property
     def size(self) -> int:
@@ -176,8 +176,7 @@ class ElasticChain:
         """Of its closures by these coordinates."""
         length = max(float(np.max(np.abs(self.rest), initial=0.0)), self._reach, 1e-300)
         jacobian = (
-            self.closure_jacobian(self.rest)
-            / np.tile(np.repeat([length, 1.0], 3), self.closures // 6)[:, None]
+            self.close(self.rest)[1] / np.tile(np.repeat([length, 1.0], 3), self.closures // 6)[:, None]
         )
         size = np.array([length if joint.kind == "translation" else 1.0 for joint in self.joints])
         return rank((jacobian * size)[:, numbers])
@@ -187,15 +186,21 @@ class ElasticChain:
         """How far from the base it gets on its way, mm."""
         return float(np.linalg.norm(self.chain.pose(self.rest[: self.chain.size])[:3]))
 
-    def closure_jacobian(self, coordinates: Array) -> Array:
-        """(c, n) of the closures at coordinates (n,): the end of the chain, then g_2 - g_1 of each loop."""
-        out = np.zeros((self.closures, self.size))
-        out[:6, self.main.numbers] = self.chain.jacobian(coordinates[self.main.numbers])
-        for number, loop in enumerate(self.loops):
-            for path, sign in loop.sides:
-                rows = slice(6 * number + 6, 6 * number + 12)
-                out[rows, path.numbers] += sign * path.chain.jacobian(coordinates[path.numbers])
-        return out
+    def close(self, coordinates: Array) -> tuple[Array, Array]:
+        """(..., c) pose of the end of the chain, then g_2 - g_1 of each loop, and their Jacobian (..., c, n) at all
+        coordinates (..., n)."""
+        if not self.loops:
+            here = self.chain.kinematics(coordinates)
+            return here.pose, here.jacobian
+        ends = np.zeros((*coordinates.shape[:-1], self.closures))
+        out = np.zeros((*ends.shape, self.size))
+        for number, sides in enumerate([((self.main, 1.0),), *(loop.sides for loop in self.loops)]):
+            rows = slice(6 * number, 6 * number + 6)
+            for path, sign in sides:
+                here = path.chain.kinematics(coordinates[..., path.numbers])
+                ends[..., rows] += sign * here.pose
+                out[..., rows, path.numbers] += sign * here.jacobian
+        return ends, out
 
     @cached_property
     def full_stiffness(self) -> Array:

@@ -15,8 +15,9 @@ from pipeline.toml.complaints import Complaints, shown
 from pipeline.toml.fields import sentences
 from pipeline.toml.lines import TomlLines
 from pipeline.toml.spelling import unknown_name
-from vjm.manipulator.parts import Leg, Manipulator, Part
+from vjm.manipulator.parts import Manipulator
 from vjm.manipulator.posture import postures
+from vjm.parts import Leg, Part
 
 SHIPPED = Path(__file__).parent / "shipped"
 LARGEST = 1_000_000
@@ -133,7 +134,10 @@ class _Reader:
                 said = f"is {shown(table.chain)}, {unknown_name(table.chain, list(chains))}"
                 self.say((*path, "chain"), f"{place}, chain", said)
             else:
-                legs.append(Leg(table.name, (table.begin(), *chains[table.chain], table.end())))
+                try:
+                    legs.append(Leg(table.name, (table.begin(), *chains[table.chain], table.end())))
+                except ValueError as error:
+                    self.say(path, place, str(error).partition(": ")[2])
             names.add(table.name)
         return tuple(legs)
 

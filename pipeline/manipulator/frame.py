@@ -14,19 +14,10 @@ from numpy.typing import NDArray
 
 from fem.frame.errors import Errors
 from fem.frame.section import section_of
-from fem.frame.structure import ELEMENTS, FREE, RIGID, Beam, Joint, Structure, stiffness_at
+from fem.frame.structure import ELEMENTS, RIGID, Beam, Joint, Structure, stiffness_at
 from pipeline.manipulator.frame_hinges import HINGE, hinge_give, refuse
-from vjm.manipulator.parts import (
-    Actuator,
-    ElasticLink,
-    Frame,
-    Leg,
-    Manipulator,
-    Parallelogram,
-    Part,
-    Passive,
-    Virtual,
-)
+from vjm.manipulator.parts import Manipulator, Parallelogram
+from vjm.parts import Actuator, Elastic, Fork, Frame, Leg, Part, Passive, Virtual, branch_posture
 from vjm.sensors import BaseSpring, DeadWeight, TrueMoment
 
 Array = NDArray[np.float64]
@@ -126,14 +117,37 @@ def _place(build: _Builder, part: Part, left: list[float]) -> None:
             build.step(_along(part.kind, part.axis, 0.0 if part.stiffness is None else 1.0 / part.stiffness))
             _moved(build, part.kind, part.axis, left.pop(0))
         case Passive():
-            build.step(_along(part.kind, part.axis, FREE))
-            _moved(build, part.kind, part.axis, left.pop(0))
+            for axis in part.axes:
+                build.step(_along(axis.kind, axis.direction, hinge_give(axis.laws)))
+                _moved(build, axis.kind, axis.direction, left.pop(0))
         case Virtual():
             build.step(_along(part.kind, part.axis, 1.0 / part.stiffness))
-        case ElasticLink():
+        case Elastic():
             _beam(build, part)
+        case Fork():
+            _fork(build, part, left)
         case Parallelogram():
             _linkage(build, part, left.pop(0))
+        case _:
+            raise ValueError(f"finite elements have no {type(part).__name__}")
+
+
+def _fork(build: _Builder, part: Fork, left: list[float]) -> None:
+    """Branches from one body to the one at the end of the first."""
+    count = sum(len(branch_posture(branch)) for branch in part.branches)
+    own = [share * left[0] for share in part.together] or left[:count]
+    del left[: 1 if part.together else count]
+    node, place, triad = build.node, build.place, build.triad
+    ends = []
+    for branch in part.branches:
+        build.node, build.place, build.triad = node, place, triad
+        for each in branch:
+            _place(build, each, own)
+        ends.append((build.node, build.place, build.triad))
+    (first, *_), *others = ends
+    for other, *_ in others:
+        build.join(other, first, ends[0][1], np.eye(3), [RIGID] * 6)
+    build.node, build.place, build.triad = ends[0]
 
 
 def _along(kind: str, axis: tuple[float, float, float], compliance: float) -> list[float]:
@@ -157,14 +171,15 @@ def _turn(axis: Array, angle: float) -> Array:
     return np.asarray(np.eye(3) + sin(angle) * cross + (1.0 - cos(angle)) * cross @ cross)
 
 
-def _beam(build: _Builder, part: ElasticLink) -> None:
-    if part.length == 0.0:
+def _beam(build: _Builder, part: Elastic) -> None:
+    length = part.link.length
+    if length == 0.0:
         raise ValueError("finite elements have no elastic link of length zero")
     if not np.array_equal(build.positions[build.node], build.place):
         build.step([RIGID] * 6)
-    tip = build.place + part.length * build.triad[:, 0]
+    tip = build.place + length * build.triad[:, 0]
     node = build.new(tip)
-    build.beams.append(Beam(build.node, node, section_of(part.stiffness, part.length), build.triad))
+    build.beams.append(Beam(build.node, node, section_of(part.link.stiffness, length), build.triad))
     build.node, build.place = node, tip
 
 
@@ -175,19 +190,21 @@ def _linkage(build: _Builder, part: Parallelogram, q: float) -> None:
     body = build.new(end)
     errors, scale = build.errors, build.errors.modulus_error.scale
     width = part.width + part.as_built.wider + errors.dimension_error.width_mm
-    hinge = hinge_give(part, errors.joint_torsional_stiffness.stiffness_Nmm_per_rad)
+    spring = errors.joint_torsional_stiffness.stiffness_Nmm_per_rad
+    hinges = [hinge_give(laws, spring) for laws in part.as_built.hinges]
     radial, tilt = errors.axis_flexibility.radial_mm_per_N, errors.axis_flexibility.tilt_rad_per_Nmm
     softer = np.array([radial, 0.0, radial, tilt, 0.0, tilt])
     scales = (scale, scale * errors.bar_stiffness_asymmetry.ratio)
-    for side, link, own in zip((-0.5, 0.5), part.as_built.links, scales, strict=True):
+    bars = zip((-0.5, 0.5), part.as_built.links, scales, (hinges[:2], hinges[2:]), strict=True)
+    for side, link, own, about in bars:
         refuse(link, part)
         arm = side * width * build.triad[:, 2]
         base, tip = build.new(build.place + arm), build.new(end + arm)
         section = section_of(link.stiffness, link.length)
         build.beams.append(Beam(base, tip, section if own == 1.0 else section.scaled(own), turned))
-        for nodes, place, give in (
-            ((build.node, base), build.place + arm, link.base_give),
-            ((tip, body), end + arm, link.tip_give),
+        for nodes, place, give, hinge in (
+            ((build.node, base), build.place + arm, link.base_give, about[0]),
+            ((tip, body), end + arm, link.tip_give, about[1]),
         ):
             compliance = [float(c) for c in np.diag(give) + softer]
             compliance[HINGE] = hinge

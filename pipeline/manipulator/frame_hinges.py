@@ -3,7 +3,7 @@
 import numpy as np
 
 from fem.frame.structure import FREE
-from vjm.laws import Linear
+from vjm.laws import Law, Linear
 from vjm.link import Link
 from vjm.manipulator.parts import Parallelogram
 
@@ -11,13 +11,13 @@ HINGE = 4
 """The axis of a hinge among the six of its frame: about y."""
 
 
-def hinge_give(part: Parallelogram, more: float = 0.0) -> float:
+def hinge_give(laws: tuple[Law, ...], more: float = 0.0) -> float:
     """rad/(N·mm) of one hinge about its axis: free, or linear springs in parallel. ValueError for another law.
 
-    more: N·mm/rad of one that is not in the description.
+    laws: of its turn. more: N·mm/rad of one that is not in the description.
     """
     stiffness = more
-    for law in part.as_built.hinges:
+    for law in laws:
         if not isinstance(law, Linear):
             raise ValueError(f"finite elements at rest have no {type(law).__name__} in a hinge")
         stiffness += float(law.stiffness[0, 0])

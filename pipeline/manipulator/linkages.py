@@ -7,9 +7,11 @@ import numpy as np
 
 from vjm.bars import Y, Z
 from vjm.frames import Array
-from vjm.manipulator.parts import Actuator, ElasticLink, Leg, Manipulator, Parallelogram, Part, Passive
+from vjm.link import Link
+from vjm.manipulator.parts import Manipulator, Parallelogram
+from vjm.parts import Actuator, Elastic, Leg, Part, elastic, hinge
 
-_ABOUT_Y, _ABOUT_Z = Passive("rotation", Y), Passive("rotation", Z)
+_ABOUT_Y, _ABOUT_Z = hinge(Y), hinge(Z)
 
 Relink = Callable[[Parallelogram], tuple[Part, ...]]
 """What takes the place of hinge about z, parallelogram, hinge about z."""
@@ -24,7 +26,7 @@ def relinked(manipulator: Manipulator, relink: Relink) -> Manipulator:
     for leg in manipulator.legs:
         at = [k for k, part in enumerate(leg.parts) if isinstance(part, Parallelogram)]
         around = [leg.parts[k + side] for k in at for side in (-1, 1)]
-        if len(at) != 1 or not all(isinstance(p, Passive) and p.axis == Z for p in around):
+        if len(at) != 1 or not all(p == _ABOUT_Z for p in around):
             raise ValueError(f"leg {leg.name} has no parallelogram between two passive joints about z")
         part = leg.parts[at[0]]
         assert isinstance(part, Parallelogram)
@@ -65,7 +67,7 @@ def grown(bar: Array) -> Array:
 def _bar(
     of: Callable[[Array], Array], before: tuple[Part, ...], after: tuple[Part, ...], segments: int = 0
 ) -> Relink:
-    return lambda p: (*before, ElasticLink(p.length, of(p.bar_stiffness), segments), *after)
+    return lambda p: (*before, elastic(p.length, of(p.bar_stiffness), segments), *after)
 
 
 def two_fold_bar(segments: int = 0) -> Relink:
@@ -104,19 +106,19 @@ def with_unknowns(manipulator: Manipulator, actuator: float, foot: float) -> Man
         for part in leg.parts:
             if isinstance(part, Actuator):
                 part = replace(part, stiffness=actuator)
-            elif isinstance(part, ElasticLink):
-                part = replace(part, stiffness=foot_stiffness(part, foot))
+            elif isinstance(part, Elastic):
+                part = replace(part, link=replace(part.link, stiffness=foot_stiffness(part.link, foot)))
             parts.append(part)
         legs.append(replace(leg, parts=tuple(parts)))
     return replace(manipulator, legs=tuple(legs))
 
 
-def foot_stiffness(part: ElasticLink, bending: float) -> Array:
+def foot_stiffness(foot: Link, bending: float) -> Array:
     """(6, 6) of the foot at its tip, a slender beam of EI = `bending`, GJ = EI / 1.3."""
-    length = part.length
+    length = foot.length
     k = np.diag([0.0, 12 / length**2, 12 / length**2, 1 / 1.3, 4.0, 4.0])
     k[1, 5] = k[5, 1] = -6 / length
     k[2, 4] = k[4, 2] = 6 / length
     k *= bending / length
-    k[0, 0] = part.stiffness[0, 0]
+    k[0, 0] = foot.stiffness[0, 0]
     return k

@@ -10,17 +10,9 @@ from pydantic import Field, field_validator, model_validator
 from fem.beam import uniform_stiffness
 from pipeline.toml.fields import Angle, BarTable, Entry, Length, Number, Table, Text, printable
 from pipeline.toml.stiffness import not_a_stiffness, symmetric
-from vjm.manipulator.parts import (
-    Actuator,
-    Bars,
-    ElasticLink,
-    Frame,
-    Kind,
-    Parallelogram,
-    Part,
-    Passive,
-    Virtual,
-)
+from vjm.manipulator.parts import Bars, Parallelogram
+from vjm.parts import Actuator, Frame, Kind, Part, Passive, Virtual, elastic
+from vjm.parts import Axis as JointAxis
 
 Array = NDArray[np.float64]
 Vector = tuple[Number, Number, Number]
@@ -199,7 +191,7 @@ class PassiveTable(JointTable):
         return self
 
     def made(self) -> Part:
-        return Passive(self.kind, AXES[self.axis], self.home)
+        return Passive((JointAxis(self.kind, AXES[self.axis], home=self.home),))
 
 
 class VirtualTable(JointTable):
@@ -258,7 +250,7 @@ class LinkTable(ElasticTable):
     part: Literal["link"]
 
     def made(self) -> Part:
-        return ElasticLink(self.length_mm, self.bar(), self.segments)
+        return elastic(self.length_mm, self.bar(), self.segments)
 
 
 class ParallelogramTable(ElasticTable):

@@ -10,17 +10,9 @@ from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
 from pipeline.page.record import Line
-from vjm.manipulator.parts import (
-    Actuator,
-    ElasticLink,
-    Frame,
-    Leg,
-    Manipulator,
-    Parallelogram,
-    Part,
-    Passive,
-)
+from vjm.manipulator.parts import Manipulator, Parallelogram
 from vjm.manipulator.posture import postures
+from vjm.parts import Actuator, Elastic, Frame, Kind, Leg, Part, Passive, posture_of
 
 Array = NDArray[np.float64]
 Ends = tuple[Array, Array]
@@ -76,9 +68,9 @@ def _pieces(leg: Leg, coordinates: Array) -> Iterator[_Piece]:
     place, triad, free = np.zeros(3), np.eye(3), False
     left = iter(float(x) for x in coordinates)
     for number, part in enumerate(leg.parts):
-        value = next(left) if isinstance(part, Actuator | Passive | Parallelogram) else 0.0
+        values = [next(left) for _ in posture_of(part)]
         free = free or isinstance(part, Passive | Parallelogram)
-        shift, turn = _motion(part, value)
+        shift, turn = _motion(part, values)
         end = place + triad @ shift
         if np.any(shift) and not (number == 0 and isinstance(part, Frame)):
             yield _piece(part, place, end, triad, free)
@@ -93,19 +85,31 @@ def _piece(part: Part, place: Array, end: Array, triad: Array, free: bool) -> _P
     return _Piece(bars, tuple((at - arm, at + arm) for at in (place, end)), free)
 
 
-def _motion(part: Part, value: float) -> tuple[Array, Array]:
+def _motion(part: Part, values: list[float]) -> tuple[Array, Array]:
     """(3,) shift to the end of a part and the (3, 3) turn there, both in the frame where it begins."""
     still, straight = np.zeros(3), np.eye(3)
     match part:
         case Frame():
             return part.translation, part.rotation
-        case Actuator(kind="translation") | Passive(kind="translation"):
-            return value * np.array(part.axis), straight
-        case Actuator() | Passive():
-            return still, Rotation.from_rotvec(value * np.array(part.axis)).as_matrix()
-        case ElasticLink():
-            return np.array([part.length, 0.0, 0.0]), straight
+        case Actuator():
+            return _moved(part.kind, part.axis, values[0])
+        case Passive():
+            shift, turn = still, straight
+            for axis, value in zip(part.axes, values, strict=True):
+                ahead, turned = _moved(axis.kind, axis.direction, value)
+                shift, turn = shift + turn @ ahead, turn @ turned
+            return shift, turn
+        case Elastic():
+            return np.array([part.link.length, 0.0, 0.0]), straight
         case Parallelogram():
             # Its end keeps its orientation.
-            return Rotation.from_rotvec(value * np.array(Y)).apply([part.length, 0.0, 0.0]), straight
+            return Rotation.from_rotvec(values[0] * np.array(Y)).apply([part.length, 0.0, 0.0]), straight
     return still, straight
+
+
+def _moved(kind: Kind, axis: tuple[float, float, float], value: float) -> tuple[Array, Array]:
+    """Shift and turn of a joint by a value, mm or rad."""
+    way = value * np.array(axis)
+    if kind == "translation":
+        return way, np.eye(3)
+    return np.zeros(3), Rotation.from_rotvec(way).as_matrix()

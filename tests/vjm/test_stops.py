@@ -14,9 +14,10 @@ from vjm.effects import catalogue
 from vjm.effects.base import for_bars
 from vjm.manipulator.effects import with_effect
 from vjm.manipulator.machine import machine, posture_inputs
-from vjm.manipulator.parts import Leg, Manipulator, Parallelogram
+from vjm.manipulator.parts import Manipulator, Parallelogram
 from vjm.manipulator.posture import postures
 from vjm.mechanisms.parallelogram import Parallelogram as Bench
+from vjm.parts import Leg
 from vjm.sensitivity import by_targets
 from vjm.stops import pressed, slid
 

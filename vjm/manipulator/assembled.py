@@ -14,11 +14,12 @@ import numpy as np
 from vjm.equilibrium import TOLERANCE, Equilibrium, drive_values, equilibrium, unloaded
 from vjm.frames import Array
 from vjm.lagrangian import rest
-from vjm.manipulator.loops import posture_input, turn_input
+from vjm.leg_chain import posture_input, turn_input
 from vjm.manipulator.machine import Machine, posture_inputs
-from vjm.manipulator.parts import Leg, Parallelogram, Part
+from vjm.manipulator.parts import Parallelogram
 from vjm.manipulator.posture import Postures
 from vjm.mechanisms.assembled import FourBar
+from vjm.parts import Leg, Part, posture_of
 from vjm.problem import Problem, channel_numbers
 
 LOOSE = 1e-10
@@ -59,7 +60,7 @@ def _without_loads(of: Machine) -> Machine:
     def bare(part: Part) -> Part:
         if not isinstance(part, Parallelogram) or part.built is None:
             return part
-        return replace(part, built=replace(part.built, hinges=(), line_load=np.zeros(3)))
+        return replace(part, built=replace(part.built, hinges=((),) * 4, line_load=np.zeros(3)))
 
     manipulator = of.manipulator
     legs = tuple(Leg(leg.name, tuple(map(bare, leg.parts))) for leg in manipulator.legs)
@@ -73,7 +74,8 @@ def _alone(of: Machine, at: Postures) -> dict[str, Array]:
         zip(of.manipulator.legs, of.chains, at.coordinates, strict=True)
     ):
         slopes = {drive.name: drive.slope for drive in chain.drives}
-        for number, part in enumerate(leg.moving):
+        moving = [part for part in leg.parts for _ in posture_of(part)]
+        for number, part in enumerate(moving):
             if not isinstance(part, Parallelogram) or part.bars != "pair":
                 continue
             built = part.as_built

@@ -12,9 +12,10 @@ import numpy as np
 
 from vjm.effects.base import Effect, Values
 from vjm.frames import exp
-from vjm.manipulator.parts import AsBuilt, Frame, Leg, Manipulator, Parallelogram, Part
+from vjm.manipulator.parts import AsBuilt, Manipulator, Parallelogram
 from vjm.mechanisms.assembly import Alteration, as_built
 from vjm.mechanisms.parallelogram import Parallelogram as Bench
+from vjm.parts import Frame, Leg, Part
 
 
 def with_effect(manipulator: Manipulator, effect: Effect, values: Values) -> Manipulator:
@@ -67,7 +68,9 @@ def with_view(manipulator: Manipulator, rig: object) -> Manipulator:
         if model is None or model is first.bar:
             model = drawn.model
         links = as_built(part.link, 2, (_as_it_is(drawn), *more))
-        return replace(part, bars="pair", built=AsBuilt(links, model, rig.hinges, rig.wider, rig.line_load))
+        return replace(
+            part, bars="pair", built=AsBuilt(links, model, (rig.hinges,) * 4, rig.wider, rig.line_load)
+        )
 
     legs = tuple(
         Leg(leg.name, (*((Frame(rotation=turned),) if tilted else ()), *map(changed, leg.parts)))
@@ -90,7 +93,7 @@ def view_of(manipulator: Manipulator) -> Bench:
         part.width,
         part.bar_stiffness,
         bar=built.model,
-        hinges=built.hinges,
+        hinges=built.hinges[0],
         alterations=(_as_it_is(built),),
         wider=built.wider,
         mount=manipulator.mount,

@@ -17,9 +17,10 @@ from vjm.lagrangian import layout
 from vjm.manipulator.buckling import linear_factor, linear_path
 from vjm.manipulator.freedom import undetermined
 from vjm.manipulator.machine import machine, posture_inputs
-from vjm.manipulator.parts import ElasticLink, Frame, Leg, Manipulator, Parallelogram, Passive
+from vjm.manipulator.parts import Manipulator, Parallelogram
 from vjm.manipulator.posture import Postures
 from vjm.manipulator.rest import RestStiffness
+from vjm.parts import Elastic, Fork, Frame, Leg, Part, Passive
 from vjm.refined import Refined
 from vjm.stability import scaled_hessian
 
@@ -74,20 +75,29 @@ def _bases(manipulator: Manipulator, batch: tuple[int, ...]) -> Array:
 
 
 def segmented(leg: Leg, segments: int = SEGMENTS) -> Leg:
-    """The leg with geometric stiffness in what may buckle: parallelograms, and elastic links between passive joints."""
-    parts = list(leg.parts)
-    for k, part in enumerate(parts):
-        between = any(isinstance(p, Passive) for p in parts[:k]) and any(
-            isinstance(p, Passive) for p in parts[k:]
-        )
-        if isinstance(part, Parallelogram):
-            built = (
-                None if part.built is None else replace(part.built, model=Refined(part.segments or segments))
-            )
-            parts[k] = replace(part, bars="pair", segments=part.segments or segments, built=built)
-        elif isinstance(part, ElasticLink) and between and part.length:
-            parts[k] = replace(part, segments=part.segments or segments)
-    return replace(leg, parts=tuple(parts))
+    """The leg with geometric stiffness in what may buckle: parallelograms, members of forks, and those between passive
+    joints."""
+    return replace(leg, parts=_segmented(leg.parts, segments))
+
+
+def _segmented(parts: tuple[Part, ...], segments: int, forked: bool = False) -> tuple[Part, ...]:
+    jointed = [isinstance(part, Passive) for part in parts]
+    return tuple(
+        _in_segments(part, segments, forked or (any(jointed[:k]) and any(jointed[k:])))
+        for k, part in enumerate(parts)
+    )
+
+
+def _in_segments(part: Part, segments: int, may_buckle: bool) -> Part:
+    if isinstance(part, Parallelogram):
+        count = part.segments or segments
+        built = None if part.built is None else replace(part.built, model=Refined(count))
+        return replace(part, bars="pair", segments=count, built=built)
+    if isinstance(part, Fork):
+        return replace(part, branches=tuple(_segmented(b, segments, forked=True) for b in part.branches))
+    if not isinstance(part, Elastic) or not may_buckle or not part.link.length:
+        return part
+    return part if isinstance(part.model, Refined) else replace(part, model=Refined(segments))
 
 
 @dataclass(frozen=True, eq=False)

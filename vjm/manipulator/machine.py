@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike
 
 from vjm.frames import Array
 from vjm.gauges import Gauge
-from vjm.manipulator.loops import leg_chain, posture_input
+from vjm.leg_chain import leg_chain, posture_input
 from vjm.manipulator.parts import Manipulator, Parallelogram
 from vjm.manipulator.posture import Postures
 from vjm.mechanism import ElasticChain
@@ -73,10 +73,10 @@ def known_inputs(of: Machine, inputs: Mapping[str, ArrayLike]) -> dict[str, Arra
 
 def _laws_about_turned_hinges(manipulator: Manipulator) -> bool:
     """Whether a law acts about hinges of a pair of bars that are not as drawn."""
-    parts = (p for leg in manipulator.legs for p in leg.moving if isinstance(p, Parallelogram))
+    parts = (p for leg in manipulator.legs for p in leg.parts if isinstance(p, Parallelogram))
     return any(
         p.bars == "pair"
-        and bool(p.as_built.hinges)
+        and any(p.as_built.hinges)
         and any(link.length != p.length for link in p.as_built.links)
         for p in parts
     )

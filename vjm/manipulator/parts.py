@@ -1,102 +1,42 @@
-"""What a leg is made of, from the base to the platform; each part starts in the frame where the one before it ends.
+"""A manipulator as drawn: legs of parts, among them parallelograms with what effects have made of them.
 
-Frames, units and orders are those of `vjm.frames`. A part that has a place in the posture (actuator, passive joint,
-parallelogram) has one coordinate there: mm or rad.
+Frames, units and orders are those of `vjm.frames`.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from functools import partial
 from typing import Literal
 
 import numpy as np
 
 from vjm import checks
 from vjm.bars import BarModel
-from vjm.frames import Array
+from vjm.frames import Array, move_stiffness, rotation_y
 from vjm.laws import Law
 from vjm.link import Link
 from vjm.lumped import Lumped
+from vjm.parts import Coordinate, Elastic, Leg, Part, Swinging, parallelogram
 from vjm.refined import Refined
 from vjm.sensors import Sensor
 
-Kind = Literal["translation", "rotation"]
 Bars = Literal["pair", "equivalent"]
-
-
-@dataclass(frozen=True, eq=False)
-class Frame:
-    """Rigid link: translate by (3,), mm, then turn by (3, 3)."""
-
-    translation: Array = field(default_factory=lambda: np.zeros(3))
-    rotation: Array = field(default_factory=lambda: np.eye(3))
-
-
-@dataclass(frozen=True)
-class Actuator:
-    """Actuated joint along or about a unit axis.
-
-    stiffness: of drive and transmission, N/mm or N·mm/rad; None: rigid. home: coordinate from which inverse
-    kinematics starts. limits: lowest and highest coordinate.
-    """
-
-    kind: Kind
-    axis: tuple[float, float, float]
-    stiffness: float | None = None
-    home: float = 0.0
-    limits: tuple[float, float] = (-np.inf, np.inf)
-
-
-@dataclass(frozen=True)
-class Passive:
-    """Perfect passive joint along or about a unit axis; home as for `Actuator`."""
-
-    kind: Kind
-    axis: tuple[float, float, float]
-    home: float = 0.0
-
-
-@dataclass(frozen=True)
-class Virtual:
-    """One-coordinate spring along or about a unit axis; stiffness N/mm or N·mm/rad."""
-
-    kind: Kind
-    axis: tuple[float, float, float]
-    stiffness: float
-
-
-@dataclass(frozen=True, eq=False)
-class ElasticLink:
-    """Elastic link along x.
-
-    length: mm. stiffness: (6, 6) at its tip, base clamped, in its own frame. segments: number of beam segments,
-    which have geometric stiffness (`vjm.refined`); 0: the 6x6 lumped at the tip.
-    ValueError for a length below zero or a stiffness that is not symmetric positive definite.
-    """
-
-    length: float
-    stiffness: Array
-    segments: int = 0
-
-    def __post_init__(self) -> None:
-        if not (np.isfinite(self.length) and self.length >= 0.0):
-            raise ValueError(f"length must be zero or more and finite, got {self.length}")
-        if self.segments and self.length == 0.0:
-            raise ValueError("a link of no length has no segments")
-        object.__setattr__(self, "stiffness", checks.stiffness_matrix("stiffness", self.stiffness))
+_FREE = 2
+_KEPT = [0, 1, 3, 4, 5]
 
 
 @dataclass(frozen=True, eq=False)
 class AsBuilt:
     """Two bars between four hinges as they are, whatever was drawn; see `vjm.mechanisms.parallelogram`.
 
-    links: bar 1 and 2. model: of both. hinges: laws of the turn of each hinge. wider: mm added to both widths.
-    line_load: (3,) N/mm along the bars, base frame.
+    links: bar 1 and 2. model: of both. hinges: laws of the turn of each hinge, at base and tip of bar 1, then of bar 2.
+    wider: mm added to both widths. line_load: (3,) N/mm along the bars, base frame.
     """
 
     links: tuple[Link, ...]
     model: BarModel
-    hinges: tuple[Law, ...] = ()
+    hinges: tuple[tuple[Law, ...], ...] = ((), (), (), ())
     wider: float = 0.0
     line_load: Array = field(default_factory=lambda: np.zeros(3))
 
@@ -149,33 +89,43 @@ class Parallelogram:
         model: BarModel = Refined(self.segments) if self.segments else Lumped("tip")
         return AsBuilt((self.link, self.link), model)
 
-
-Part = Frame | Actuator | Passive | Virtual | ElasticLink | Parallelogram
-MOVING = (Actuator, Passive, Parallelogram)
-"""Parts with a coordinate in the posture."""
-
-
-@dataclass(frozen=True, eq=False)
-class Leg:
-    """Parts from the base frame to the platform point, and a name for messages."""
-
-    name: str
-    parts: tuple[Part, ...]
+    @property
+    def posture(self) -> tuple[Coordinate, ...]:
+        """The angle of the bars."""
+        return (Coordinate("rotation", self.home),)
 
     @property
-    def moving(self) -> tuple[Actuator | Passive | Parallelogram, ...]:
-        """The parts that the posture sets, base first."""
-        return tuple(part for part in self.parts if isinstance(part, MOVING))
+    def parts(self) -> tuple[Part, ...]:
+        """Its bars between four hinges, or the one that stands for them."""
+        if self.bars == "equivalent":
+            return (Swinging(self.length, partial(pseudo_rigid_springs, self.link, self.width), self.home),)
+        built = self.as_built
+        first, second = (Elastic(link, built.model, built.line_load, self.length) for link in built.links)
+        return (parallelogram((first, second), self.width + built.wider, built.hinges, self.home),)
 
-    @property
-    def home(self) -> Array:
-        """(m,) their coordinates where inverse kinematics starts."""
-        return np.array([part.home for part in self.moving], dtype=float)
 
-    @property
-    def actuators(self) -> np.ndarray:
-        """Numbers of the actuators among the moving parts."""
-        return np.array([k for k, part in enumerate(self.moving) if isinstance(part, Actuator)], dtype=int)
+def pseudo_rigid_springs(link: Link, width: float, q: Array) -> Array:
+    """(..., 5, 5) stiffness of (x, y, rx, ry, rz) at the end of two such bars in the bar frame, at angles q (...), rad.
+
+    At rest it is exact: between its two pins a bar keeps the same 6x6 in its own frame at any angle; only the levers
+    to the middle of the linkage follow q.
+    """
+    arm = np.einsum("...ji,j->...i", rotation_y(q), [0.0, 0.0, 0.5 * width])
+    pinned = pinned_bar(link)
+    whole = move_stiffness(pinned, arm) + move_stiffness(pinned, -arm)
+    return np.asarray(whole[..., _KEPT, :][..., _KEPT])
+
+
+def pinned_bar(link: Link) -> Array:
+    """(6, 6) of one bar between its two pins, at the tip pin, bar frame; z and ry are free."""
+    at_tip = np.linalg.inv(np.linalg.inv(link.stiffness) + link.give)
+    at_tip = 0.5 * (at_tip + at_tip.T)
+    # Turning the base pin carries the tip along z; turning the tip pin turns it.
+    free = np.array([[0.0, 0.0, -link.length, 0.0, 1.0, 0.0], [0.0, 0.0, 0.0, 0.0, 1.0, 0.0]]).T
+    spent = at_tip @ free
+    left = at_tip - spent @ np.linalg.solve(free.T @ spent, spent.T)
+    left[_FREE] = left[:, _FREE] = left[4] = left[:, 4] = 0.0
+    return left
 
 
 @dataclass(frozen=True, eq=False)

@@ -1,7 +1,7 @@
 """Inverse kinematics: the coordinates of every leg that bring the unloaded platform to given poses.
 
-Legs are followed one by one as rigid chains, by Newton's method in the least-squares sense from their home, for all
-poses at once; a parallelogram is a rotation of its bars that its end does not follow.
+The springs of a leg are locked and its end and its loops closed, leg by leg, by Newton's method in the least-squares
+sense from home, for all poses at once; a parallelogram is a rotation of its bars that its end does not follow.
 """
 
 from __future__ import annotations
@@ -12,10 +12,10 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import ArrayLike
 
-from vjm.bars import X, Y
-from vjm.chain import Chain, Element, Fixed, Joint, Role
 from vjm.frames import Array
-from vjm.manipulator.parts import Actuator, ElasticLink, Frame, Leg, Manipulator, Parallelogram, Part, Passive
+from vjm.leg_chain import Built, build
+from vjm.manipulator.parts import Manipulator
+from vjm.parts import Leg
 
 TOLERANCE = 1e-11
 """Gap of a leg that counts as closed: over the manipulator's length, and rad."""
@@ -66,10 +66,8 @@ def postures(manipulator: Manipulator, poses: ArrayLike) -> Postures:
     for leg in manipulator.legs:
         x, gap = _closed(leg, flat, manipulator.length)
         reason[(reason == "") & ~(gap <= TOLERANCE)] = UNREACHED.format(leg.name)
-        for k in leg.actuators:
-            actuator = leg.moving[k]
-            assert isinstance(actuator, Actuator)
-            beyond = (x[:, k] < actuator.limits[0]) | (x[:, k] > actuator.limits[1])
+        for k, each in enumerate(leg.posture):
+            beyond = (x[:, k] < each.limits[0]) | (x[:, k] > each.limits[1])
             reason[(reason == "") & beyond] = BEYOND.format(leg.name)
         coordinates.append(x.reshape(*batch, x.shape[-1]))
     said = np.reshape(reason, batch)
@@ -78,20 +76,20 @@ def postures(manipulator: Manipulator, poses: ArrayLike) -> Postures:
 
 def _closed(leg: Leg, pose: Array, length: float) -> tuple[Array, Array]:
     """Coordinates (B, m) of a leg and what is left of its gap (B,)."""
-    chain = rigid_chain(leg)
+    rigid = rigid_leg(leg)
+    chain, slopes = rigid.chain, rigid.posture.T
     x = np.tile(leg.home, (len(pose), 1))
     gap = np.full(len(pose), np.inf)
-    scale = np.repeat([1.0 / length, 1.0], 3)
-    turns = np.array(
-        [not (isinstance(p, Actuator | Passive) and p.kind == "translation") for p in leg.moving]
-    )
-    size = np.where(turns, 1.0, length)
+    scale = np.tile(np.repeat([1.0 / length, 1.0], 3), chain.closures // 6)
+    size = np.array([1.0 if each.kind == "rotation" else length for each in leg.posture])
+    aim = np.zeros((len(pose), chain.closures))
+    aim[:, :6] = pose
     active = np.arange(len(pose))
     for _ in range(ITERATIONS):
-        here = chain.kinematics(x[active])
-        error = (pose[active] - here.pose) * scale
+        ends, by = chain.close(x[active] @ slopes.T)
+        error = (aim[active] - ends) * scale
         gap[active] = np.max(np.abs(error), axis=-1)
-        jacobian = here.jacobian * scale[:, None] * size
+        jacobian = by @ slopes * scale[:, None] * size
         normal = np.swapaxes(jacobian, -1, -2) @ jacobian
         largest = np.max(np.abs(normal), axis=(-2, -1), initial=1e-300)
         normal += (_DAMPING * largest)[:, None, None] * np.eye(x.shape[-1])
@@ -105,26 +103,6 @@ def _closed(leg: Leg, pose: Array, length: float) -> tuple[Array, Array]:
 
 
 @lru_cache(maxsize=256)
-def rigid_chain(leg: Leg) -> Chain:
-    """The leg without its elasticity: one coordinate for each moving part, in their order."""
-    elements: list[Element] = []
-    for number, part in enumerate(leg.parts):
-        elements += _rigid(part, f"q{number}")
-    return Chain(tuple(elements))
-
-
-def _rigid(part: Part, tie: str) -> tuple[Element, ...]:
-    match part:
-        case Frame():
-            return (Fixed(part.translation, part.rotation),)
-        case Actuator() | Passive():
-            return (Joint(part.kind, part.axis, Role.PASSIVE),)
-        case ElasticLink():
-            return (Fixed(part.length * np.array(X)),)
-        case Parallelogram():
-            return (
-                Joint("rotation", Y, Role.PASSIVE, tie),
-                Fixed(part.length * np.array(X)),
-                Joint("rotation", Y, Role.PASSIVE, tie, -1.0),
-            )
-    return ()
+def rigid_leg(leg: Leg) -> Built:
+    """The leg without its elasticity: its coordinates are those of its joints."""
+    return build(leg, rigid=True)

@@ -6,34 +6,24 @@ the same 6x6 in its own frame at any angle q; only the levers to the middle of t
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache
 
 import numpy as np
 
-from vjm.bars import X, Y, spring_joints
-from vjm.chain import Chain, Element, Fixed, Joint, Role
-from vjm.frames import Array, move_stiffness, rotation_y
+from vjm.frames import Array
+from vjm.leg_chain import Built, build
+from vjm.lumped import Lumped
 from vjm.manipulator.freedom import undetermined
-from vjm.manipulator.parts import (
-    MOVING,
-    Actuator,
-    ElasticLink,
-    Frame,
-    Leg,
-    Manipulator,
-    Parallelogram,
-    Part,
-    Passive,
-    Virtual,
-)
+from vjm.manipulator.parts import Manipulator, Parallelogram
 from vjm.manipulator.posture import Postures
+from vjm.mechanism import ElasticChain
+from vjm.newton import solve_each
+from vjm.parts import Elastic, Fork, Leg, Part
 from vjm.stiffness import eliminate
 
 SINGULAR = "has no stiffness that can be computed here"
 """Where a leg is neither rigid nor loose (`vjm.manipulator.freedom`) and its equations are singular still."""
-_FREE = 2
-_KEPT = [0, 1, 3, 4, 5]
 # Asymmetry of a 6x6 in units of its diagonal: rounding of a regular elimination stays five digits below.
 _ASYMMETRY = 1e-6
 
@@ -85,18 +75,24 @@ def stiffness_at_rest(manipulator: Manipulator, at: Postures) -> RestStiffness:
 
 def leg_stiffness(leg: Leg, coordinates: Array) -> tuple[Array, np.ndarray]:
     """(B, 6, 6) of one leg at its coordinates (B, m), platform point, base frame; and whether it is regular (B,)."""
-    plan = _plan(leg)
-    count = len(coordinates)
-    x = np.zeros((count, plan.chain.size))
-    x[:, plan.posture] = coordinates
-    jacobian = plan.chain.jacobian(x)
-    spring = np.broadcast_to(plan.stiffness, (count, *plan.stiffness.shape)).copy()
-    for part, moving, first in plan.linkages:
-        spring[:, first : first + 5, first : first + 5] = pseudo_rigid_springs(part, coordinates[:, moving])
-    theta, q = jacobian[..., plan.virtual], jacobian[..., plan.passive]
+    of = _lumped(leg)
+    chain = of.chain
+    x = chain.rest + coordinates @ of.posture
+    jacobian = chain.close(x)[1]
+    plain = not (chain.loops or chain.springs)
+    sprung = chain.virtual if plain else chain.moving
+    spring = np.broadcast_to(
+        _tangent(chain)[np.ix_(sprung, sprung)], (len(x), sprung.size, sprung.size)
+    ).copy()
+    for part, moving, numbers in of.swinging:
+        own = np.searchsorted(sprung, numbers)
+        spring[:, own[:, None], own] = part.springs(coordinates[:, moving])
     # A leg that moves without load overflows here and is found out below.
     with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
-        out, regular = _eliminated(theta, q, spring)
+        if plain:
+            out, regular = _eliminated(jacobian[..., sprung], jacobian[..., chain.passive], spring)
+        else:
+            out, regular = _bordered(jacobian[..., sprung], spring)
     out[~regular] = 0.0
     size = np.sqrt(np.abs(np.diagonal(out, axis1=-2, axis2=-1)))
     unit = size[:, :, None] * size[:, None, :] + np.max(size, axis=-1)[:, None, None] ** 2 * 1e-9
@@ -105,15 +101,44 @@ def leg_stiffness(leg: Leg, coordinates: Array) -> tuple[Array, np.ndarray]:
     return 0.5 * (out + np.swapaxes(out, -1, -2)), regular
 
 
+def _tangent(chain: ElasticChain) -> Array:
+    """(n, n) of springs and laws where they carry nothing."""
+    out = np.zeros((chain.size, chain.size))
+    out[np.ix_(chain.virtual, chain.virtual)] = chain.stiffness
+    for spring in chain.springs:
+        numbers = np.array(spring.coordinates)
+        strain = np.zeros(numbers.size)
+        out[np.ix_(numbers, numbers)] += spring.law.respond(strain, spring.law.initial_memory).tangent
+    return out
+
+
+def _bordered(jacobian: Array, spring: Array) -> tuple[Array, np.ndarray]:
+    """(B, 6, 6) load at the end for its unit motions, loops closed, and whether it is regular (B,).
+
+    jacobian: (B, c, m) of the closures, that of the end first. spring: (B, m, m).
+    """
+    c, m = jacobian.shape[-2:]
+    scale = 1.0 / np.sqrt(np.maximum(np.max(np.abs(spring)), 1e-300))
+    matrix = np.zeros((len(jacobian), m + c, m + c))
+    matrix[:, :m, :m] = spring * scale**2
+    matrix[:, m:, :m] = jacobian
+    matrix[:, :m, m:] = np.swapaxes(jacobian, -1, -2)
+    right = np.zeros((len(jacobian), m + c, 6))
+    right[:, m : m + 6] = np.eye(6)
+    solution, regular = solve_each(matrix, right)
+    return -solution[:, m : m + 6] / scale**2, regular
+
+
 def why_singular(leg: Leg, coordinates: Array, length: float) -> str:
     """What is wrong with a leg that has no stiffness at its coordinates (m,); length: a size of it, mm."""
-    plan = _plan(leg)
-    x = np.zeros(plan.chain.size)
-    x[plan.posture] = coordinates
-    shifts = np.array([joint.kind == "translation" for joint in plan.chain.joints])
-    jacobian = plan.chain.jacobian(x) / np.repeat([length, 1.0], 3)[:, None] * np.where(shifts, length, 1.0)
-    given = np.concatenate([plan.virtual, plan.passive])
-    return undetermined(jacobian[:, given], np.isin(given, plan.passive)) or SINGULAR
+    of = _lumped(leg)
+    chain = of.chain
+    shifts = np.array([joint.kind == "translation" for joint in chain.joints])
+    size = np.tile(np.repeat([length, 1.0], 3), chain.closures // 6)
+    jacobian = chain.close(chain.rest + coordinates @ of.posture)[1] / size[:, None]
+    jacobian = jacobian * np.where(shifts, length, 1.0)
+    given = np.concatenate([chain.virtual, chain.passive])
+    return undetermined(jacobian[:, given], np.isin(given, chain.passive)) or SINGULAR
 
 
 def _eliminated(theta: Array, q: Array, spring: Array) -> tuple[Array, np.ndarray]:
@@ -130,85 +155,17 @@ def _eliminated(theta: Array, q: Array, spring: Array) -> tuple[Array, np.ndarra
     return out, regular & np.all(np.isfinite(out), axis=(-2, -1))
 
 
-def pseudo_rigid_springs(part: Parallelogram, q: Array) -> Array:
-    """(..., 5, 5) stiffness of (x, y, rx, ry, rz) at the end of the linkage in the bar frame, bars at q (...), rad."""
-    arm = np.einsum("...ji,j->...i", rotation_y(q), [0.0, 0.0, 0.5 * part.width])
-    pinned = pinned_bar(part)
-    whole = move_stiffness(pinned, arm) + move_stiffness(pinned, -arm)
-    return np.asarray(whole[..., _KEPT, :][..., _KEPT])
-
-
-def pinned_bar(part: Parallelogram) -> Array:
-    """(6, 6) of one bar between its two pins, at the tip pin, bar frame; z and ry are free."""
-    link = part.link
-    at_tip = np.linalg.inv(np.linalg.inv(link.stiffness) + link.give)
-    at_tip = 0.5 * (at_tip + at_tip.T)
-    # Turning the base pin carries the tip along z; turning the tip pin turns it.
-    free = np.array([[0.0, 0.0, -part.length, 0.0, 1.0, 0.0], [0.0, 0.0, 0.0, 0.0, 1.0, 0.0]]).T
-    spent = at_tip @ free
-    left = at_tip - spent @ np.linalg.solve(free.T @ spent, spent.T)
-    left[_FREE] = left[:, _FREE] = left[4] = left[:, 4] = 0.0
-    return left
-
-
-@dataclass(frozen=True, eq=False)
-class _Plan:
-    """A leg as one chain: coordinates of the posture, virtual and passive ones, springs (v, v), and each linkage
-    with its place in the posture and the first of its five springs."""
-
-    chain: Chain
-    posture: np.ndarray
-    virtual: np.ndarray
-    passive: np.ndarray
-    stiffness: Array
-    linkages: tuple[tuple[Parallelogram, int, int], ...]
-
-
 @lru_cache(maxsize=256)
-def _plan(leg: Leg) -> _Plan:
-    elements: list[Element] = []
-    blocks: list[Array] = []
-    linkages: list[tuple[Parallelogram, int, int]] = []
-    posture: list[int] = []
-    for number, part in enumerate(leg.parts):
-        if isinstance(part, MOVING):
-            posture.append(Chain(tuple(elements)).size)
-        if isinstance(part, Parallelogram):
-            linkages.append((part, len(posture) - 1, sum(len(b) for b in blocks)))
-        added, springs = elastic_elements(part, f"q{number}")
-        elements += added
-        blocks += [springs] if len(springs) else []
-    chain = Chain(tuple(elements))
-    size = sum(len(b) for b in blocks)
-    stiffness, at = np.zeros((size, size)), 0
-    for block in blocks:
-        stiffness[at : at + len(block), at : at + len(block)] = block
-        at += len(block)
-    roles = (chain.indices(Role.VIRTUAL), chain.indices(Role.PASSIVE))
-    return _Plan(chain, np.array(posture, dtype=int), *roles, stiffness, tuple(linkages))
+def _lumped(leg: Leg) -> Built:
+    """The leg as it is at rest: members lumped, parallelograms by the bar that stands for them."""
+    return build(Leg(leg.name, tuple(map(_at_rest, leg.parts))))
 
 
-def elastic_elements(part: Part, tie: str) -> tuple[tuple[Element, ...], Array]:
-    """Chain elements of a part and the stiffness (v, v) of its virtual joints, those of a linkage at q = 0."""
-    match part:
-        case Frame():
-            return (Fixed(part.translation, part.rotation),), np.zeros((0, 0))
-        case Actuator():
-            joint = Joint(part.kind, part.axis, Role.ACTUATED)
-            if part.stiffness is None:
-                return (joint,), np.zeros((0, 0))
-            return (joint, Joint(part.kind, part.axis, Role.VIRTUAL)), np.array([[part.stiffness]])
-        case Passive():
-            return (Joint(part.kind, part.axis, Role.PASSIVE),), np.zeros((0, 0))
-        case Virtual():
-            return (Joint(part.kind, part.axis, Role.VIRTUAL),), np.array([[part.stiffness]])
-        case ElasticLink():
-            return (Fixed(part.length * np.array(X)), *spring_joints()), part.stiffness
-        case Parallelogram():
-            virtual = spring_joints()
-            free = Joint("translation", virtual[_FREE].axis, Role.PASSIVE)
-            turned = Joint("rotation", Y, Role.ACTUATED, tie)
-            back = Joint("rotation", Y, Role.ACTUATED, tie, -1.0)
-            ahead = Fixed(part.length * np.array(X))
-            springs = pseudo_rigid_springs(part, np.zeros(()))
-            return (turned, ahead, free, *virtual[:_FREE], *virtual[_FREE + 1 :], back), springs
+def _at_rest(part: Part) -> Part:
+    if isinstance(part, Parallelogram):
+        return replace(part, bars="equivalent", segments=0)
+    if isinstance(part, Elastic) and part.model != Lumped():
+        return replace(part, model=Lumped())
+    if isinstance(part, Fork):
+        return replace(part, branches=tuple(tuple(map(_at_rest, branch)) for branch in part.branches))
+    return part

@@ -2,25 +2,25 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass, field, replace
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from vjm.bars import BarModel, X
-from vjm.chain import Chain, Element, Fixed, Joint, Mark, Role
+from vjm.bars import BarModel, Y
+from vjm.chain import Fixed
 from vjm.frames import Array, exp
 from vjm.gauges import Gauge, gauge
-from vjm.laws import Law, Spring
+from vjm.laws import Law
+from vjm.leg_chain import Built, build
 from vjm.link import Link
-from vjm.loads import DeadLoads
 from vjm.mechanism import Drive, ElasticChain
+from vjm.parts import Elastic, Frame, Leg, hinge
 
 Alteration = Callable[[int, Link], Link]
 """From the number (0, 1) of a bar and the bar so far to the bar as it is instead."""
-
-HINGE = Joint("rotation", (0.0, 1.0, 0.0), Role.PASSIVE)
 
 
 @dataclass(frozen=True, eq=False)
@@ -41,52 +41,44 @@ class GaugeAt:
 class Assembly:
     """One bar as a chain from the base to the platform.
 
-    link, model: the bar. start: elements before its base hinge, end: after its tip hinge.
+    link, model: the bar. start: rigid links before its base hinge, end: after its tip hinge.
     hinged: whether there is a hinge at the base and at the tip. angle: nominal rotation of the bar, rad.
-    hinges: laws of the turn of each hinge from where it stands in the unloaded linkage. settled: turns (..., 2) of the
-    hinges at base and tip from their nominal angles there, at nominal rotations (...); none where they stand as drawn.
+    hinges: laws of the turn of the hinges at base and tip from where they stand in the unloaded linkage. settled: turns
+    (..., 2) of the hinges from their nominal angles there, at nominal rotations (...); none where they stand as drawn.
     line_load: (3,) N/mm, base frame.
     """
 
     link: Link
     model: BarModel
-    start: tuple[Element, ...] = ()
-    end: tuple[Element, ...] = ()
+    start: tuple[Frame, ...] = ()
+    end: tuple[Frame, ...] = ()
     hinged: tuple[bool, bool] = (True, True)
     angle: float = 0.0
-    hinges: tuple[Law, ...] = ()
+    hinges: tuple[tuple[Law, ...], tuple[Law, ...]] = ((), ())
     settled: Callable[[Array], Array] | None = None
     line_load: Array = field(default_factory=lambda: np.zeros(3))
 
+    @cached_property
+    def _built(self) -> Built:
+        bar = Elastic(self.link, self.model, self.line_load)
+        base, tip = (
+            (hinge(Y, *laws),) if there else () for laws, there in zip(self.hinges, self.hinged, strict=True)
+        )
+        return build(Leg("bar", (*self.start, *base, bar, *tip, *self.end)))
+
     def chain(self) -> ElasticChain:
         """Coordinates: base hinge, slides, bar, tip hinge; those that there are."""
-        limb = self.model.limb(self.link)
-        chain = Chain((*self._before, *limb.elements, *self._hinge(1), *self.end))
-        slides = len(self.link.slides)
-        first = int(self.hinged[0])
-        bar = slice(first + slides, first + slides + limb.rest.size)
-        rest = np.zeros(chain.size)
-        rest[bar] = limb.rest
-        stiffness = np.zeros((slides + limb.rest.size, slides + limb.rest.size))
-        stiffness[slides:, slides:] = limb.stiffness
-        springs = [Spring((first + k,), law) for k, law in enumerate(self.link.slides)]
-        springs += limb.numbered_from(bar.start)
-        nominal = np.zeros(chain.size)
-        for k, sign, there in zip((0, chain.size - 1), (1.0, -1.0), self.hinged, strict=True):
+        of, posture = self._built, iter(self._built.posture)
+        nominal = np.zeros(of.rest.size)
+        for sign, there in zip((1.0, -1.0), self.hinged, strict=True):
             if there:
-                nominal[k] = sign
-                springs += [Spring((k,), law) for law in self.hinges]
-        rest += self.angle * nominal + self._turned(chain.size, 0.0)
+                nominal += sign * next(posture)
+        rest = of.rest + self.angle * nominal + self._turned(of.rest.size, 0.0)
         drives = [Drive("q", self.angle, nominal, posture=True)] if any(self.hinged) else []
         if self.settled is not None:
-            here = self._turned(chain.size, 0.0)
-            drives = [replace(drives[0], curve=lambda change: self._turned(chain.size, change) - here)]
-        for name, rate in self.link.elongation:
-            slope = np.zeros(chain.size)
-            slope[bar] = rate * limb.stretch
-            drives.append(Drive(name, 0.0, slope))
-        loads = (self._loads(limb.stations, chain),) if np.any(self.line_load) else ()
-        return ElasticChain(chain, stiffness, rest, tuple(springs), loads, tuple(drives))
+            here = self._turned(of.rest.size, 0.0)
+            drives = [replace(drives[0], curve=lambda change: self._turned(here.size, change) - here)]
+        return of.set_by(tuple(drives), rest)
 
     def _turned(self, size: int, change: ArrayLike) -> Array:
         """(..., size) turns of the hinges in the unloaded linkage from as drawn, at departures (...) from the angle."""
@@ -100,24 +92,8 @@ class Assembly:
         if place.offset is not None:
             arm = Fixed(translation=np.asarray(place.offset, dtype=float))
             return gauge(number, (*chain.chain.elements, arm), chain.chain, place.direction)
-        elements = (*self._before, *self.model.reach(self.link, place.station))
-        return gauge(number, elements, chain.chain, place.direction)
-
-    @property
-    def _before(self) -> tuple[Element, ...]:
-        slides = tuple(Joint("translation", X, Role.VIRTUAL) for _ in self.link.slides)
-        return (*self.start, *self._hinge(0), *slides)
-
-    def _hinge(self, end: int) -> tuple[Element, ...]:
-        return (HINGE,) if self.hinged[end] else ()
-
-    def _loads(self, stations: Sequence[tuple[Mark, float]], chain: Chain) -> DeadLoads:
-        before = len(self._before)
-        marks = tuple(replace(mark, elements=before + mark.elements) for mark, _ in stations)
-        shares = np.array([share for _, share in stations])
-        return DeadLoads(
-            chain, np.arange(chain.size), marks, shares[:, None] * self.link.length * self.line_load
-        )
+        (bar,) = self._built.members
+        return gauge(number, bar.reach(place.station), chain.chain, place.direction)
 
 
 def as_built(nominal: Link, count: int, alterations: tuple[Alteration, ...]) -> tuple[Link, ...]:
@@ -131,6 +107,6 @@ def as_built(nominal: Link, count: int, alterations: tuple[Alteration, ...]) -> 
     return tuple(links)
 
 
-def mounted(mount: Array) -> tuple[Element, ...]:
+def mounted(mount: Array) -> tuple[Frame, ...]:
     """The rotation of the whole linkage against the base frame; nothing where there is none."""
-    return (Fixed(rotation=exp(mount)),) if np.any(mount) else ()
+    return (Frame(rotation=exp(mount)),) if np.any(mount) else ()

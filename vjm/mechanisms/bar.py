@@ -126,6 +126,6 @@ class Bar:
             model,
             start=mounted(self.mount),
             hinged=(self.base == "pinned", self.tip == "pinned"),
-            hinges=self.hinges,
+            hinges=(self.hinges, self.hinges),
             line_load=self.line_load,
         )

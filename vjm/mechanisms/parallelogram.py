@@ -15,7 +15,6 @@ import numpy as np
 
 from vjm import checks
 from vjm.bars import BarModel
-from vjm.chain import Fixed
 from vjm.frames import Array
 from vjm.gauges import Gauge
 from vjm.laws import Law
@@ -24,6 +23,7 @@ from vjm.lumped import Lumped, SpringAt
 from vjm.mechanism import ElasticChain
 from vjm.mechanisms.assembled import FourBar
 from vjm.mechanisms.assembly import Alteration, Assembly, GaugeAt, as_built, mounted
+from vjm.parts import Frame
 from vjm.refined import SEGMENTS, Refined
 from vjm.sensors import Sensor
 
@@ -143,10 +143,10 @@ class Parallelogram:
             Assembly(
                 link,
                 model,
-                start=(*mounted(self.mount), Fixed(np.array([0.0, 0.0, offset]))),
-                end=(Fixed(np.array([0.0, 0.0, -offset])),),
+                start=(*mounted(self.mount), Frame(np.array([0.0, 0.0, offset]))),
+                end=(Frame(np.array([0.0, 0.0, -offset])),),
                 angle=self.q,
-                hinges=self.hinges,
+                hinges=(self.hinges, self.hinges),
                 settled=settled,
                 line_load=self.line_load,
             )

@@ -12,8 +12,9 @@ from pipeline.errors import InputError
 from pipeline.manipulator.description import describe, read
 from tests.vjm.manipulator.example import under
 from vjm import paper
-from vjm.manipulator.parts import Actuator, ElasticLink, Frame, Parallelogram, Passive, Virtual
+from vjm.manipulator.parts import Parallelogram
 from vjm.manipulator.posture import postures
+from vjm.parts import Actuator, Elastic, Frame, Passive, Virtual
 from vjm.stiffness import loaded_stiffness
 
 TEXT = read("orthoglide").text
@@ -90,7 +91,7 @@ def test_the_shipped_orthoglide() -> None:
     assert [leg.name for leg in manipulator.legs] == ["x", "y", "z"]
     for leg in manipulator.legs:
         kinds = [type(p) for p in leg.parts]
-        assert kinds == [Frame, Actuator, ElasticLink, Passive, Parallelogram, Passive, Frame]
+        assert kinds == [Frame, Actuator, Elastic, Passive, Parallelogram, Passive, Frame]
         part = leg.parts[4]
         assert isinstance(part, Parallelogram)
         assert (part.length, part.width) == (paper.LENGTH, paper.WIDTH)

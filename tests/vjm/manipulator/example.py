@@ -13,22 +13,14 @@ from vjm.equilibrium import Equilibrium, equilibrium, unloaded
 from vjm.frames import Array
 from vjm.manipulator.assembled import settled
 from vjm.manipulator.machine import machine, posture_inputs
-from vjm.manipulator.parts import (
-    Actuator,
-    ElasticLink,
-    Frame,
-    Leg,
-    Manipulator,
-    Parallelogram,
-    Part,
-    Passive,
-)
+from vjm.manipulator.parts import Manipulator, Parallelogram
 from vjm.manipulator.posture import Postures
+from vjm.parts import Actuator, Frame, Leg, Part, elastic, hinge
 from vjm.problem import Held
 
 LENGTH, WIDTH, FOOT = paper.LENGTH, paper.WIDTH, 100.0
 DRIVE, AXIAL, BENDING = 3500.0, 4.2e7, 4.5e8
-ABOUT_Y, ABOUT_Z = Passive("rotation", Y), Passive("rotation", Z)
+ABOUT_Y, ABOUT_Z = hinge(Y), hinge(Z)
 POINTS = np.array([[0, 0, 0], [50, -40, 60], [-60, 30, 80], [90, 90, -90], [-80, -80, -80]], dtype=float)
 
 
@@ -44,7 +36,7 @@ def beam(axial: float, about_y: float, about_z: float, torsion: float, length: f
 
 def orthoglide(linkage: tuple[Part, ...], drive: float = DRIVE, bending: float = BENDING) -> Manipulator:
     """Three legs along x, y and z, the isotropic posture at zero."""
-    foot = ElasticLink(FOOT, beam(AXIAL, bending, bending, bending / 1.3, FOOT))
+    foot = elastic(FOOT, beam(AXIAL, bending, bending, bending / 1.3, FOOT))
     legs = []
     for k in range(3):
         frame = np.roll(np.eye(3), k, axis=0)
@@ -61,7 +53,7 @@ def pair(bar: Array = paper.BAR_STIFFNESS, **change: object) -> tuple[Part, ...]
 
 def universal(bar: Array) -> tuple[Part, ...]:
     """One bar between universal joints."""
-    return ABOUT_Z, ABOUT_Y, ElasticLink(LENGTH, bar), ABOUT_Y, ABOUT_Z
+    return ABOUT_Z, ABOUT_Y, elastic(LENGTH, bar), ABOUT_Y, ABOUT_Z
 
 
 def without_load(whole: Manipulator, at: Postures) -> Equilibrium:

@@ -16,10 +16,11 @@ from vjm.frames import Array
 from vjm.manipulator.assembled import settled
 from vjm.manipulator.effects import with_effect
 from vjm.manipulator.machine import machine, posture_inputs
-from vjm.manipulator.parts import Leg, Manipulator, Parallelogram
+from vjm.manipulator.parts import Manipulator, Parallelogram
 from vjm.manipulator.posture import postures
 from vjm.mechanism import initial_memory
 from vjm.mechanisms import parallelogram as chains
+from vjm.parts import Leg
 from vjm.sensors import TrueMoment
 
 EFFECTS = catalogue()

@@ -11,9 +11,10 @@ from vjm.equilibrium import equilibrium
 from vjm.manipulator.buckling import critical_load, linear_factor
 from vjm.manipulator.legs import critical_forces, segmented, shares
 from vjm.manipulator.machine import posture_inputs
-from vjm.manipulator.parts import ElasticLink, Leg, Manipulator
+from vjm.manipulator.parts import Manipulator
 from vjm.manipulator.posture import postures
 from vjm.manipulator.rest import stiffness_at_rest
+from vjm.parts import Leg, elastic
 from vjm.stability import negative_eigenvalues
 
 EI_Y, EI_Z = 1.98e8, 4.51e7
@@ -131,7 +132,7 @@ def test_bars_lumped_at_their_tips_fail_in_tension() -> None:
 
 def test_what_never_buckles_needs_a_bound() -> None:
     """Springs at a point have no lever to buckle about."""
-    leg = Leg("spring", (ElasticLink(0.0, paper.BAR_STIFFNESS),))
+    leg = Leg("spring", (elastic(0.0, paper.BAR_STIFFNESS),))
     whole = Manipulator("spring", (leg,), LENGTH)
     of = without_load(whole, postures(whole, np.zeros(3)))
     assert np.isinf(linear_factor(of, push(0)))

@@ -23,11 +23,12 @@ from vjm.effects.thermal_expansion import DRIVE
 from vjm.equilibrium import equilibrium
 from vjm.manipulator.buckling import critical_load
 from vjm.manipulator.effects import with_effect
-from vjm.manipulator.parts import ElasticLink, Leg, Manipulator, Parallelogram
+from vjm.manipulator.parts import Manipulator, Parallelogram
 from vjm.manipulator.posture import postures
 from vjm.manipulator.rest import stiffness_at_rest
 from vjm.mechanism import initial_memory
 from vjm.mechanisms import parallelogram as chains
+from vjm.parts import Elastic, Leg, elastic
 from vjm.refined import SEGMENTS
 from vjm.sensors import TrueMoment
 from vjm.stiffness import read_stiffness
@@ -104,9 +105,7 @@ def test_modulus_error_scales_the_bars() -> None:
 
 def without_feet(leg: Leg) -> tuple[object, ...]:
     """The parts with the foot's 6x6 beyond all others."""
-    return tuple(
-        replace(p, stiffness=1e6 * p.stiffness) if isinstance(p, ElasticLink) else p for p in leg.parts
-    )
+    return tuple(replace(p, link=p.link.stiffened(1e6)) if isinstance(p, Elastic) else p for p in leg.parts)
 
 
 def test_flexible_axes_are_those_of_the_description() -> None:
@@ -160,7 +159,7 @@ def test_refined_bars_are_those_of_segments() -> None:
 
 
 def test_what_cannot_be_is_refused() -> None:
-    lonely = Manipulator("spring", (Leg("spring", (ElasticLink(0.0, paper.BAR_STIFFNESS),)),), LENGTH)
+    lonely = Manipulator("spring", (Leg("spring", (elastic(0.0, paper.BAR_STIFFNESS),)),), LENGTH)
     with pytest.raises(ValueError, match="need a parallelogram, spring has none"):
         with_effect(lonely, EFFECTS["modulus_error"], {"scale": 0.8})
     with pytest.raises(ValueError, match="need a parallelogram, spring has none"):
@@ -174,7 +173,7 @@ def test_what_cannot_be_is_refused() -> None:
 
 def test_effects_around_a_machine_need_no_parallelogram() -> None:
     """A base on springs is in series with the machine, here one 6x6 whose platform point is the base origin."""
-    lonely = Manipulator("spring", (Leg("spring", (ElasticLink(0.0, paper.BAR_STIFFNESS),)),), LENGTH)
+    lonely = Manipulator("spring", (Leg("spring", (elastic(0.0, paper.BAR_STIFFNESS),)),), LENGTH)
     give = dict.fromkeys(EFFECTS["base_compliance"].nulls, 0.0) | {"x_mm_per_N": 1e-4, "rz_rad_per_Nmm": 1e-9}
     soft = with_effect(lonely, EFFECTS["base_compliance"], give)
     at = postures(lonely, np.zeros((1, 3)))

@@ -21,9 +21,10 @@ from vjm.equilibrium import equilibrium, nearby
 from vjm.frames import rotation_y
 from vjm.lagrangian import ChainRows, all_rows, gradient, hessian, layout
 from vjm.manipulator.machine import machine, posture_inputs
-from vjm.manipulator.parts import ElasticLink, Leg, Manipulator, Parallelogram
+from vjm.manipulator.parts import Manipulator, Parallelogram
 from vjm.manipulator.posture import postures
 from vjm.mechanisms import parallelogram as chains
+from vjm.parts import Leg, elastic
 from vjm.stability import negative_eigenvalues
 from vjm.stiffness import loaded_stiffness
 
@@ -107,7 +108,7 @@ def test_a_target_far_away_is_met_in_increments() -> None:
 
 
 def test_a_loose_manipulator_is_reported() -> None:
-    leg = Leg("bar", (ABOUT_Y, ElasticLink(LENGTH, paper.BAR_STIFFNESS)))
+    leg = Leg("bar", (ABOUT_Y, elastic(LENGTH, paper.BAR_STIFFNESS)))
     whole = Manipulator("loose", (leg,), LENGTH)
     state = under(whole, postures(whole, [[LENGTH, 0.0, 0.0]]), [0.0, 0.0, 1.0, 0.0, 0.0, 0.0])
     assert not state.converged.any()

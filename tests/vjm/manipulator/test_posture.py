@@ -8,8 +8,9 @@ import numpy as np
 import pytest
 
 from tests.vjm.manipulator.example import LENGTH, POINTS, orthoglide, pair
-from vjm.manipulator.parts import Actuator, Manipulator
-from vjm.manipulator.posture import postures, rigid_chain
+from vjm.manipulator.parts import Manipulator
+from vjm.manipulator.posture import postures, rigid_leg
+from vjm.parts import Actuator
 
 
 def test_closed_form() -> None:
@@ -30,7 +31,7 @@ def test_every_leg_ends_at_the_pose() -> None:
     whole = orthoglide(pair())
     at = postures(whole, POINTS.reshape(5, 1, 3))
     for leg, x in zip(whole.legs, at.coordinates, strict=True):
-        np.testing.assert_allclose(rigid_chain(leg).pose(x), at.pose, atol=1e-8)
+        np.testing.assert_allclose(rigid_leg(leg).chain.close(x)[0], at.pose, atol=1e-8)
 
 
 def test_what_is_out_of_reach_says_so() -> None:

@@ -28,9 +28,10 @@ from vjm import paper
 from vjm.frames import POSE_NAMES
 from vjm.manipulator.freedom import LOOSE, RIGID
 from vjm.manipulator.measures import principal, rotational, translational
-from vjm.manipulator.parts import Actuator, ElasticLink, Frame, Leg, Manipulator, Part, Passive
+from vjm.manipulator.parts import Manipulator
 from vjm.manipulator.posture import postures
 from vjm.manipulator.rest import stiffness_at_rest
+from vjm.parts import Actuator, Frame, Leg, Part, elastic, hinge
 from vjm.stiffness import loaded_stiffness
 
 K = paper.BAR_STIFFNESS
@@ -79,7 +80,7 @@ def test_refined_bars_have_the_same_stiffness_at_rest() -> None:
 def offset_bar(bar: np.ndarray, side: float) -> tuple[Part, ...]:
     """One bar of the parallelogram on its own pins."""
     there, back = (Frame(np.array([0.0, 0.0, sign * side * WIDTH / 2])) for sign in (1.0, -1.0))
-    return ABOUT_Z, there, ABOUT_Y, ElasticLink(LENGTH, bar), ABOUT_Y, back, ABOUT_Z
+    return ABOUT_Z, there, ABOUT_Y, elastic(LENGTH, bar), ABOUT_Y, back, ABOUT_Z
 
 
 @fixed_seed(22)
@@ -133,7 +134,7 @@ def test_two_refined_links_of_a_leg_are_two() -> None:
 
 
 def _two_links(segments: int) -> tuple[Part, ...]:
-    return ElasticLink(LENGTH, K, segments), ElasticLink(FOOT, 2.0 * K, segments)
+    return elastic(LENGTH, K, segments), elastic(FOOT, 2.0 * K, segments)
 
 
 def test_two_refined_parallelograms_of_a_leg_are_two() -> None:
@@ -153,8 +154,8 @@ def test_two_refined_parallelograms_of_a_leg_are_two() -> None:
 
 def test_a_leg_that_is_rigid_or_loose_says_which() -> None:
     """Balls at both ends let a link turn about itself; a drive and rigid parts resist in most directions rigidly."""
-    spin = Passive("rotation", (1.0, 0.0, 0.0))
-    loose = Manipulator("m", (Leg("a", (spin, ElasticLink(LENGTH, K), spin)),), LENGTH)
+    spin = hinge((1.0, 0.0, 0.0))
+    loose = Manipulator("m", (Leg("a", (spin, elastic(LENGTH, K), spin)),), LENGTH)
     rigid = Manipulator("m", (Leg("a", (Actuator("translation", (0.0, 0.0, 1.0), 9.0),)),), LENGTH)
     for whole, point, why in ((loose, LENGTH, LOOSE), (rigid, 0.0, RIGID)):
         said = stiffness_at_rest(whole, postures(whole, [[point, 0.0, 0.0]])).reason
