@@ -11,6 +11,7 @@ class AxisFlexibility(Effect):
     """A compliance between each hinge axis and the end of its bar, the same at all four."""
 
     name = "axis_flexibility"
+    parts = "hinges"
     title = "hinge axes give"
     equation = "K_b^-1 -> K_b^-1 + C at the base + C at the tip, C = diag(r, 0, r, t, 0, t)"
     signature = "softer along the bars at any angle (radial); softer sideways and in rx, rz (tilt); linear"

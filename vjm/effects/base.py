@@ -10,7 +10,7 @@ from abc import ABC, abstractmethod
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from functools import partial
-from typing import ClassVar, Literal, Protocol, Self, TypeAlias, TypeVar
+from typing import Any, ClassVar, Literal, Protocol, Self, TypeAlias, TypeVar
 
 import numpy as np
 
@@ -18,21 +18,36 @@ from vjm.frames import Array
 from vjm.link import Link
 from vjm.mechanisms.bar import Bar
 from vjm.mechanisms.parallelogram import Parallelogram
+from vjm.mechanisms.sites import Tagged, chosen
 
 Rig: TypeAlias = Parallelogram | Bar
+Where = TypeVar("Where", bound=Tagged)
 Values = Mapping[str, float]
 
 
-class Viewed(Protocol):
-    """What effects can change: it shows a rig of bars and hinges, and takes what has been made of that."""
+Parts = Literal["hinges", "bars", "links", "drives", "base", "platform", "sensors"]
+
+
+class Viewed(Protocol[Where]):
+    """What effects can change: it shows a rig of bars and hinges, and takes what has been made of that.
+
+    places: its single parts of a kind, with their tags (`vjm.mechanisms.sites`); at each it shows a rig and takes what
+    has been made of it there.
+    """
 
     @property
     def view(self) -> Rig: ...
 
     def changed(self, view: object) -> Self: ...
 
+    def places(self, parts: str) -> tuple[Where, ...]: ...
 
-Changing = TypeVar("Changing", bound=Viewed)
+    def seen_at(self, place: Where) -> Rig: ...
+
+    def changed_at(self, place: Where, view: object) -> Self: ...
+
+
+Changing = TypeVar("Changing", bound=Viewed[Any])
 
 
 @dataclass(frozen=True)
@@ -61,8 +76,8 @@ class Effect(ABC):
     """A physical effect.
 
     name: canonical. title: in words. equation, signature (what it looks like in data), limits, source: text.
-    parameters: none for an effect that is there or not. kinds: of rig that can have it. hinge: the one it needs
-    of a single bar, "" for none; a parallelogram has all.
+    parameters: none for an effect that is there or not. parts: what it acts on; "": hinges if it needs one, else bars.
+    kinds: of rig that can have it. hinge: the one it needs of a single bar, "" for none; a parallelogram has all.
     smooth: False where the response has a kink or a dead zone in the parameters, so that a fit needs several
     starts and a derivative at null says little. probes: values of the first parameter at which to look for such an
     effect. history: whether the order of load steps matters. includes: effects that it cannot be without.
@@ -75,6 +90,7 @@ class Effect(ABC):
     limits: ClassVar[str]
     source: ClassVar[str]
     parameters: ClassVar[tuple[Parameter, ...]] = ()
+    parts: ClassVar[Parts | Literal[""]] = ""
     kinds: ClassVar[tuple[str, ...]] = ("parallelogram", "bar")
     hinge: ClassVar[Literal["", "base", "any"]] = ""
     smooth: ClassVar[bool] = True
@@ -86,12 +102,29 @@ class Effect(ABC):
     def change(self, rig: Rig, values: Values) -> Rig:
         """The mechanism with the effect at values that are not all null."""
 
-    def apply(self, mechanism: Changing, values: Values) -> Changing:
+    def apply(self, mechanism: Changing, values: Values, site: str = "") -> Changing:
         """The mechanism with the effect; itself where all values are null.
 
-        values: by parameter name, complete. ValueError for a kind of rig that cannot have it.
+        values: by parameter name, complete. site: tags of the parts that have it, joined by dots; "": all alike.
+        ValueError for a kind of rig that cannot have it, and for a site at which there is nothing it acts on.
         """
-        view = mechanism.view
+        self._check(mechanism.view)
+        if not site:
+            return (
+                mechanism if self.absent(values) else mechanism.changed(self.change(mechanism.view, values))
+            )
+        for place in chosen(mechanism.places(self.acts_on), site):
+            if not self.absent(values):
+                mechanism = mechanism.changed_at(place, self.change(mechanism.seen_at(place), values))
+        return mechanism
+
+    @property
+    def acts_on(self) -> str:
+        """The parts it acts on."""
+        return self.parts or ("hinges" if self.hinge else "bars")
+
+    def _check(self, view: Rig) -> None:
+        """ValueError for a kind of rig that cannot have it."""
         if kind_of(view) not in self.kinds:
             raise ValueError(
                 f"{self.name} needs a rig of kind {' or '.join(self.kinds)}, not {kind_of(view)}"
@@ -99,7 +132,6 @@ class Effect(ABC):
         if self.hinge and not _hinged(view, self.hinge):
             where = "at its base" if self.hinge == "base" else "at either end"
             raise ValueError(f"{self.name} needs a bar with a hinge {where}")
-        return mechanism if self.absent(values) else mechanism.changed(self.change(view, values))
 
     def absent(self, values: Values) -> bool:
         """Whether the values leave every mechanism as it is."""

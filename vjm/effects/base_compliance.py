@@ -24,6 +24,7 @@ class BaseCompliance(Effect):
     """Six springs between ground and base, at the base origin, along the base frame's axes."""
 
     name = "base_compliance"
+    parts = "base"
     title = "base on springs"
     equation = "base displacement = C x wrench at the base origin, C diagonal"
     signature = "softer, in directions fixed in the base frame whatever the angle of the bars; linear"

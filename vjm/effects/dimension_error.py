@@ -15,6 +15,7 @@ class DimensionError(Effect):
     """Lengths and widths that differ from the nominal ones in the same way on both sides."""
 
     name = "dimension_error"
+    parts = "bars"
     title = "dimensions differ from the drawing"
     equation = "L -> L + length, d -> d + width; a uniform bar's 6x6 follows its length"
     signature = "a constant x offset (length); rotational stiffness changes with the square of the width"

@@ -12,6 +12,7 @@ class LoadMisalignment(Effect):
     """The cell reads forces and moments along its own axes."""
 
     name = "load_misalignment"
+    parts = "sensors"
     title = "load cell turned"
     equation = "reading = R^T f, R^T m, R = exp(rx, ry, rz)"
     signature = "a share of each large force appears in the other directions, proportional to it"

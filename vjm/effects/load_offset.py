@@ -12,6 +12,7 @@ class LoadOffset(Effect):
     """The cell stands at r from the platform point, so its moment lacks r x f."""
 
     name = "load_offset"
+    parts = "sensors"
     title = "load cell off the platform point"
     equation = "moment reading = m - r x f"
     signature = "moments proportional to the forces across them"

@@ -11,6 +11,7 @@ class MountingTilt(Effect):
     """A rotation of base, bars and platform together."""
 
     name = "mounting_tilt"
+    parts = "base"
     title = "linkage mounted at an angle"
     equation = "p -> R p, R = exp(rx, ry, rz); ry is the zero error of q"
     signature = "offsets of the pose by L x tilt; loads along x appear along y and z"

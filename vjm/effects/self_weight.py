@@ -17,6 +17,7 @@ class SelfWeight(Effect):
     """A dead force on the platform point that the cell does not read, and one along the bars."""
 
     name = "self_weight"
+    parts = "platform"
     title = "weight of platform and bars"
     equation = "the linkage carries F + W; bars bend by w L⁴ / (8 EI) at a free tip"
     signature = "a constant force or deflection, the same at every load; a tare of the cell looks the same"

@@ -12,19 +12,22 @@ import numpy as np
 
 from vjm.effects.base import Effect, Values
 from vjm.frames import exp
+from vjm.laws import Law
 from vjm.manipulator.parts import AsBuilt, Manipulator, Parallelogram
 from vjm.mechanisms.assembly import Alteration, as_built
 from vjm.mechanisms.parallelogram import Parallelogram as Bench
+from vjm.mechanisms.sites import Place
 from vjm.parts import Frame, Leg, Part
 
 
-def with_effect(manipulator: Manipulator, effect: Effect, values: Values) -> Manipulator:
+def with_effect(manipulator: Manipulator, effect: Effect, values: Values, site: str = "") -> Manipulator:
     """The manipulator with the effect; itself where all values are null.
 
-    values: by parameter name, complete. Drives and inverse kinematics still go by the drawing. ValueError for an
-    effect that it cannot have, as that of bars where there is no parallelogram.
+    values: by parameter name, complete. site: see `vjm.effects.base.Effect.apply`; the outer tags of a part are its
+    leg's name and "parallelogram", numbered from 1 where its leg has several. Drives and inverse kinematics still go by
+    the drawing. ValueError for an effect that it cannot have, as that of bars where there is no parallelogram.
     """
-    return effect.apply(_Shown(manipulator), values).manipulator
+    return effect.apply(_Shown(manipulator), values, site).manipulator
 
 
 @dataclass(frozen=True, eq=False)
@@ -39,6 +42,61 @@ class _Shown:
 
     def changed(self, view: object) -> _Shown:
         return _Shown(with_view(self.manipulator, view))
+
+    def places(self, parts: str) -> tuple[MachinePlace, ...]:
+        return places(self.manipulator, parts)
+
+    def seen_at(self, place: MachinePlace) -> Bench:
+        return seen_at(self.manipulator, place)
+
+    def changed_at(self, place: MachinePlace, view: object) -> _Shown:
+        return _Shown(changed_at(self.manipulator, place, view))
+
+
+@dataclass(frozen=True)
+class MachinePlace:
+    """A bar or a hinge of a parallelogram, by the numbers of its leg and its part; names: of both."""
+
+    leg: int
+    part: int
+    names: tuple[str, str]
+    inside: Place
+
+    @property
+    def tags(self) -> tuple[str, ...]:
+        """Its names, the outermost first."""
+        return (*self.names, *self.inside.tags)
+
+
+def places(manipulator: Manipulator, parts: str) -> tuple[MachinePlace, ...]:
+    """All bars or hinges of its parallelograms, leg after leg."""
+    out = []
+    for k, leg in enumerate(manipulator.legs):
+        at = [n for n, part in enumerate(leg.parts) if isinstance(part, Parallelogram)]
+        for count, n in enumerate(at, start=1):
+            name = f"parallelogram{count}" if len(at) > 1 else "parallelogram"
+            inside = _bench(manipulator, leg.parts[n]).places(parts)
+            out += [MachinePlace(k, n, (leg.name, name), each) for each in inside]
+    return tuple(out)
+
+
+def seen_at(manipulator: Manipulator, place: MachinePlace) -> Bench:
+    """What effects see of it at a place: the parallelogram as a rig, with what stands around the machine."""
+    return _bench(manipulator, manipulator.legs[place.leg].parts[place.part]).seen_at(place.inside)
+
+
+def changed_at(manipulator: Manipulator, place: MachinePlace, view: object) -> Manipulator:
+    """The manipulator with what has been made of `seen_at`; other legs stay the same objects."""
+    leg = manipulator.legs[place.leg]
+    part = leg.parts[place.part]
+    assert isinstance(part, Parallelogram)
+    rig = _bench(manipulator, part).changed_at(place.inside, view)
+    built = AsBuilt(rig.links, part.as_built.model, rig.hinge_laws, rig.wider, rig.line_load)
+    parts = list(leg.parts)
+    parts[place.part] = replace(part, bars="pair", built=built)
+    legs = list(manipulator.legs)
+    legs[place.leg] = Leg(leg.name, tuple(parts))
+    return replace(manipulator, legs=tuple(legs))
 
 
 def linkages(manipulator: Manipulator) -> list[Parallelogram]:
@@ -57,7 +115,7 @@ def with_view(manipulator: Manipulator, rig: object) -> Manipulator:
     more = rig.alterations[len(first.alterations) :]
     turned = exp(rig.mount) @ exp(manipulator.mount).T
     tilted = bool(np.any(rig.mount != manipulator.mount))
-    same = all(getattr(rig, name) is getattr(first, name) for name in ("bar", "hinges", "line_load"))
+    same = rig.bar == first.bar and rig.hinges == first.hinges and rig.line_load is first.line_load
     if same and not more and not tilted and rig.wider == first.wider:
         return replace(manipulator, sensors=rig.sensors)
 
@@ -65,12 +123,11 @@ def with_view(manipulator: Manipulator, rig: object) -> Manipulator:
         if not isinstance(part, Parallelogram):
             return part
         drawn, model = part.as_built, rig.bar
-        if model is None or model is first.bar:
+        if model is None or model == first.bar:
             model = drawn.model
         links = as_built(part.link, 2, (_as_it_is(drawn), *more))
-        return replace(
-            part, bars="pair", built=AsBuilt(links, model, (rig.hinges,) * 4, rig.wider, rig.line_load)
-        )
+        laws = tuple(_with_laws(own, first.hinges, rig.hinges) for own in drawn.hinges)
+        return replace(part, bars="pair", built=AsBuilt(links, model, laws, rig.wider, rig.line_load))
 
     legs = tuple(
         Leg(leg.name, (*((Frame(rotation=turned),) if tilted else ()), *map(changed, leg.parts)))
@@ -85,15 +142,21 @@ def view_of(manipulator: Manipulator) -> Bench:
     Without a parallelogram it is a `Surroundings`.
     """
     parts = linkages(manipulator)
-    if not parts:
-        return _surroundings(manipulator)
-    part, built = parts[0], parts[0].as_built
+    return _bench(manipulator, parts[0]) if parts else _surroundings(manipulator)
+
+
+def _bench(manipulator: Manipulator, part: Part) -> Bench:
+    """A parallelogram as a rig of the bench, with what stands around the machine."""
+    assert isinstance(part, Parallelogram)
+    built = part.as_built
+    alike = all(laws == built.hinges[0] for laws in built.hinges)
     return Bench(
         part.length,
         part.width,
         part.bar_stiffness,
         bar=built.model,
-        hinges=built.hinges[0],
+        hinges=built.hinges[0] if alike else (),
+        single_hinges=() if alike else built.hinges,
         alterations=(_as_it_is(built),),
         wider=built.wider,
         mount=manipulator.mount,
@@ -103,6 +166,12 @@ def view_of(manipulator: Manipulator) -> Bench:
         fibre_y=part.fibre_y,
         fibre_z=part.fibre_z,
     )
+
+
+def _with_laws(own: tuple[Law, ...], before: tuple[Law, ...], after: tuple[Law, ...]) -> tuple[Law, ...]:
+    """Laws of a hinge when those of all have become others: what is added to them is added to it."""
+    added = after[: len(before)] == before
+    return (*own, *after[len(before) :]) if added else after
 
 
 @dataclass(frozen=True, eq=False)

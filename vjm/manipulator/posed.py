@@ -8,7 +8,7 @@ from functools import cached_property
 from vjm.frames import Array
 from vjm.gauges import Gauge
 from vjm.manipulator.assembled import settled
-from vjm.manipulator.effects import view_of, with_view
+from vjm.manipulator.effects import MachinePlace, changed_at, places, seen_at, view_of, with_view
 from vjm.manipulator.machine import machine, posture_inputs
 from vjm.manipulator.parts import Manipulator
 from vjm.manipulator.posture import Postures
@@ -55,6 +55,18 @@ class Posed:
     def view(self) -> Parallelogram:
         """What effects see of it (`vjm.effects.base`)."""
         return view_of(self.manipulator)
+
+    def places(self, parts: str) -> tuple[MachinePlace, ...]:
+        """The hinges or bars of its parallelograms one by one; none for other parts."""
+        return places(self.manipulator, parts)
+
+    def seen_at(self, place: MachinePlace) -> Parallelogram:
+        """What effects see of it at one of these."""
+        return seen_at(self.manipulator, place)
+
+    def changed_at(self, place: MachinePlace, view: object) -> Posed:
+        """It as what is `seen_at` a place has been changed."""
+        return replace(self, manipulator=changed_at(self.manipulator, place, view))
 
     def changed(self, view: object) -> Posed:
         """It as its view has been changed."""

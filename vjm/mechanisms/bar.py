@@ -17,6 +17,7 @@ from vjm.link import Link
 from vjm.lumped import Lumped, SpringAt
 from vjm.mechanism import ElasticChain
 from vjm.mechanisms.assembly import Alteration, Assembly, GaugeAt, as_built, mounted
+from vjm.mechanisms.sites import Place, changed_at, places, seen_at
 from vjm.refined import SEGMENTS, Refined
 from vjm.sensors import Sensor
 
@@ -38,7 +39,7 @@ class Bar:
     tip: "free" carries nothing; "guided" shifts but does not turn; "pinned" has a hinge about y to a block,
     the platform, that slides along x only. `held` names the coordinates that this holds.
     bar: another model of the bar than the 6x6 lumped at `spring_at`, such as `vjm.refined.Refined`.
-    hinges, alterations, mount, line_load, gravity, sensors, gauge_at, fibre_y, fibre_z: as in
+    hinges, single_hinges, alterations, mount, line_load, gravity, sensors, gauge_at, fibre_y, fibre_z: as in
     `vjm.mechanisms.parallelogram`.
     ValueError for a length that is not positive, a stiffness that is not symmetric positive definite or a
     support that is none of those named.
@@ -51,6 +52,7 @@ class Bar:
     tip: Tip = "free"
     bar: BarModel | None = None
     hinges: tuple[Law, ...] = ()
+    single_hinges: tuple[tuple[Law, ...], ...] = ()
     alterations: tuple[Alteration, ...] = ()
     mount: Array = field(default_factory=lambda: np.zeros(3))
     line_load: Array = field(default_factory=lambda: np.zeros(3))
@@ -100,6 +102,17 @@ class Bar:
         return self._assembly.gauge(0, self.chains[0], GaugeAt(1, station, direction))
 
     @property
+    def hinged(self) -> tuple[bool, bool]:
+        """Whether bars have hinges at base and tip."""
+        return (self.base == "pinned", self.tip == "pinned")
+
+    @property
+    def hinge_laws(self) -> tuple[tuple[Law, ...], ...]:
+        """Laws of each hinge: those of `single_hinges`, then those that all have; base and tip of each bar in turn."""
+        own = self.single_hinges or ((),) * 2
+        return tuple((*laws, *self.hinges) for laws in own)
+
+    @property
     def view(self) -> Self:
         """What effects see of it: itself (`vjm.effects.base`)."""
         return self
@@ -109,6 +122,18 @@ class Bar:
         if not isinstance(view, type(self)):
             raise ValueError(f"an effect makes {type(view).__name__} of a bar")
         return view
+
+    def places(self, parts: str) -> tuple[Place, ...]:
+        """Its "hinges" or "bars" one by one; none for other parts."""
+        return places(self, parts)
+
+    def seen_at(self, place: Place) -> Self:
+        """What effects see of it at one of these."""
+        return seen_at(self, place)
+
+    def changed_at(self, place: Place, view: object) -> Self:
+        """It as what is `seen_at` a place has been changed. ValueError where more has been changed."""
+        return changed_at(self, place, self.changed(view))
 
     def altered(self, *alterations: Alteration) -> Bar:
         """The mechanism with further alterations of its bar."""
@@ -125,7 +150,7 @@ class Bar:
             self.links[0],
             model,
             start=mounted(self.mount),
-            hinged=(self.base == "pinned", self.tip == "pinned"),
-            hinges=(self.hinges, self.hinges),
+            hinged=self.hinged,
+            hinges=(self.hinge_laws[0], self.hinge_laws[1]),
             line_load=self.line_load,
         )

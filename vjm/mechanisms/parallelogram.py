@@ -23,6 +23,7 @@ from vjm.lumped import Lumped, SpringAt
 from vjm.mechanism import ElasticChain
 from vjm.mechanisms.assembled import FourBar
 from vjm.mechanisms.assembly import Alteration, Assembly, GaugeAt, as_built, mounted
+from vjm.mechanisms.sites import Place, changed_at, places, seen_at
 from vjm.parts import Frame
 from vjm.refined import SEGMENTS, Refined
 from vjm.sensors import Sensor
@@ -41,6 +42,7 @@ class Parallelogram:
     bar: another model of the bars than K_b lumped at that place, such as `vjm.refined.Refined`.
     hinges: laws of the turn of each of the four hinges, none in a perfect one. They are relaxed where the linkage
     stands without load (`vjm.mechanisms.assembled`): at the nominal angle, but for bars of different lengths.
+    single_hinges: further laws of each hinge by itself, at base and tip of bar 1, then of bar 2; or none.
     alterations: what the bars are instead of what is drawn, applied in turn. wider: mm added to both widths.
     mount: (3,) rotation vector, rad, of the whole linkage against the base frame. line_load: (3,) N/mm along
     the bars, base frame. gravity: (3,) unit vector of weights given without a direction. sensors, gauge_at:
@@ -56,6 +58,7 @@ class Parallelogram:
     spring_at: SpringAt = "tip"
     bar: BarModel | None = None
     hinges: tuple[Law, ...] = ()
+    single_hinges: tuple[tuple[Law, ...], ...] = ()
     alterations: tuple[Alteration, ...] = ()
     wider: float = 0.0
     mount: Array = field(default_factory=lambda: np.zeros(3))
@@ -105,6 +108,17 @@ class Parallelogram:
         return replace(self, gauge_at=(place,))._gauge(place)
 
     @property
+    def hinged(self) -> tuple[bool, bool]:
+        """Whether bars have hinges at base and tip."""
+        return (True, True)
+
+    @property
+    def hinge_laws(self) -> tuple[tuple[Law, ...], ...]:
+        """Laws of each hinge: those of `single_hinges`, then those that all have; base and tip of each bar in turn."""
+        own = self.single_hinges or ((),) * 4
+        return tuple((*laws, *self.hinges) for laws in own)
+
+    @property
     def view(self) -> Self:
         """What effects see of it: itself (`vjm.effects.base`)."""
         return self
@@ -114,6 +128,18 @@ class Parallelogram:
         if not isinstance(view, type(self)):
             raise ValueError(f"an effect makes {type(view).__name__} of a parallelogram")
         return view
+
+    def places(self, parts: str) -> tuple[Place, ...]:
+        """Its "hinges" or "bars" one by one; none for other parts."""
+        return places(self, parts)
+
+    def seen_at(self, place: Place) -> Self:
+        """What effects see of it at one of these."""
+        return seen_at(self, place)
+
+    def changed_at(self, place: Place, view: object) -> Self:
+        """It as what is `seen_at` a place has been changed. ValueError where more has been changed."""
+        return changed_at(self, place, self.changed(view))
 
     def altered(self, *alterations: Alteration) -> Parallelogram:
         """The linkage with further alterations of its bars."""
@@ -138,7 +164,8 @@ class Parallelogram:
     @cached_property
     def _assemblies(self) -> tuple[Assembly, ...]:
         model = Lumped(self.spring_at) if self.bar is None else self.bar
-        half = 0.5 * (self.width + self.wider)
+        half, laws = 0.5 * (self.width + self.wider), self.hinge_laws
+        sides = (self.links, (-half, half), self._settled, (laws[:2], laws[2:]))
         return tuple(
             Assembly(
                 link,
@@ -146,9 +173,9 @@ class Parallelogram:
                 start=(*mounted(self.mount), Frame(np.array([0.0, 0.0, offset]))),
                 end=(Frame(np.array([0.0, 0.0, -offset])),),
                 angle=self.q,
-                hinges=(self.hinges, self.hinges),
+                hinges=(laws[0], laws[1]),
                 settled=settled,
                 line_load=self.line_load,
             )
-            for link, offset, settled in zip(self.links, (-half, half), self._settled, strict=True)
+            for link, offset, settled, laws in zip(*sides, strict=True)
         )
