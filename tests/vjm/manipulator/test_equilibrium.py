@@ -121,3 +121,16 @@ def test_bad_targets_and_unreached_postures_are_refused() -> None:
         under(whole, postures(whole, POINTS[:1]), [1.0, 2.0])
     with pytest.raises(ValueError, match="does not reach"):
         without_load(whole, postures(whole, [[0.0, 400.0, 0.0]]))
+
+
+@pytest.mark.parametrize(("segments", "count"), [(0, 400), (2, 100)])
+def test_unstable_directions_are_those_by_eigenvalues(segments: int, count: int) -> None:
+    """Those of legs with loops add up to the inertia of the whole, far beyond critical loads too."""
+    generator = np.random.default_rng(11)
+    whole = orthoglide(pair(segments=segments))
+    at = postures(whole, generator.uniform(-80.0, 80.0, (count, 3)))
+    loads = generator.normal(size=(count, 6)) * [8e3, 8e3, 8e3, 3e4, 3e4, 3e4]
+    state = under(whole, at, loads, follow=True)
+    found = state.member(state.converged)
+    assert found.converged.size > 0.95 * count and np.sum(found.unstable > 0) > 0.25 * count
+    assert np.array_equal(found.unstable, negative_eigenvalues(found, ()))
