@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import Literal, Self, get_args
+from typing import Literal, get_args
 
 import numpy as np
 
@@ -17,7 +17,7 @@ from vjm.link import Link
 from vjm.lumped import Lumped, SpringAt
 from vjm.mechanism import ElasticChain
 from vjm.mechanisms.assembly import Alteration, Assembly, GaugeAt, as_built, mounted
-from vjm.mechanisms.sites import Place, changed_at, places, seen_at
+from vjm.mechanisms.sites import WithPlaces
 from vjm.refined import SEGMENTS, Refined
 from vjm.sensors import Sensor
 
@@ -32,7 +32,7 @@ HELD: dict[Tip, tuple[str, ...]] = {
 
 
 @dataclass(frozen=True, eq=False)
-class Bar:
+class Bar(WithPlaces):
     """A bar whose base is clamped, or pinned about y; the platform point is its tip.
 
     length: mm. bar_stiffness: (6, 6) at the tip, base clamped. Base frame and bar frame coincide.
@@ -111,29 +111,6 @@ class Bar:
         """Laws of each hinge: those of `single_hinges`, then those that all have; base and tip of each bar in turn."""
         own = self.single_hinges or ((),) * 2
         return tuple((*laws, *self.hinges) for laws in own)
-
-    @property
-    def view(self) -> Self:
-        """What effects see of it: itself (`vjm.effects.base`)."""
-        return self
-
-    def changed(self, view: object) -> Self:
-        """It as its view has been changed. ValueError for something else than a bar."""
-        if not isinstance(view, type(self)):
-            raise ValueError(f"an effect makes {type(view).__name__} of a bar")
-        return view
-
-    def places(self, parts: str) -> tuple[Place, ...]:
-        """Its "hinges" or "bars" one by one; none for other parts."""
-        return places(self, parts)
-
-    def seen_at(self, place: Place) -> Self:
-        """What effects see of it at one of these."""
-        return seen_at(self, place)
-
-    def changed_at(self, place: Place, view: object) -> Self:
-        """It as what is `seen_at` a place has been changed. ValueError where more has been changed."""
-        return changed_at(self, place, self.changed(view))
 
     def altered(self, *alterations: Alteration) -> Bar:
         """The mechanism with further alterations of its bar."""

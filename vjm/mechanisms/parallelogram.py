@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from functools import cached_property, partial
-from typing import Self, get_args
+from typing import get_args
 
 import numpy as np
 
@@ -23,14 +23,14 @@ from vjm.lumped import Lumped, SpringAt
 from vjm.mechanism import ElasticChain
 from vjm.mechanisms.assembled import FourBar
 from vjm.mechanisms.assembly import Alteration, Assembly, GaugeAt, as_built, mounted
-from vjm.mechanisms.sites import Place, changed_at, places, seen_at
+from vjm.mechanisms.sites import WithPlaces
 from vjm.parts import Frame
 from vjm.refined import SEGMENTS, Refined
 from vjm.sensors import Sensor
 
 
 @dataclass(frozen=True, eq=False)
-class Parallelogram:
+class Parallelogram(WithPlaces):
     """Parallelogram linkage at nominal bar angle q; the platform point lies midway between the outer hinges.
 
     length, width: L and d, mm. bar_stiffness: K_b (6, 6) of one bar at its tip, base clamped, bar frame.
@@ -117,29 +117,6 @@ class Parallelogram:
         """Laws of each hinge: those of `single_hinges`, then those that all have; base and tip of each bar in turn."""
         own = self.single_hinges or ((),) * 4
         return tuple((*laws, *self.hinges) for laws in own)
-
-    @property
-    def view(self) -> Self:
-        """What effects see of it: itself (`vjm.effects.base`)."""
-        return self
-
-    def changed(self, view: object) -> Self:
-        """It as its view has been changed. ValueError for something else than a parallelogram."""
-        if not isinstance(view, type(self)):
-            raise ValueError(f"an effect makes {type(view).__name__} of a parallelogram")
-        return view
-
-    def places(self, parts: str) -> tuple[Place, ...]:
-        """Its "hinges" or "bars" one by one; none for other parts."""
-        return places(self, parts)
-
-    def seen_at(self, place: Place) -> Self:
-        """What effects see of it at one of these."""
-        return seen_at(self, place)
-
-    def changed_at(self, place: Place, view: object) -> Self:
-        """It as what is `seen_at` a place has been changed. ValueError where more has been changed."""
-        return changed_at(self, place, self.changed(view))
 
     def altered(self, *alterations: Alteration) -> Parallelogram:
         """The linkage with further alterations of its bars."""

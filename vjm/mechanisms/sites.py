@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import Field, dataclass, fields, replace
-from typing import Any, ClassVar, Protocol, TypeVar
+from typing import Any, ClassVar, Protocol, Self, TypeVar
 
 import numpy as np
 
@@ -34,6 +34,8 @@ class Rig(Protocol):
 
     @property
     def alterations(self) -> tuple[Alteration, ...]: ...
+
+    def changed(self, view: object) -> Self: ...
 
     @property
     def links(self) -> tuple[Link, ...]: ...
@@ -131,3 +133,30 @@ class _Only:
         if self.place.end == 0:
             return replace(link, base_give=new.base_give, slides=new.slides)
         return replace(link, tip_give=new.tip_give)
+
+
+class WithPlaces:
+    """A rig of the bench for effects to change, whole or at single places (`vjm.effects.base.Viewed`)."""
+
+    @property
+    def view(self) -> Self:
+        """What effects see of it: itself."""
+        return self
+
+    def changed(self, view: object) -> Self:
+        """It as its view has been changed. ValueError for something else than such a rig."""
+        if not isinstance(view, type(self)):
+            raise ValueError(f"an effect makes {type(view).__name__} of a {type(self).__name__.lower()}")
+        return view
+
+    def places(self: Rig, parts: str) -> tuple[Place, ...]:
+        """Its "hinges" or "bars" one by one; none for other parts."""
+        return places(self, parts)
+
+    def seen_at(self: Same, place: Place) -> Same:
+        """What effects see of it at one of these."""
+        return seen_at(self, place)
+
+    def changed_at(self: Same, place: Place, view: object) -> Same:
+        """It as what is `seen_at` a place has been changed. ValueError where more has been changed."""
+        return changed_at(self, place, self.changed(view))
