@@ -15,6 +15,7 @@ import numpy as np
 from vjm.bars import Limb, X
 from vjm.chain import Chain, Element, Fixed, Joint, Role, tied_apart
 from vjm.frames import Array, exp
+from vjm.gauges import Gauge, gauge
 from vjm.laws import Law, OnSum, Spring
 from vjm.loads import DeadLoads
 from vjm.mechanism import Drive, ElasticChain, Loop, Path, Varying, joints_of
@@ -73,12 +74,23 @@ def leg_chain(leg: Leg, name: str, turning: bool = False) -> ElasticChain:
 class Member:
     """An elastic member of a leg.
 
-    part: as drawn. before: elements from the base to its beginning. name: before those of its ties, "" for none.
+    part: as drawn. before: elements from the base to its beginning. numbers: of all coordinates up to its tip
+    among those of the leg. name: before those of its ties, "" for none.
     """
 
     part: Elastic
     before: tuple[Element, ...]
+    numbers: np.ndarray
     name: str
+
+    def gauge(self, leg: int, station: float, direction: tuple[float, float, float]) -> Gauge:
+        """Displacement of the point of its axis at `station` along a unit direction of the base frame.
+
+        leg: number of its leg. ValueError for a station outside or a direction not of length 1.
+        """
+        whole = Chain((*self.before, *_named(self.part.model.limb(self.part.link).elements, self.name)))
+        seen = gauge(leg, self.reach(station), whole, direction)
+        return replace(seen, coordinates=self.numbers[seen.coordinates])
 
     def reach(self, station: float) -> tuple[Element, ...]:
         """Elements from the base to the point of its axis at `station` (0 base, 1 tip). ValueError for one outside."""
@@ -268,8 +280,9 @@ class _Work:
         limb, start = part.model.limb(part.link), len(track.elements)
         # Members name their ties alike.
         name = str(self.size) if self.members else ""
-        self.members.append(Member(part, tuple(track.elements), name))
+        before = tuple(track.elements)
         numbers = self._limb(track, limb, name)
+        self.members.append(Member(part, before, np.array(track.numbers, dtype=int), name))
         self.blocks.append((numbers, limb.stiffness))
         self.springs += limb.numbered_from(int(numbers[0]))
         self.rest |= {int(k): float(v) for k, v in zip(numbers, limb.rest, strict=True) if v}
