@@ -78,6 +78,8 @@ def _closed(leg: Leg, pose: Array, length: float) -> tuple[Array, Array]:
     """Coordinates (B, m) of a leg and what is left of its gap (B,)."""
     rigid = rigid_leg(leg)
     chain, slopes = rigid.chain, rigid.posture.T
+    # Without branches that move together the coordinates are those of the posture.
+    own = np.array_equal(slopes, np.eye(chain.size))
     x = np.tile(leg.home, (len(pose), 1))
     gap = np.full(len(pose), np.inf)
     scale = np.tile(np.repeat([1.0 / length, 1.0], 3), chain.closures // 6)
@@ -86,10 +88,10 @@ def _closed(leg: Leg, pose: Array, length: float) -> tuple[Array, Array]:
     aim[:, :6] = pose
     active = np.arange(len(pose))
     for _ in range(ITERATIONS):
-        ends, by = chain.close(x[active] @ slopes.T)
+        ends, by = chain.close(x[active] if own else x[active] @ slopes.T)
         error = (aim[active] - ends) * scale
         gap[active] = np.max(np.abs(error), axis=-1)
-        jacobian = by @ slopes * scale[:, None] * size
+        jacobian = (by if own else by @ slopes) * scale[:, None] * size
         normal = np.swapaxes(jacobian, -1, -2) @ jacobian
         largest = np.max(np.abs(normal), axis=(-2, -1), initial=1e-300)
         normal += (_DAMPING * largest)[:, None, None] * np.eye(x.shape[-1])
