@@ -8,14 +8,14 @@ path to the platform come first, then those of further branches.
 from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
-from functools import cached_property, lru_cache
+from functools import lru_cache
 
 import numpy as np
 
 from vjm.bars import Limb, X
-from vjm.chain import Chain, Element, Fixed, Joint, Role, tied_apart
+from vjm.built_leg import Built, Member, named
+from vjm.chain import Chain, Element, Fixed, Joint, Role
 from vjm.frames import Array, exp
-from vjm.gauges import Gauge, gauge
 from vjm.laws import Law, OnSum, Spring
 from vjm.loads import DeadLoads
 from vjm.mechanism import Drive, ElasticChain, Loop, Path, Varying, joints_of
@@ -70,74 +70,6 @@ def leg_chain(leg: Leg, name: str, turning: bool = False) -> ElasticChain:
     return of.set_by(tuple(drives), rest, varying)
 
 
-@dataclass(frozen=True, eq=False)
-class Member:
-    """An elastic member of a leg.
-
-    part: as drawn. before: elements from the base to its beginning. numbers: of all coordinates up to its tip
-    among those of the leg. name: before those of its ties, "" for none.
-    """
-
-    part: Elastic
-    before: tuple[Element, ...]
-    numbers: np.ndarray
-    name: str
-
-    def gauge(self, leg: int, station: float, direction: tuple[float, float, float]) -> Gauge:
-        """Displacement of the point of its axis at `station` along a unit direction of the base frame.
-
-        leg: number of its leg. ValueError for a station outside or a direction not of length 1.
-        """
-        whole = Chain((*self.before, *_named(self.part.model.limb(self.part.link).elements, self.name)))
-        seen = gauge(leg, self.reach(station), whole, direction)
-        return replace(seen, coordinates=self.numbers[seen.coordinates])
-
-    def reach(self, station: float) -> tuple[Element, ...]:
-        """Elements from the base to the point of its axis at `station` (0 base, 1 tip). ValueError for one outside."""
-        return (*self.before, *_named(self.part.model.reach(self.part.link, station), self.name))
-
-
-@dataclass(frozen=True, eq=False)
-class Built:
-    """What the chain of a leg is made of, while nothing sets its posture.
-
-    main, stiffness, springs, loads, loops: see `vjm.mechanism.ElasticChain`. rest: (n,) at the posture zero.
-    drives: the inputs by which members lengthen. posture: (m, n) change of the coordinates by those of the posture.
-    swinging: pseudo-rigid bars with their number in the posture and the numbers of their five springs. members: the
-    elastic ones, in the order of their coordinates.
-    """
-
-    name: str
-    main: Chain
-    stiffness: Array
-    rest: Array
-    springs: tuple[Spring, ...]
-    loads: tuple[DeadLoads, ...]
-    drives: tuple[Drive, ...]
-    loops: tuple[Loop, ...]
-    posture: Array
-    swinging: tuple[tuple[Swinging, int, np.ndarray], ...]
-    members: tuple[Member, ...]
-
-    @cached_property
-    def chain(self) -> ElasticChain:
-        """The leg at the posture zero."""
-        return self.set_by((), self.rest)
-
-    def set_by(
-        self, drives: tuple[Drive, ...], rest: Array, varying: tuple[Varying, ...] = ()
-    ) -> ElasticChain:
-        """The leg with inputs that set its posture, and with the coordinates (n,) where it rests at their defaults."""
-        springs, drives = (self.springs, self.loads), (*drives, *self.drives)
-        return ElasticChain(self.main, self.stiffness, rest, *springs, drives, self.loops, varying, self.name)
-
-    @property
-    def together(self) -> tuple[int, ...]:
-        """Numbers of the coordinates that follow one of the posture with others."""
-        shared = [np.flatnonzero(slope) for slope in self.posture]
-        return tuple(int(k) for numbers in shared if numbers.size > 1 for k in numbers)
-
-
 def build(leg: Leg, rigid: bool = False) -> Built:
     """The leg as a chain; rigid: without its elasticity and its laws, as inverse kinematics sees it.
 
@@ -155,10 +87,6 @@ def _loop(both: tuple[Side, Side], home: Array) -> Loop:
     first = Chain(both[0][0]).pose(home[both[0][1]])
     turned = exp(first[3:]) if np.max(np.abs(first[3:])) > 1e-9 else np.eye(3)
     return Loop(*(Path(Chain(elements, turned), numbers) for elements, numbers in both))
-
-
-def _named(elements: tuple[Element, ...], name: str) -> tuple[Element, ...]:
-    return tied_apart(elements, name) if name else elements
 
 
 @dataclass
@@ -297,7 +225,7 @@ class _Work:
     def _limb(self, track: _Track, limb: Limb, name: str) -> np.ndarray:
         """Numbers of the coordinates of a limb."""
         numbers = self.size + np.arange(limb.rest.size)
-        track.elements += _named(limb.elements, name)
+        track.elements += named(limb.elements, name)
         track.numbers += numbers.tolist()
         self.size += limb.rest.size
         return numbers

@@ -12,8 +12,9 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import ArrayLike
 
+from vjm.built_leg import Built
 from vjm.frames import Array
-from vjm.leg_chain import Built, build
+from vjm.leg_chain import build
 from vjm.manipulator.parts import Manipulator
 from vjm.parts import Leg
 

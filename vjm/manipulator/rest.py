@@ -11,8 +11,9 @@ from functools import lru_cache
 
 import numpy as np
 
+from vjm.built_leg import Built
 from vjm.frames import Array
-from vjm.leg_chain import Built, build
+from vjm.leg_chain import build
 from vjm.lumped import Lumped
 from vjm.manipulator.freedom import undetermined
 from vjm.manipulator.parts import Manipulator, Parallelogram

@@ -10,11 +10,12 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from vjm.bars import BarModel, Y
+from vjm.built_leg import Built
 from vjm.chain import Fixed
 from vjm.frames import Array, exp
 from vjm.gauges import Gauge, gauge
 from vjm.laws import Law
-from vjm.leg_chain import Built, build
+from vjm.leg_chain import build
 from vjm.link import Link
 from vjm.mechanism import Drive, ElasticChain
 from vjm.parts import Elastic, Frame, Leg, hinge
