@@ -189,7 +189,7 @@ class Fork:
     def posture(self) -> tuple[Coordinate, ...]:
         """The one coordinate of `together`, or those of all branches."""
         if self.together:
-            return (Coordinate("rotation", self.home),)
+            return (Coordinate(branch_posture(self.branches[0])[0].kind, self.home),)
         return tuple(each for branch in self.branches for each in branch_posture(branch))
 
 

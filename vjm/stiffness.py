@@ -9,6 +9,7 @@ from vjm import blocks, lagrangian
 from vjm.equilibrium import Equilibrium, unloaded
 from vjm.frames import Array, rotate_stiffness, rotation_y
 from vjm.mechanism import ElasticChain, Mechanism
+from vjm.stability import scaled_hessian
 
 
 def eliminate(
@@ -105,8 +106,7 @@ def loaded_stiffness(state: Equilibrium, q: float = 0.0) -> Array:
 def _of_the_whole(state: Equilibrium) -> Array:
     """(..., 6, 6) with all unknowns but the pose eliminated together, as no chain has a stiffness of its own."""
     place = lagrangian.layout(state.mechanism)
-    rows = lagrangian.all_rows(state.mechanism, state.unknowns, state.memory, state.drives)
-    scaled = place.scale[:, None] * lagrangian.hessian(place, rows) * place.scale / place.energy
+    scaled = scaled_hessian(state)
     pose = np.arange(place.size)[place.platform]
     inner = np.setdiff1d(np.arange(place.size), pose)
     mixed = scaled[..., inner[:, None], pose]

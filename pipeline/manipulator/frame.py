@@ -134,6 +134,8 @@ def _place(build: _Builder, part: Part, left: list[float]) -> None:
 
 def _fork(build: _Builder, part: Fork, left: list[float]) -> None:
     """Branches from one body to the one at the end of the first."""
+    if part.ties:
+        raise ValueError("finite elements have no laws between the branches of a fork")
     count = sum(len(branch_posture(branch)) for branch in part.branches)
     own = [share * left[0] for share in part.together] or left[:count]
     del left[: 1 if part.together else count]
@@ -175,6 +177,9 @@ def _beam(build: _Builder, part: Elastic) -> None:
     length = part.link.length
     if length == 0.0:
         raise ValueError("finite elements have no elastic link of length zero")
+    refuse(part.link, part.drawn, part.line_load)
+    if np.any(part.link.give):
+        raise ValueError("finite elements have elastic links without joints of their own")
     if not np.array_equal(build.positions[build.node], build.place):
         build.step([RIGID] * 6)
     tip = build.place + length * build.triad[:, 0]
@@ -197,7 +202,7 @@ def _linkage(build: _Builder, part: Parallelogram, q: float) -> None:
     scales = (scale, scale * errors.bar_stiffness_asymmetry.ratio)
     bars = zip((-0.5, 0.5), part.as_built.links, scales, (hinges[:2], hinges[2:]), strict=True)
     for side, link, own, about in bars:
-        refuse(link, part)
+        refuse(link, part.length, part.as_built.line_load)
         arm = side * width * build.triad[:, 2]
         base, tip = build.new(build.place + arm), build.new(end + arm)
         section = section_of(link.stiffness, link.length)

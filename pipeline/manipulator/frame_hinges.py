@@ -1,11 +1,11 @@
 """What a parallelogram with effects is for finite elements at rest: hinges that spring back, and what it lacks."""
 
 import numpy as np
+from numpy.typing import NDArray
 
 from fem.frame.structure import FREE
 from vjm.laws import Law, Linear
 from vjm.link import Link
-from vjm.manipulator.parts import Parallelogram
 
 HINGE = 4
 """The axis of a hinge among the six of its frame: about y."""
@@ -24,12 +24,15 @@ def hinge_give(laws: tuple[Law, ...], more: float = 0.0) -> float:
     return 1.0 / stiffness if stiffness else FREE
 
 
-def refuse(link: Link, part: Parallelogram) -> None:
-    """ValueError for a bar whose state at rest is not that of a straight beam of the drawn length."""
+def refuse(link: Link, drawn: float, line_load: NDArray[np.float64]) -> None:
+    """ValueError for a bar whose state at rest is not that of a straight beam of the drawn length, mm.
+
+    line_load: (3,) along it.
+    """
     for give in (link.base_give, link.tip_give):
         if np.any(give != np.diag(np.diag(give))) or give[HINGE, HINGE]:
             raise ValueError("finite elements at rest have axes that give along and across themselves only")
-    if np.any(part.as_built.line_load):
+    if np.any(line_load):
         raise ValueError("finite elements at rest have bars without weight")
-    if link.length != part.length or link.slides or any(link.bow) or link.fibres is not None:
+    if link.length != drawn or link.slides or any(link.bow) or link.fibres is not None:
         raise ValueError("finite elements at rest have straight, linear bars of the drawn length")

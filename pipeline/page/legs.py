@@ -12,7 +12,7 @@ from scipy.spatial.transform import Rotation
 from pipeline.page.record import Line
 from vjm.manipulator.parts import Manipulator, Parallelogram
 from vjm.manipulator.posture import postures
-from vjm.parts import Actuator, Elastic, Frame, Kind, Leg, Part, Passive, posture_of
+from vjm.parts import Actuator, Elastic, Frame, Kind, Leg, Part, Passive, Virtual, posture_of
 
 Array = NDArray[np.float64]
 Ends = tuple[Array, Array]
@@ -104,7 +104,9 @@ def _motion(part: Part, values: list[float]) -> tuple[Array, Array]:
         case Parallelogram():
             # Its end keeps its orientation.
             return Rotation.from_rotvec(values[0] * np.array(Y)).apply([part.length, 0.0, 0.0]), straight
-    return still, straight
+        case Virtual():
+            return still, straight
+    raise ValueError(f"a {type(part).__name__.lower()} has no drawing here")
 
 
 def _moved(kind: Kind, axis: tuple[float, float, float], value: float) -> tuple[Array, Array]:

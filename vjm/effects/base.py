@@ -113,9 +113,13 @@ class Effect(ABC):
             return (
                 mechanism if self.absent(values) else mechanism.changed(self.change(mechanism.view, values))
             )
-        for place in chosen(mechanism.places(self.acts_on), site):
-            if not self.absent(values):
-                mechanism = mechanism.changed_at(place, self.change(mechanism.seen_at(place), values))
+        chosen_places, before = chosen(mechanism.places(self.acts_on), site), mechanism
+        if self.absent(values):
+            return mechanism
+        for place in chosen_places:
+            mechanism = mechanism.changed_at(place, self.change(mechanism.seen_at(place), values))
+        if mechanism is before:
+            raise ValueError(f"{self.name} changes nothing at {site!r}, allowed is a place that it acts on")
         return mechanism
 
     @property

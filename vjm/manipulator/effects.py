@@ -7,6 +7,7 @@ the ground, or at the sensors, happens once, at the base frame and at the platfo
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from typing import Self
 
 import numpy as np
 
@@ -27,30 +28,38 @@ def with_effect(manipulator: Manipulator, effect: Effect, values: Values, site: 
     leg's name and "parallelogram", numbered from 1 where its leg has several. Drives and inverse kinematics still go by
     the drawing. ValueError for an effect that it cannot have, as that of bars where there is no parallelogram.
     """
-    return effect.apply(_Shown(manipulator), values, site).manipulator
+    return effect.apply(Shown(manipulator), values, site).manipulator
 
 
 @dataclass(frozen=True, eq=False)
-class _Shown:
+class Shown:
     """A manipulator for effects to change (`vjm.effects.base.Viewed`)."""
 
     manipulator: Manipulator
 
     @property
     def view(self) -> Bench:
+        """What effects see of it."""
         return view_of(self.manipulator)
 
-    def changed(self, view: object) -> _Shown:
-        return _Shown(with_view(self.manipulator, view))
+    def changed(self, view: object) -> Self:
+        """It as its view has been changed."""
+        return self._made(with_view(self.manipulator, view))
 
     def places(self, parts: str) -> tuple[MachinePlace, ...]:
+        """The hinges or bars of its parallelograms one by one; none for other parts."""
         return places(self.manipulator, parts)
 
     def seen_at(self, place: MachinePlace) -> Bench:
+        """What effects see of it at one of these."""
         return seen_at(self.manipulator, place)
 
-    def changed_at(self, place: MachinePlace, view: object) -> _Shown:
-        return _Shown(changed_at(self.manipulator, place, view))
+    def changed_at(self, place: MachinePlace, view: object) -> Self:
+        """It as what is `seen_at` a place has been changed; itself where that is nothing."""
+        return self._made(changed_at(self.manipulator, place, view))
+
+    def _made(self, manipulator: Manipulator) -> Self:
+        return self if manipulator is self.manipulator else replace(self, manipulator=manipulator)
 
 
 @dataclass(frozen=True)
@@ -90,7 +99,11 @@ def changed_at(manipulator: Manipulator, place: MachinePlace, view: object) -> M
     leg = manipulator.legs[place.leg]
     part = leg.parts[place.part]
     assert isinstance(part, Parallelogram)
-    rig = _bench(manipulator, part).changed_at(place.inside, view)
+    before = _bench(manipulator, part)
+    # What an effect has seen is another object of the same values.
+    rig = before.changed_at(place.inside, view)
+    if rig is before:
+        return manipulator
     built = AsBuilt(rig.links, part.as_built.model, rig.hinge_laws, rig.wider, rig.line_load)
     parts = list(leg.parts)
     parts[place.part] = replace(part, bars="pair", built=built)

@@ -78,7 +78,9 @@ def chosen(every: Iterable[One], site: str) -> tuple[One, ...]:
     them, tags = tuple(every), set(site.split("."))
     found = tuple(each for each in them if tags <= set(each.tags))
     if not found:
-        known = ", ".join(".".join(each.tags) for each in them) or "none: it acts on the whole"
+        if not them:
+            raise ValueError(f"no part is at {site!r}: what acts there acts on the whole, without a site")
+        known = ", ".join(".".join(each.tags) for each in them)
         raise ValueError(f"no part is at {site!r}, allowed are some of the tags of: {known}")
     return found
 
@@ -91,7 +93,7 @@ def seen_at(rig: Same, place: Place) -> Same:
 
 
 def changed_at(rig: Same, place: Place, view: Same) -> Same:
-    """The rig with what has been made of `seen_at`, at that place only.
+    """The rig with what has been made of `seen_at`, at that place only; itself where that is nothing.
 
     ValueError where more than a bar or a hinge has been changed.
     """
@@ -100,8 +102,13 @@ def changed_at(rig: Same, place: Place, view: Same) -> Same:
     names = [each.name for each in fields(rig) if each.name not in apart]
     if other := [name for name in names if _differ(getattr(view, name), getattr(seen, name))]:
         raise ValueError(f"{other[0]} is not that of one part, allowed is the effect without a site")
-    more = view.alterations[len(seen.alterations) :]
-    alterations = (*rig.alterations, *([_Only(place, more)] if more else []))
+    only = _Only(place, view.alterations[len(seen.alterations) :])
+    old = rig.links[place.bar]
+    new = only(place.bar, old)
+    same = all(not _differ(getattr(new, each.name), getattr(old, each.name)) for each in fields(Link))
+    if same and view.hinges == seen.hinges:
+        return rig
+    alterations = rig.alterations if same else (*rig.alterations, only)
     if place.end is None:
         return replace(rig, alterations=alterations)
     laws = list(rig.hinge_laws)

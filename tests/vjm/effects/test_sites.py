@@ -114,6 +114,8 @@ def test_effects_after_one_leg_keep_it() -> None:
 @pytest.mark.parametrize(
     ("name", "site", "said"),
     [
+        ("joint_clearance", "1.tip", "joint_clearance changes nothing at '1.tip'"),
+        ("bar_stiffness_asymmetry", "1", "bar_stiffness_asymmetry changes nothing at '1'"),
         (
             "joint_friction",
             "3.base",
@@ -122,7 +124,7 @@ def test_effects_after_one_leg_keep_it() -> None:
         (
             "base_compliance",
             "1",
-            "no part is at '1', allowed are some of the tags of: none: it acts on the whole",
+            "no part is at '1': what acts there acts on the whole, without a site",
         ),
         (
             "bar_geometric_nonlinearity",

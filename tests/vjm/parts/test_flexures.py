@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 from fem.beam import uniform_stiffness
+from pipeline.manipulator.frame import frame_stiffness
 from vjm.bars import Y
 from vjm.equilibrium import Equilibrium, equilibrium
 from vjm.frames import Array, rotation_y
@@ -14,7 +17,20 @@ from vjm.manipulator.machine import machine
 from vjm.manipulator.parts import Manipulator
 from vjm.manipulator.posture import postures
 from vjm.manipulator.rest import stiffness_at_rest
-from vjm.parts import Fork, Frame, Leg, Part, Tie, beside, elastic, hinge, leaf_pair, notch, parallelogram
+from vjm.parts import (
+    Fork,
+    Frame,
+    Leg,
+    Part,
+    Tie,
+    beside,
+    elastic,
+    hinge,
+    leaf_pair,
+    notch,
+    parallelogram,
+    slide,
+)
 from vjm.stiffness import loaded_stiffness
 
 L, THICK, DEEP, MODULUS = 60.0, 0.4, 15.0, 2e5
@@ -79,6 +95,27 @@ def test_notch_guide() -> None:
     whole = flexure(Fork(beside(*[(hinges, along_x(L), hinges)] * 2, apart=40.0)))
     compliance = np.linalg.inv(at_rest(whole))
     assert 1 / compliance[2, 2] == pytest.approx(4 * k / L**2, rel=1e-3)
+
+
+def test_a_slide_with_a_law() -> None:
+    """A spring along a slide and a leaf behind it are in series: 1/k + L/EA."""
+    k = 2e3
+    whole = flexure(slide((1.0, 0.0, 0.0), Linear(np.array([[k]]))), elastic(L, LEAF))
+    assert np.linalg.inv(at_rest(whole))[0, 0] == pytest.approx(1 / k + L / EA, rel=1e-9)
+
+
+def test_frame_elements_refuse_what_they_do_not_have() -> None:
+    """A tie, a member with play or one that gives at its ends would silently be left out."""
+    stiff = elastic(L, LEAF)
+    branches = parallelogram((stiff, stiff), 40.0).branches
+    tied = Fork(branches, (), ties=(Tie((((0, 0), 1.0), ((1, 0), 1.0)), Linear(np.eye(1))),))
+    loose = replace(stiff, link=replace(stiff.link, base_give=1e-6 * np.eye(6)))
+    heavy = replace(stiff, line_load=np.array([0.0, 0.0, -1e-3]))
+    for part, said in ((tied, "no laws between"), (loose, "give along"), (heavy, "without weight")):
+        whole = flexure(part)
+        at = postures(whole, machine(whole).unloaded_pose)
+        with pytest.raises(ValueError, match=said):
+            frame_stiffness(whole, at.pose, at.coordinates)
 
 
 def test_a_tie_between_branches() -> None:
