@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 
 from meshes.files import replacing
-from pipeline.campaign import Campaign, Rig, write
+from pipeline.campaign import Campaign, ParallelogramRig, write
 from pipeline.campaign.reading import DESCRIPTION, MEASUREMENTS
 from pipeline.command import usable
 from pipeline.errors import InputError
@@ -65,12 +65,11 @@ def seal(out: Path, campaign: Campaign, answer: Mapping[str, object]) -> None:
     print(f"{out}: {len(campaign.tests)} tests, {rows} load steps; the answer is sealed in {sealed(out)}")
 
 
-def bench_rig() -> Rig:
+def bench_rig() -> ParallelogramRig:
     """The parallelogram of the paper's K_b (Eq. 12), with what thermometer and yield need to know."""
-    return Rig(
-        "parallelogram",
-        LENGTH,
-        WIDTH,
+    return ParallelogramRig(
+        length=LENGTH,
+        width=WIDTH,
         bar_stiffness=paper.BAR_STIFFNESS,
         gravity=(0.0, 0.0, -1.0),
         reference_temperature=REFERENCE_C,

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 
-from pipeline.campaign import Campaign, Rig
+from pipeline.campaign import Campaign, ManipulatorRig
 from pipeline.manipulator.description import SHIPPED, read
 from pipeline.parameter_names import path_of
 from pipeline.progress import Progress
@@ -24,19 +24,20 @@ def simulate_manipulator(
     """As `pipeline.simulate.simulate`, on a manipulator: a shipped one, or a file that is not moved afterwards."""
     described = read(file)
     named = file if (SHIPPED / f"{file}.toml").exists() else str(Path(file).resolve())
-    rig = Rig("manipulator", described.manipulator.length, manipulator=described.manipulator, file=named)
+    whole = described.manipulator
+    rig = ManipulatorRig(length=whole.length, manipulator=whole, file=named)
     require_free(out)
     sizes, noise = (np.random.default_rng(s) for s in np.random.SeedSequence(seed).spawn(2))
     values = hidden(effects, catalogue(), rig, sizes)
     with Progress(quiet).stage("simulate"):
         name = re.sub(r"\s+", " ", out.resolve().name)
-        tests = plan(described.manipulator, described.home)
+        tests = plan(whole, described.home)
         campaign = measure_manipulator(name, rig, tests, values, int(noise.integers(2**63)))
     answer = {
         "effects": list(values),
         "parameters": {path_of(name, p): value for name, own in values.items() for p, value in own.items()},
         "seed": seed,
-        "rig": f"manipulator {described.manipulator.name}",
+        "rig": f"manipulator {whole.name}",
         "truth": "linear frame finite elements at each posture",
     }
     seal(out, campaign, answer)

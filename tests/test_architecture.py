@@ -43,6 +43,14 @@ def parse(path: Path) -> ast.Module:
 PACKAGED = sources(*MAY_IMPORT)
 TREES = {path: parse(path) for path in PACKAGED}
 MODULES = {name_of(path): path for path in PACKAGED}
+# Classes that say what a kind of rig is; what differs between kinds is theirs to answer.
+RIGS = {
+    node.name
+    for path, tree in TREES.items()
+    if path.is_relative_to(ROOT / "pipeline" / "campaign" / "rigs")
+    for node in tree.body
+    if isinstance(node, ast.ClassDef)
+}
 TESTS = sorted((ROOT / "tests").rglob("*.py"))
 
 
@@ -155,6 +163,39 @@ def wildcards(path: Path, tree: ast.Module) -> list[str]:
     ]
 
 
+def kind_switches(path: Path, tree: ast.Module) -> list[str]:
+    """Where a path is chosen by the kind of a rig: comparisons, look-ups and matches of `rig.kind` or `rig["kind"]`,
+    and isinstance with a class of rigs, other than in an assert that only tells the type."""
+    told = {id(n) for a in ast.walk(tree) if isinstance(a, ast.Assert) for n in ast.walk(a)}
+    chosen: list[ast.AST] = []
+    by_class: list[ast.AST] = []
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Compare):
+            chosen += [node.left, *node.comparators]
+        elif isinstance(node, ast.Subscript):
+            chosen.append(node.slice)
+        elif isinstance(node, ast.Match):
+            chosen.append(node.subject)
+        elif (
+            isinstance(node, ast.Call)
+            and getattr(node.func, "id", "") == "isinstance"
+            and id(node) not in told
+        ):
+            names = {n.id for n in ast.walk(node.args[1]) if isinstance(n, ast.Name)}
+            by_class += [node] * bool(names & RIGS)
+    found = [*filter(_is_a_rigs_kind, chosen), *by_class]
+    return [f"{path.relative_to(ROOT)}:{n.lineno} {ast.unparse(n)}" for n in found]  # type: ignore[attr-defined]
+
+
+def _is_a_rigs_kind(node: ast.AST) -> bool:
+    if isinstance(node, ast.Attribute) and node.attr == "kind":
+        return ast.unparse(node.value).split(".")[-1].endswith("rig")
+    key = node.slice if isinstance(node, ast.Subscript) else None
+    if not isinstance(node, ast.Subscript) or not isinstance(key, ast.Constant) or key.value != "kind":
+        return False
+    return ast.unparse(node.value).endswith(("rig", "rig']"))
+
+
 def import_graph() -> dict[str, set[str]]:
     """Modules of the packages and what they import of each other."""
     graph = {}
@@ -193,6 +234,18 @@ def test_files_are_read_below_what_they_describe() -> None:
         if name.startswith("pipeline.") and not name.startswith("pipeline.toml")
     }
     assert used == {"pipeline.errors"}
+
+
+def test_nothing_but_a_campaigns_readers_asks_for_the_kind_of_a_rig() -> None:
+    here = {path: tree for path, tree in TREES.items() if path.is_relative_to(ROOT / "pipeline")}
+    readers = ROOT / "pipeline" / "campaign"
+    found = [
+        line
+        for path, tree in here.items()
+        if not path.is_relative_to(readers)
+        for line in kind_switches(path, tree)
+    ]
+    assert not found, "\n".join(found)
 
 
 def test_files_are_short() -> None:
@@ -250,6 +303,14 @@ BAD = {
         "fem/x.py:1 f has 61 lines",
     ),
     "wildcard": (wildcards, "fem/x.py", "from math import *\n", "fem/x.py:1"),
+    "kind, compared": (
+        kind_switches,
+        "pipeline/x.py",
+        'def f(rig):\n    return rig.kind == "bar"\n',
+        "pipeline/x.py:2 rig.kind",
+    ),
+    "kind, looked up": (kind_switches, "pipeline/x.py", 'X[data["rig"]["kind"]]\n', "pipeline/x.py:1"),
+    "kind, by class": (kind_switches, "pipeline/x.py", "isinstance(it.rig, BarRig)\n", "pipeline/x.py:1"),
     "docstring": (undocumented, "fem/x.py", '"""x"""\ndef f(): pass\n', "fem/x.py:2 f"),
 }
 

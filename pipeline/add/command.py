@@ -98,7 +98,7 @@ def starting_model(
     path = model_file or folder / NAME
     if model_file is None and not path.exists():
         return Model(), known
-    saved = read_model_file(path, known, campaign.rig.kind)
+    saved = read_model_file(path, known, campaign.rig)
     return saved.model, known_effects(saved.effects_from, known)
 
 

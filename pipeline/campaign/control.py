@@ -6,7 +6,6 @@ from pipeline.campaign.model import Array, Gauge, Rig
 from pipeline.campaign.names import COORDINATES, DISPLACEMENT, FORCE, SUPPORT
 from pipeline.toml.complaints import shown
 from pipeline.toml.spelling import unknown_name
-from vjm.mechanisms.bar import HELD
 
 NEARLY_ALONG = np.sin(np.radians(1.0))
 """A coordinate within a degree of the bars' direction does not keep them from swinging."""
@@ -18,7 +17,7 @@ PART = 0.01
 
 def controls(written: dict[str, str], rig: Rig, names: list[str]) -> tuple[tuple[str, ...], list[str]]:
     """What controls each of the six coordinates, and what is wrong with what was written; names: of the gauges."""
-    supported = HELD[rig.tip] if rig.kind == "bar" else ()
+    supported = rig.supports
     said = [
         f"{shown(key)} is no coordinate, {unknown_name(key, COORDINATES)}"
         for key in written
@@ -26,7 +25,7 @@ def controls(written: dict[str, str], rig: Rig, names: list[str]) -> tuple[tuple
     ]
     for key, by in written.items():
         if key in supported:
-            said.append(f"{key} is held by the {rig.tip} tip already, allowed is to leave it out")
+            said.append(f"{key} is held by {supported[key]} already, allowed is to leave it out")
         elif key in COORDINATES and by not in (DISPLACEMENT, FORCE, *names):
             near = unknown_name(by, (DISPLACEMENT, FORCE, *names))
             said.append(f"{key} is {shown(by)}, neither displacement nor force nor a gauge; {near}")
@@ -39,22 +38,9 @@ def controls(written: dict[str, str], rig: Rig, names: list[str]) -> tuple[tuple
     return tuple(SUPPORT if key in supported else written.get(key, FORCE) for key in COORDINATES), said
 
 
-def swing(rig: Rig, q: float) -> Array | None:
-    """(6,) motion of the platform that costs no energy at rest, 1 mm long; None if the rig has none.
-
-    The bars of a parallelogram turn about y and the platform follows without turning; a bar with a pinned base
-    and a free tip turns about its base.
-    """
-    if rig.kind == "parallelogram":
-        return np.array([-np.sin(q), 0.0, -np.cos(q), 0.0, 0.0, 0.0])
-    if rig.base == "pinned" and rig.tip == "free":
-        return np.array([0.0, 0.0, -1.0, 0.0, 1.0 / rig.length, 0.0])
-    return None
-
-
 def swings(rig: Rig, q: float, control: tuple[str, ...], gauges: tuple[Gauge, ...]) -> bool:
-    """Whether the rig has such a motion and nothing that is controlled by displacement keeps it from that."""
-    motion = swing(rig, q)
+    """Whether the rig has a motion that costs no energy, and no coordinate held by displacement keeps it from that."""
+    motion = rig.swing(q)
     if motion is None:
         return False
     by_name = {gauge.name: gauge for gauge in gauges}
@@ -78,9 +64,7 @@ def pull(rig: Rig, q: float, displacement: Array, wrench: Array, sigmas: tuple[A
     displacement, wrench: (N, 6), NaN not measured. sigmas: (6,) of each, NaN not known. The force along the bars
     is read where the cell gives it, else the travel along them.
     """
-    along = (
-        np.array([np.cos(q), 0.0, -np.sin(q)]) if rig.kind == "parallelogram" else np.array([1.0, 0.0, 0.0])
-    )
+    along = rig.along(q)
     # At small angles a reading that hardly counts must not be missing.
     along = np.where(np.abs(along) > NEARLY_ALONG, along, 0.0)
     verdict = np.zeros(len(wrench))

@@ -1,15 +1,13 @@
 """campaign.toml: text in; rig, noise, gauges and the head of each test out."""
 
 import tomllib
-from dataclasses import replace
 from pathlib import Path as FilePath
-from typing import Any, TypeVar, get_args
+from typing import Any, TypeVar
 
 from pydantic import BaseModel, TypeAdapter, ValidationError
 
 from pipeline.campaign.control import controls
 from pipeline.campaign.head import Description, Draft, Head
-from pipeline.campaign.manipulator_table import ManipulatorTable, reached
 from pipeline.campaign.mapped.sources import Sources
 from pipeline.campaign.model import Gauge, Rig, Vector
 from pipeline.campaign.names import (
@@ -21,12 +19,13 @@ from pipeline.campaign.names import (
     known_columns,
     wrong_column,
 )
-from pipeline.campaign.tables import GaugeTable, RigTable, TestTable, Top
+from pipeline.campaign.rig_table import RigTable
+from pipeline.campaign.rigs import KINDS
+from pipeline.campaign.tables import GaugeTable, TestTable, Top
 from pipeline.errors import InputError
 from pipeline.toml.complaints import Complaints, shown
 from pipeline.toml.fields import Sigma, sentences
 from pipeline.toml.lines import TomlLines
-from vjm.mechanisms.bar import Tip
 
 Raw = dict[str, Any]
 Model = TypeVar("Model", bound=BaseModel)
@@ -78,18 +77,24 @@ class _Reader:
         return top
 
     def rig(self, raw: Raw) -> Rig | None:
-        if raw.get("kind") == "manipulator":
-            return self._manipulator(raw)
-        table = self.checked(RigTable, raw, ("rig",), "rig")
-        return None if table is None else table.rig()
-
-    def _manipulator(self, raw: Raw) -> Rig | None:
-        described = self.checked(ManipulatorTable, raw, ("rig",), "rig")
+        table = self._table(raw)
+        described = None if table is None else self.checked(table, raw, ("rig",), "rig")
         try:
             return None if described is None else described.rig(self.folder)
         except InputError as error:
             for said in str(error).splitlines():
                 self.say(("rig", "file"), said, "rig.file")
+        return None
+
+    def _table(self, raw: Raw) -> type[RigTable] | None:
+        """The table of the kind that a rig names."""
+        kind = raw.get("kind")
+        if isinstance(kind, str) and kind in KINDS:
+            return KINDS[kind]
+        *others, last = map(repr, KINDS)
+        allowed = f"allowed is: {', '.join(others)} or {last}"
+        said = "is missing" if "kind" not in raw else f"is {shown(kind)}"
+        self.say(("rig", "kind"), f"{said}, {allowed}", "rig.kind")
         return None
 
     def gauges(self, raw: list[Raw], rig: Rig | None) -> tuple[Gauge, ...]:
@@ -110,10 +115,8 @@ class _Reader:
                 SUPPORT,
             ):
                 self.say(("gauges", k, "name"), "is taken, allowed is a name of its own", place)
-            elif rig is not None and rig.kind == "manipulator":
-                self.say(("gauges", k), "is on a manipulator, whose campaigns have no gauges yet", place)
-            elif rig is not None and rig.kind == "bar" and table.bar == 2:
-                self.say(("gauges", k, "bar"), f"bar is {table.bar}, a rig of one bar allows 1", place)
+            elif rig is not None and (wrong := rig.refused(table.gauge())):
+                self.say(("gauges", k, *filter(None, wrong[:1])), wrong[1], place)
             else:
                 gauges.append(table.gauge())
         return tuple(gauges)
@@ -146,7 +149,9 @@ class _Reader:
             table = self.checked(TestTable, entry, ("tests", k), place)
             if table is None:
                 continue
-            own = _stand_in(base) if rig is None else self._own_rig(table, base, rig, ("tests", k), place)
+            own = (
+                self._stand_in(base) if rig is None else self._own_rig(table, base, rig, ("tests", k), place)
+            )
             if own is not None:
                 heads.append(self._head(table, own, ("tests", k), place))
         if all(entry.get("role") == "holdout" for entry in raw):
@@ -154,58 +159,39 @@ class _Reader:
         return tuple(heads)
 
     def _head(self, table: TestTable, rig: Rig, path: Path, place: str) -> Head:
-        if rig.kind == "parallelogram" and table.q_deg is None:
-            self.say(path, "q_deg is missing, a parallelogram needs it", place)
-        rig = self._posture(table, rig, path, place)
-        if rig.kind == "bar" and table.q_deg:
-            said = f"q_deg is {shown(table.q_deg)}, a bar lies along x and allows 0"
-            self.say((*path, "q_deg"), said, place)
-        held, mistakes = controls(table.control, rig, self.gauge_names)
-        for said in mistakes:
+        placed, mistakes = rig.placed(table.q_deg, table.at_mm)
+        for key, said in mistakes:
+            self.say((*path, *filter(None, [key])), said, place)
+        if placed.point is not None:
+            # The same object for tests at the same point.
+            placed = self.postures.setdefault(placed.point, placed)
+        held, wrong = controls(table.control, placed, self.gauge_names)
+        for said in wrong:
             self.say((*path, "control"), said, f"{place}, control")
         line = self.lines.of(*path)
-        return Head(table.id, table.q_deg or 0.0, table.role, held, table.zero, rig, line)
-
-    def _posture(self, table: TestTable, rig: Rig, path: Path, place: str) -> Rig:
-        """The rig with its manipulator at the point of the test; the same object for tests at the same point."""
-        if rig.kind != "manipulator":
-            if table.at_mm is not None:
-                self.say((*path, "at_mm"), 'at_mm is given, allowed only with kind = "manipulator"', place)
-            return rig
-        if table.q_deg is not None:
-            self.say((*path, "q_deg"), "q_deg is given, a manipulator has at_mm instead", place)
-        if table.at_mm is None:
-            # The table may have it as columns.
-            return rig
-        if rig.manipulator is not None and (why := reached(rig, table.at_mm)):
-            self.say((*path, "at_mm"), f"is {list(table.at_mm)}: {why}", f"{place}, at_mm")
-        return self.postures.setdefault(table.at_mm, replace(rig, point=table.at_mm))
+        return Head(table.id, table.q_deg or 0.0, table.role, held, table.zero, placed, line)
 
     def _own_rig(self, table: TestTable, base: Raw, rig: Rig, path: Path, place: str) -> Rig | None:
         """The rig of the campaign with the values of this test."""
         own = table.rig
         if not own:
             return rig
-        if rig.kind == "manipulator":
-            said = "is given, tests of a manipulator differ in at_mm only"
-            self.say((*path, "rig"), said, f"{place}, rig")
-            return None
-        where, place = (*path, "rig"), f"{place}, rig"
+        kind, where, place = KINDS[rig.kind], (*path, "rig"), f"{place}, rig"
         if own.get("kind", rig.kind) != rig.kind:
             self.say(where, f"kind is {shown(own['kind'])}, a test keeps that of the campaign", place)
             return None
-        raw = dict(base)
-        if {"bar", "bar_stiffness", "section"} & set(own):
-            for key in ("bar", "bar_stiffness", "section", *(() if "section" in own else ("material",))):
-                raw.pop(key, None)
-        raw |= own
-        stretched = own.get("length_mm", rig.length) != rig.length
-        if stretched and "bar_stiffness" in raw and "bar_stiffness" not in own:
-            said = "length_mm is overridden, allowed only where the bar is given by bar: a 6x6 has its length"
-            self.say(where, said, place)
+        try:
+            merged = self.checked(kind, kind.merged(base, own), where, place)
+        except ValueError as error:
+            self.say(where, str(error), place)
             return None
-        merged = self.checked(RigTable, raw, where, place)
-        return None if merged is None else merged.rig()
+        return None if merged is None else merged.rig(self.folder)
+
+    def _stand_in(self, raw: Raw) -> Rig:
+        """A rig to judge the control of a test by, where that of the campaign has mistakes of its own."""
+        kind = raw.get("kind")
+        known = isinstance(kind, str) and kind in KINDS
+        return KINDS[str(kind) if known else "parallelogram"].stand_in(raw)
 
     def checked(self, model: type[Model], raw: Raw, path: Path, place: str) -> Model | None:
         """The table; None, with complaints, where it is none."""
@@ -213,6 +199,8 @@ class _Reader:
             return model.model_validate(raw)
         except ValidationError as error:
             for loc, said in sentences(error, model):
+                if len(loc) == 1 and (kinds := _of_others(str(loc[0]), model)):
+                    said = f"{loc[0]} is given, allowed only with kind = {kinds}"
                 key = ".".join(shown(step)[1:-1] if isinstance(step, str) else str(step) for step in loc)
                 dot = "." if place == "rig" or place.startswith(("gauges.", "tests.")) else ", "
                 self.say((*path, *loc), said, dot.join(filter(None, [place, key])))
@@ -224,11 +212,8 @@ class _Reader:
         self.complaints.add(where, said, self.lines.of(*path))
 
 
-def _stand_in(raw: Raw) -> Rig:
-    """A rig to judge the control of a test by, where that of the campaign has mistakes of its own."""
-    if raw.get("kind") == "manipulator":
-        return Rig("manipulator", 1.0)
-    if raw.get("kind") != "bar":
-        return Rig("parallelogram", 1.0)
-    tips: dict[str, Tip] = {tip: tip for tip in get_args(Tip)}
-    return Rig("bar", 1.0, tip=tips.get(str(raw.get("tip")), "free"))
+def _of_others(key: str, model: type[BaseModel]) -> str:
+    """The kinds of rig that have this key, where a table of rigs is of another that has not; else empty."""
+    if model not in KINDS.values() or key in model.model_fields:
+        return ""
+    return " or ".join(f'"{kind}"' for kind, table in KINDS.items() if key in table.model_fields)

@@ -6,78 +6,20 @@ the platform point; both in the base frame. NaN: not measured, or not known.
 """
 
 from dataclasses import dataclass
-from functools import cached_property
 from pathlib import Path
 from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
-from fem.beam import uniform_stiffness
+from pipeline.campaign.gauge import Gauge, Vector
 from pipeline.campaign.names import COORDINATES, DISPLACEMENT, FORCE, SUPPORT
-from vjm.manipulator.parts import Manipulator
-from vjm.mechanisms.bar import Base, Tip
+from pipeline.campaign.rig import Array, Rig
 
-Array = NDArray[np.float64]
-Kind = Literal["parallelogram", "bar", "manipulator"]
 Role = Literal["fit", "holdout"]
 Zero = Literal["nominal", "first_row", "fitted"]
-Vector = tuple[float, float, float]
 
-
-@dataclass(frozen=True)
-class UniformBar:
-    """Rigidities of a uniform bar: EA in N, EIy, EIz and GJ in N·mm²."""
-
-    EA: float
-    EIy: float
-    EIz: float
-    GJ: float
-
-
-@dataclass(frozen=True, eq=False)
-class Rig:
-    """What is on the bench: two bars of a parallelogram, or one bar, or a whole manipulator.
-
-    Of a bar one of `bar_stiffness` and `bar` is given. length: mm between the hinges. width: mm between the bars; None
-    for a bar. bar_stiffness: (6, 6) of one bar at its tip, base clamped, bar frame. base, tip: supports of a bar.
-    gravity: direction in the base frame as it was given, of any length; None where no weight is known. line_weight:
-    N/mm along each bar. platform_weight: N. reference_temperature: °C. fibre_y, fibre_z: mm from the bar's axis to its
-    outermost fibres. manipulator, file: a manipulator and the file that describes it; its length is then the
-    characteristic one. point: where its unloaded platform stands in a test, mm.
-    """
-
-    kind: Kind
-    length: float
-    width: float | None = None
-    bar_stiffness: Array | None = None
-    bar: UniformBar | None = None
-    base: Base = "clamped"
-    tip: Tip = "free"
-    gravity: Vector | None = None
-    line_weight: float = 0.0
-    platform_weight: float = 0.0
-    reference_temperature: float | None = None
-    fibre_y: float | None = None
-    fibre_z: float | None = None
-    manipulator: Manipulator | None = None
-    file: str | None = None
-    point: Vector | None = None
-
-    @cached_property
-    def stiffness(self) -> Array:
-        """(6, 6) of one bar at its tip, base clamped, bar frame; a uniform bar is slender (Euler-Bernoulli)."""
-        if self.bar_stiffness is not None:
-            return self.bar_stiffness
-        if self.bar is None:
-            raise ValueError("a rig needs bar_stiffness or bar, it has neither")
-        b = self.bar
-        return uniform_stiffness(self.length, b.EA, b.EIy, b.EIz, b.GJ)
-
-    @property
-    def down(self) -> Array | None:
-        """(3,) unit vector of gravity, base frame; None where no weight is known."""
-        return None if self.gravity is None else np.array(self.gravity) / np.linalg.norm(self.gravity)
+__all__ = ["Array", "Campaign", "Data", "Gauge", "Noise", "Rig", "Role", "Test", "Vector", "Zero"]
 
 
 @dataclass(frozen=True, eq=False)
@@ -91,27 +33,6 @@ class Noise:
     wrench: Array
     gauges: Array
     temperature: float = np.nan
-
-
-@dataclass(frozen=True)
-class Gauge:
-    """A displacement gauge on bar 1 or 2 at `station` (0 base, 1 tip), along a base-frame axis such as "y" or "-y".
-
-    offset: of a gauge on the platform, its point from that of the platform in the nominal pose, mm, base frame; bar and
-    station then mean nothing.
-    """
-
-    name: str
-    station: float
-    direction: str
-    bar: int = 1
-    offset: Vector | None = None
-
-    @property
-    def vector(self) -> Vector:
-        """Unit vector of the direction, base frame."""
-        sign, axis = (-1.0 if self.direction.startswith("-") else 1.0), self.direction[-1]
-        return (sign * (axis == "x"), sign * (axis == "y"), sign * (axis == "z"))
 
 
 @dataclass(frozen=True, eq=False)

@@ -6,10 +6,8 @@ from pipeline.campaign.control import pull, swings
 from pipeline.campaign.head import Head
 from pipeline.campaign.model import Array, Data, Gauge, Noise
 from pipeline.campaign.names import COORDINATES, DISPLACEMENT, DISPLACEMENTS, FORCE, SUPPORT, gauge_column
+from pipeline.campaign.rig import LARGE_TURN
 from pipeline.toml.complaints import Complaints, lines_named, shown
-
-LARGE_TURN = 1.0
-"""rad. No parallelogram turns its platform so far; a slender bar's tip may, but degrees are more likely."""
 
 
 def judge(
@@ -79,7 +77,7 @@ def _turns(head: Head, data: Data, complaints: Complaints, place: str) -> list[s
     turn = np.nan_to_num(np.abs(_moved(head, data)[:, 3:]))
     i, k = (int(n) for n in np.unravel_index(np.argmax(turn), turn.shape))
     largest, column = float(turn[i, k]), DISPLACEMENTS[3 + k]
-    allowed = np.pi if head.rig.kind == "bar" else LARGE_TURN
+    allowed = head.rig.largest_turn
     if largest > allowed:
         said = f"reads {largest:g} rad in {place}, allowed is at most {allowed:.3g}; are these degrees?"
         complaints.add(f"column {column}", said, int(data.lines[i]))
@@ -120,7 +118,7 @@ def _held(
     if head.zero == "first_row":
         wrench, displacement = wrench - wrench[0], displacement - displacement[0]
     loaded = pull(head.rig, q, displacement, wrench, (noise.displacement, noise.wrench))
-    mechanism = "z is a mechanism" if head.rig.kind == "parallelogram" else "the pinned bar is a mechanism"
+    mechanism = head.rig.runaway
     pushed = data.lines[loaded < 0]
     if pushed.size:
         said = (

@@ -7,10 +7,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pipeline.campaign.head import Description, Head
-from pipeline.campaign.manipulator_table import reached
 from pipeline.campaign.measured import Measured
-from pipeline.campaign.model import Rig, Vector
+from pipeline.campaign.model import Vector
 from pipeline.campaign.names import PLACES
+from pipeline.campaign.rigs.manipulator import ManipulatorRig
 from pipeline.toml.complaints import Complaints, shown
 
 
@@ -23,14 +23,14 @@ def parted(
     themselves stay as they are. Complaints about a test that has no point, or two.
     """
     given = [column for column in PLACES if column in measured.values]
-    if description.rig.kind != "manipulator":
+    if not isinstance(description.rig, ManipulatorRig):
         for column in given:
             complaints.add(f"column {column}", 'is of a manipulator, allowed only with kind = "manipulator"')
         return measured, description
-    tests = np.array(measured.tests, dtype=object)
+    whole, tests = description.rig, np.array(measured.tests, dtype=object)
     points = np.column_stack([measured.of(column) for column in PLACES])
     heads: list[Head] = []
-    rigs: dict[Vector, Rig] = {}
+    rigs: dict[Vector, ManipulatorRig] = {}
     for head in description.heads:
         rows = np.flatnonzero(tests == head.id)
         if said := _refused(head, points[rows]):
@@ -43,14 +43,14 @@ def parted(
             continue
         for number, mine in enumerate(_runs(points, rows), start=1):
             name, point = f"{head.id} {number}", _vector(points[mine[0]])
-            if why := reached(head.rig, point):
+            if why := whole.unreached(point):
                 said = f"the platform is to stand at {list(point)} mm: {why}"
                 complaints.add(f"test {shown(head.id)}", said, int(measured.lines[mine[0]]))
             if name in (other.id for other in description.heads):
                 said = f"is the name of a posture of {shown(head.id)} too, allowed is another name"
                 complaints.add(f"test {shown(name)}", said)
             tests[mine] = name
-            rig = rigs.setdefault(point, replace(head.rig, point=point))
+            rig = rigs.setdefault(point, replace(whole, at=point))
             heads.append(replace(head, id=name, rig=rig))
     values = {column: values for column, values in measured.values.items() if column not in PLACES}
     return replace(measured, tests=tuple(tests), values=values), replace(description, heads=tuple(heads))

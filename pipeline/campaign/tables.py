@@ -6,26 +6,16 @@ from typing import Annotated, Any, Literal
 
 from pydantic import Field, field_validator, model_validator
 
-from fem.torsion import torsion_constant
-from pipeline.campaign.model import Gauge, Kind, Rig, Role, UniformBar, Zero
+from pipeline.campaign.model import Gauge, Role, Zero
 from pipeline.toml.fields import (
     Angle,
-    BarTable,
-    Celsius,
     Direction,
-    Entry,
-    Length,
     Number,
     Place,
     Table,
     Text,
-    Weight,
     printable,
 )
-from pipeline.toml.stiffness import not_a_stiffness, symmetric
-from pipeline.validation.case_tables import Material, SectionSize
-from pipeline.validation.geometry import section_of
-from vjm.mechanisms.bar import Base, Tip
 
 
 class Top(Table):
@@ -43,105 +33,6 @@ class Top(Table):
     tests: Annotated[list[dict[str, Any]], Field(min_length=1)]
 
     _name = field_validator("name")(printable)
-
-
-class RigTable(Table):
-    """The rig, each key on its own."""
-
-    kind: Kind
-    length_mm: Length
-    width_mm: Length | None = None
-    bar_stiffness: list[list[Entry]] | None = None
-    bar: BarTable | None = None
-    section: SectionSize | None = None
-    material: Material | None = None
-    base: Base | None = None
-    tip: Tip | None = None
-    gravity: tuple[Number, Number, Number] | None = None
-    line_weight_N_per_mm: Weight = 0.0
-    platform_weight_N: Weight = 0.0
-    reference_temperature_C: Celsius | None = None
-    fibre_y_mm: Length | None = None
-    fibre_z_mm: Length | None = None
-
-    @field_validator("bar_stiffness")
-    @classmethod
-    def stiffness(cls, value: list[list[float]] | None) -> list[list[float]] | None:
-        if value is not None and (said := not_a_stiffness(value)):
-            raise ValueError(said)
-        return value
-
-    @field_validator("gravity")
-    @classmethod
-    def somewhere(cls, value: tuple[float, float, float] | None) -> tuple[float, float, float] | None:
-        if value is not None and not 1e-6 <= max(map(abs, value)) <= 1e6:
-            raise ValueError("allowed is a direction other than zero, such as [0, 0, -1]")
-        return value
-
-    @model_validator(mode="after")
-    def consistent(self) -> RigTable:
-        if said := self.contradictions():
-            raise ValueError("; ".join(said))
-        if self.bar_stiffness is None and (why := not_a_stiffness(self.rig().stiffness.tolist())):
-            raise ValueError(f"the 6x6 of bar at this length cannot be used: {why}")
-        return self
-
-    def contradictions(self) -> list[str]:
-        """What does not go together."""
-        said = []
-        given = [name for name in ("bar_stiffness", "bar", "section") if getattr(self, name) is not None]
-        if len(given) != 1:
-            what = " and ".join(given) + " are" if given else "none of bar_stiffness, bar and section is"
-            said.append(f"{what} given, allowed is one of the three")
-        if (self.section is None) != (self.material is None):
-            there, missing = ("material", "section") if self.section is None else ("section", "material")
-            said.append(f"{there} is given without {missing}, allowed are both together")
-        if self.kind == "parallelogram":
-            if self.width_mm is None:
-                said.append("width_mm is missing, a parallelogram needs it")
-            loose = [key for key in ("base", "tip") if getattr(self, key) is not None]
-            said += [f'{key} is given, allowed only with kind = "bar"' for key in loose]
-        elif self.width_mm is not None:
-            said.append('width_mm is given, allowed only with kind = "parallelogram"')
-        if self.gravity is None and self.line_weight_N_per_mm + self.platform_weight_N > 0.0:
-            said.append("a weight is given without its direction, allowed with gravity = [x, y, z]")
-        return said
-
-    def rig(self) -> Rig:
-        """The frozen object."""
-        outermost: tuple[float | None, float | None] = (None, None)
-        if self.section is not None:
-            y, z = section_of(self.section).size
-            outermost = (0.5 * y, 0.5 * z)
-        matrix = None if self.bar_stiffness is None else symmetric(self.bar_stiffness)
-        return Rig(
-            self.kind,
-            self.length_mm,
-            self.width_mm,
-            matrix,
-            self.uniform(),
-            self.base or "clamped",
-            self.tip or "free",
-            self.gravity,
-            self.line_weight_N_per_mm,
-            self.platform_weight_N,
-            self.reference_temperature_C,
-            self.fibre_y_mm or outermost[0],
-            self.fibre_z_mm or outermost[1],
-        )
-
-    def uniform(self) -> UniformBar | None:
-        """The rigidities, as they were given or those of a section of a material."""
-        if self.bar is not None:
-            return UniformBar(*self.bar.model_dump().values())
-        if self.section is None or self.material is None:
-            return None
-        section, modulus = section_of(self.section), self.material.E_MPa
-        iy, iz = section.second_moments
-        shear = 0.5 * modulus / (1.0 + self.material.nu)
-        return UniformBar(
-            modulus * section.area, modulus * iy, modulus * iz, shear * torsion_constant(section)
-        )
 
 
 class GaugeTable(Table):

@@ -98,27 +98,12 @@ def gauge_table(gauge: Gauge) -> dict[str, Any]:
 
 def rig_table(rig: Rig) -> dict[str, Any]:
     """A rig in the keys and units of the file; what has its default is left out."""
-    bar = rig.bar
-    matrix = None if rig.bar_stiffness is None else np.asarray(rig.bar_stiffness).tolist()
-    table: dict[str, Any] = {
-        "kind": rig.kind,
-        "file": rig.file,
-        "length_mm": None if rig.kind == "manipulator" else rig.length,
-        "width_mm": rig.width,
-        "bar_stiffness": matrix,
-        "bar": None
-        if bar is None
-        else inline({"EA_N": bar.EA, "EIy_Nmm2": bar.EIy, "EIz_Nmm2": bar.EIz, "GJ_Nmm2": bar.GJ}),
-        "base": rig.base if rig.kind == "bar" else None,
-        "tip": rig.tip if rig.kind == "bar" else None,
-        "gravity": None if rig.gravity is None else list(rig.gravity),
-        "line_weight_N_per_mm": rig.line_weight or None,
-        "platform_weight_N": rig.platform_weight or None,
-        "reference_temperature_C": rig.reference_temperature,
-        "fibre_y_mm": rig.fibre_y,
-        "fibre_z_mm": rig.fibre_z,
+    table = {"kind": rig.kind, **rig.keys()}
+    return {
+        key: inline(value) if isinstance(value, dict) else value
+        for key, value in table.items()
+        if value is not None
     }
-    return {key: value for key, value in table.items() if value is not None}
 
 
 def noise_table(campaign: Campaign) -> dict[str, float]:

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from pipeline.campaign import Noise, Rig, UniformBar
+from pipeline.campaign import Noise, ParallelogramRig, UniformBar
 from pipeline.simulate import LENGTH, REFERENCE_C, WIDTH, bench_rig
 from pipeline.virtual.plan import SENSORS, PlannedTest, bench_plan
 
@@ -25,13 +25,13 @@ HELD = 24
 class Bench:
     """What measures: a rig, its sensors, and the tests that are done."""
 
-    rig: Rig
+    rig: ParallelogramRig
     noise: Noise
     plan: tuple[PlannedTest, ...]
     label: str
 
 
-def drawn_rig(generator: np.random.Generator) -> Rig:
+def drawn_rig(generator: np.random.Generator) -> ParallelogramRig:
     """The paper's parallelogram in one case of three, else one of other length, width and bars."""
     if generator.random() < 1.0 / 3.0:
         return bench_rig()
@@ -40,10 +40,9 @@ def drawn_rig(generator: np.random.Generator) -> Rig:
     axial, thick = generator.uniform(0.5, 2.0), generator.uniform(0.7, 1.6)
     EA, EIz, EIy = _EA * axial, _EIZ * axial * thick**2, _EIY * axial * thick**2
     bar = UniformBar(EA=EA, EIy=EIy, EIz=EIz, GJ=_GJ * axial * thick**2)
-    return Rig(
-        "parallelogram",
-        round(length, 1),
-        round(width, 1),
+    return ParallelogramRig(
+        length=round(length, 1),
+        width=round(width, 1),
         bar=bar,
         gravity=(0.0, 0.0, -1.0),
         reference_temperature=REFERENCE_C,
@@ -63,12 +62,12 @@ def drawn_noise(generator: np.random.Generator) -> Noise:
     )
 
 
-def scaled(plan: Sequence[PlannedTest], rig: Rig, share: float) -> tuple[PlannedTest, ...]:
+def scaled(plan: Sequence[PlannedTest], rig: ParallelogramRig, share: float) -> tuple[PlannedTest, ...]:
     """The plan of the paper's bench for another rig: loads by Euler's load, travels by the length, times a share."""
     base = bench_rig()
     by_load = _euler(rig) / _euler(base)
     by_length = rig.length / LENGTH
-    by_width = (rig.width or WIDTH) / WIDTH
+    by_width = rig.width / WIDTH
     # Of the coordinates, as forces along x and about y, and as travels along and about the others.
     factors = share * np.array([by_load, by_length, by_length, 1.0, by_load * by_width, 1.0])
     return tuple(replace(test, values=test.values * factors) for test in plan)
@@ -90,5 +89,5 @@ def drawn_plan(generator: np.random.Generator, label: str, steps: int) -> tuple[
     return tuple(test for test in every if test.holdout or test.id in kept)
 
 
-def _euler(rig: Rig) -> float:
+def _euler(rig: ParallelogramRig) -> float:
     return float(rig.stiffness[1, 1]) * rig.length

@@ -64,7 +64,7 @@ def _saved(
     path, known = model or folder / MODEL, known_effects(effects_from).sized(campaign)
     if model is None and not path.exists():
         return None
-    return read_model_file(path, known, campaign.rig.kind).model
+    return read_model_file(path, known, campaign.rig).model
 
 
 def _spares(place: Path, folder: Path) -> None:

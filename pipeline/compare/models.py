@@ -65,7 +65,7 @@ def compare_models(campaign: Campaign, saved: Model | None = None, say: Say = la
     }
     if saved is not None:
         plans["saved"] = (saved, lambda shift: linearised(saved, cases, slopes=False, shift=shift)[0])
-    plans["fea"] = (Model(), lambda shift: predict_frame(cases, tangent(), shift))
+    plans["fea"] = (Model(), lambda shift: predict_frame(cases, tangent, shift))
     found = []
     for key, (model, solve) in plans.items():
         say(TITLES[key])
@@ -172,9 +172,7 @@ def _credible(cases: Program, prediction: Prediction) -> Prediction:
 
 
 def _tangent(cases: Program) -> Prediction:
-    """Springs with refined bars; where they have no equilibrium, a constant stiffness, as for a whole manipulator."""
-    if cases.campaign.rig.manipulator is not None:
-        return predict_linear(cases)
+    """Springs with refined bars; where they have no equilibrium, a constant stiffness."""
     refined = predict(Model().with_effects([BarGeometricNonlinearity()]), cases, slopes=False)
     if not refined.lost.any():
         return refined

@@ -2,19 +2,19 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
 from pipeline.campaign import Campaign, Data, Rig, Test
-from pipeline.campaign.names import DISPLACEMENT, FORCE, SUPPORT
+from pipeline.campaign.names import DISPLACEMENT, FORCE
+from pipeline.campaign.usual_tests import UsualTest
 
 Array = NDArray[np.float64]
 STEPS = 16
 WARMER = 10.0
 """K, of a test that is repeated in a warmer hall."""
-_D, _F = DISPLACEMENT, FORCE
 DONE = 20.0
 """Sigmas from which a prescribed quantity was driven, and not held."""
 _MODEST = np.array([0.0, 0.02, 0.05, 0.03, 0.03, 0.04])
@@ -23,45 +23,11 @@ _SHARE = 0.2
 """Of the load at which a bar that is guided sideways buckles: axial load where the campaign has none."""
 
 
-@dataclass(frozen=True)
-class Shape:
-    """A test in words, what it prescribes, and which coordinate is taken there and back, both ways.
-
-    push: axial force that stands meanwhile, as a share of the largest.
-    """
-
-    words: str
-    control: tuple[str, ...]
-    coordinate: int
-    push: float = 0.0
-
-
-PARALLELOGRAM = (
-    Shape("loaded along x with the platform held", (_F, _D, _D, _D, _D, _D), 0),
-    Shape("loaded along x with the platform free along y", (_F, _F, _D, _D, _D, _D), 0),
-    Shape("moved along y, held in rotation", (_F, _D, _D, _D, _D, _D), 1),
-    Shape("moved along y under compression, free to turn", (_F, _D, _D, _F, _F, _F), 1, -0.3),
-    Shape("moved along y under tension, free to turn", (_F, _D, _D, _F, _F, _F), 1, 0.5),
-    Shape("swung along z", (_F, _F, _D, _D, _D, _D), 2),
-    Shape("turned about x", (_F, _D, _D, _D, _F, _F), 3),
-    Shape("turned about z", (_F, _D, _D, _D, _F, _D), 5),
-)
-FREE_BAR = (
-    Shape("loaded along x", (_F,) * 6, 0),
-    Shape("moved along y", (_F, _D, _F, _F, _F, _F), 1),
-    Shape("moved along z", (_F, _F, _D, _F, _F, _F), 2),
-    Shape("moved along y under compression", (_F, _D, _F, _F, _F, _F), 1, -0.3),
-    Shape("moved along y under tension", (_F, _D, _F, _F, _F, _F), 1, 0.5),
-    Shape("turned about x", (_F, _F, _F, _D, _F, _F), 3),
-)
-HELD_BAR = (Shape("loaded along x", (_F,) + (SUPPORT,) * 5, 0),)
-
-
 @dataclass(frozen=True, eq=False)
 class Choice:
     """A test that could be done: readings are zero where they are to come. limit: largest prescribed value."""
 
-    shape: Shape
+    shape: UsualTest
     test: Test
     limit: float
     warmer: bool = False
@@ -70,16 +36,14 @@ class Choice:
 def menu(campaign: Campaign) -> list[Choice]:
     """Every shape at the campaign's angles and at 0, 15, 30 and -30 degrees, as far as it went; some also warmer.
 
-    None for a manipulator: its postures are a choice of its own.
+    None for a rig whose tests are no choice from a list, as the postures of a manipulator.
     """
-    if campaign.rig.manipulator is not None:
-        return []
     there = sensors(campaign)
     heat = any(t.data.temperature is not None for t in campaign.tests)
     out: list[Choice] = []
     for angle in _angles(campaign):
-        for shape in _shapes(campaign):
-            if there[shape.coordinate + (6 if shape.control[shape.coordinate] == _F else 0)]:
+        for shape in campaign.rig.usual_tests(campaign.tests[0].control) or ():
+            if there[shape.coordinate + (6 if shape.control[shape.coordinate] == FORCE else 0)]:
                 out.append(_choice(campaign, shape, angle, len(out), 0.0))
     if heat:
         out += [_choice(campaign, c.shape, c.test.q_deg, len(out) + k, WARMER) for k, c in enumerate(out[:2])]
@@ -94,23 +58,10 @@ def sensors(campaign: Campaign) -> NDArray[np.bool_]:
 
 def _angles(campaign: Campaign) -> list[float]:
     mine = {t.q_deg for t in campaign.tests}
-    more = {0.0, 15.0, 30.0, -30.0} if campaign.rig.kind == "parallelogram" else set()
-    return sorted(mine | more, key=lambda q: (abs(q), -q))
+    return sorted(mine | set(campaign.rig.usual_angles), key=lambda q: (abs(q), -q))
 
 
-def _shapes(campaign: Campaign) -> tuple[Shape, ...]:
-    if campaign.rig.kind == "parallelogram":
-        return PARALLELOGRAM
-    if campaign.rig.tip == "free":
-        return FREE_BAR
-    control = next(t.control for t in campaign.tests)
-    if set(control) - {_D, _F, SUPPORT}:
-        # What drives a gauge is on no menu: how far it may go is not known from forces.
-        return ()
-    return (replace(HELD_BAR[0], control=control),)
-
-
-def _choice(campaign: Campaign, shape: Shape, angle: float, number: int, warmer: float) -> Choice:
+def _choice(campaign: Campaign, shape: UsualTest, angle: float, number: int, warmer: float) -> Choice:
     rig = campaign.rig
     values = np.zeros((STEPS, 6))
     limit = limits(campaign)[shape.coordinate]
@@ -154,10 +105,8 @@ def planned(
 def limits(campaign: Campaign) -> Array:
     """(6,) largest force along x and travel along the others that the campaign has done; modest where it has none."""
     rig = campaign.rig
-    rigidity = rig.stiffness[1, 1] * rig.length**3 / 12.0
-    bars = 2 if rig.kind == "parallelogram" else 1
     out = _MODEST * np.array([0.0, rig.length, rig.length, 1.0, 1.0, 1.0])
-    out[0] = _SHARE * bars * np.pi**2 * rigidity / rig.length**2
+    out[0] = _SHARE * rig.euler_load
     sigma = np.append(campaign.noise.wrench[:1], campaign.noise.displacement[1:])
     for k in range(6):
         done = max((_largest(t, k) for t in campaign.tests), default=0.0)

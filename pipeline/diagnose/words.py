@@ -206,7 +206,8 @@ def _next(it: Diagnosis) -> Iterator[str]:
     if len(it.sets) < 2:
         return
     if it.next_test is None or not it.next_test.apart:
-        if it.campaign.rig.manipulator is None and not menu(it.campaign):
+        listed = it.campaign.rig.usual_tests(it.campaign.tests[0].control)
+        if listed is not None and not menu(it.campaign):
             yield "No planned test reads a sensor that exists: none can be proposed."
         else:
             yield "No test of these kinds tells them apart on this rig: measure the part itself."

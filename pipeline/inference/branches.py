@@ -13,8 +13,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from pipeline.campaign.rig import Solvable
 from pipeline.inference.program import LOST, Group, Program
-from pipeline.inference.rigs import Solvable
 from vjm import lagrangian
 from vjm.bent import along, leave, neutral_is_stable
 from vjm.equilibrium import Equilibrium, drive_values, unloaded

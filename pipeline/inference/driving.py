@@ -7,7 +7,6 @@ from numpy.typing import NDArray
 
 from pipeline.campaign import Gauge, Test
 from pipeline.campaign.names import DISPLACEMENT, DISPLACEMENTS, FORCE, SUPPORT, WRENCHES
-from pipeline.inference.rigs import scale_of_rig
 
 Array = NDArray[np.float64]
 TYPICAL = {"mm": 1e-3, "rad": 2e-5, "N": 1.0, "Nmm": 50.0}
@@ -36,7 +35,7 @@ def driving(test: Test, gauges: tuple[Gauge, ...]) -> tuple[int, Array]:
     """The channel whose prescribed quantity travels farthest, in `TYPICAL` sizes of the rig, and its values (N,)."""
     channels = control_channels(test, gauges)
     values = test.inputs(gauges)
-    scale = scale_of_rig(test.rig)
+    scale = test.rig.scale
     sizes = np.array([TYPICAL[unit_of(channel)] * scale.of(unit_of(channel)) for channel in channels])
     number = int(np.argmax(np.ptp(values / sizes, axis=0)))
     return channels[number], values[:, number]

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from functools import singledispatch
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -10,43 +13,55 @@ from fem.frame.errors import Errors
 from fem.frame.history import AFTER_FAILURE
 from fem.frame.newton import REASONS, SINGULAR
 from fem.frame.rig import Gauge as FrameGauge
+from pipeline.campaign import ManipulatorRig, Rig, RigOfBars
 from pipeline.campaign.names import DISPLACEMENT, SUPPORT
-from pipeline.inference.manipulator_linear import by_frame, predict_constant
 from pipeline.inference.prediction import Prediction, moved_along, no_slides, no_stops, zeroed
-from pipeline.inference.program import INPUTS, Program
+from pipeline.inference.program import INPUTS, Group, Program
+from pipeline.manipulator.frame import frame_stiffness
 from pipeline.virtual.bench import frame_rig
 from vjm.reasons import Reason
 
+Array = NDArray[np.float64]
 _SAID = {AFTER_FAILURE: Reason.ENDED, REASONS[SINGULAR]: Reason.NOT_HELD}
 """What the frame says, in the words of all models; the rest is its solver's affair."""
 
 
-Array = NDArray[np.float64]
-
-
-def predict_frame(program: Program, tangent: Prediction, shift: Array | None = None) -> Prediction:
+def predict_frame(
+    program: Program, tangent: Callable[[], Prediction], shift: Array | None = None
+) -> Prediction:
     """Readings of geometrically exact frame elements without any error of the bench.
 
-    tangent: of another model of the same rig, in whose place the frame has none of its own. shift: (R, 7) added to
-    the measured inputs. ValueError for a rig that the frame refuses. `states` is
-    empty. Of a whole manipulator the frame is linear, at rest.
+    tangent: makes that of another model of the same rig, in whose place the frame has none of its own. shift: (R, 7)
+    added to the measured inputs. ValueError for a rig that the frame refuses. `states` is empty. Of a whole manipulator
+    the frame is linear, at rest.
     """
-    campaign = program.campaign
     moved = np.zeros((len(program.test), INPUTS)) if shift is None else shift
-    if campaign.rig.manipulator is not None:
-        return moved_along(predict_constant(program, by_frame), moved)
-    trials = [
-        bench.Trial(
-            test.q,
-            tuple(DISPLACEMENT if by == SUPPORT else by for by in test.control),
-            test.inputs(campaign.gauges) + moved[program.test == number, :6],
-            None,
-            None if test.rig is campaign.rig else frame_rig(test.rig),
+    return zeroed(by_elements(program.campaign.rig, program, tangent, moved), program)
+
+
+@singledispatch
+def by_elements(rig: Rig, program: Program, tangent: Callable[[], Prediction], moved: Array) -> Prediction:
+    """Readings of finite elements of this kind of rig, zeros not yet taken out. ValueError where there are none."""
+    raise ValueError(f"finite elements of a {rig.kind} are not to be had")
+
+
+@by_elements.register
+def _of_bars(rig: RigOfBars, program: Program, tangent: Callable[[], Prediction], moved: Array) -> Prediction:
+    campaign = program.campaign
+    trials = []
+    for number, test in enumerate(campaign.tests):
+        assert isinstance(test.rig, RigOfBars)
+        trials.append(
+            bench.Trial(
+                test.q,
+                tuple(DISPLACEMENT if by == SUPPORT else by for by in test.control),
+                test.inputs(campaign.gauges) + moved[program.test == number, :6],
+                None,
+                None if test.rig is rig else frame_rig(test.rig),
+            )
         )
-        for number, test in enumerate(campaign.tests)
-    ]
     sights = [FrameGauge(g.name, g.bar, g.station, g.vector, g.offset) for g in campaign.gauges]
-    found = bench.run(frame_rig(campaign.rig), Errors(), trials, sights)
+    found = bench.run(frame_rig(rig), Errors(), trials, sights)
     values = np.concatenate([np.hstack([r.displacement, r.wrench, r.gauges]) for r in found])
     converged = np.concatenate([r.converged for r in found])
     buckled = np.concatenate([r.negative for r in found]) > 0
@@ -56,9 +71,9 @@ def predict_frame(program: Program, tangent: Prediction, shift: Array | None = N
         int(k): Reason.UNSTABLE if converged[k] else _SAID.get(said[k], Reason.NOT_CONVERGED)
         for k in np.flatnonzero(lost)
     }
-    plain = Prediction(
+    return Prediction(
         np.where(lost[:, None], 0.0, values),
-        tangent.by_inputs,
+        tangent().by_inputs,
         np.zeros((*values.shape, 0)),
         moved,
         no_stops(len(values)),
@@ -67,4 +82,51 @@ def predict_frame(program: Program, tangent: Prediction, shift: Array | None = N
         reasons,
         (),
     )
-    return zeroed(plain, program)
+
+
+@by_elements.register
+def _of_a_manipulator(
+    rig: ManipulatorRig, program: Program, tangent: Callable[[], Prediction], moved: Array
+) -> Prediction:
+    """F = K t at every posture, K of frame elements at rest and known weights in place, solved for the control."""
+    rows, channels = program.measured.shape
+    values, by_inputs = np.zeros((rows, channels)), np.zeros((rows, channels, INPUTS))
+    for group in program.groups:
+        place, real = program.rows_of(group), group.real
+        predicted, own = _constant(group, _stiffness(group.rig))
+        values[place] = predicted[real]
+        by_inputs[place, :, :6] = np.broadcast_to(own[:, None], (*real.shape, channels, 6))[real]
+    empty = np.zeros((rows, channels, 0)), np.zeros((rows, INPUTS)), no_stops(rows), no_slides(rows)
+    return moved_along(Prediction(values, by_inputs, *empty, np.zeros(rows, dtype=bool), {}, ()), moved)
+
+
+def _stiffness(rig: Rig) -> Array:
+    """(6, 6) of a manipulator at its posture. ValueError where it does not stand there."""
+    assert isinstance(rig, ManipulatorRig)
+    if not rig.posture.reached:
+        raise ValueError(str(rig.posture.reason))
+    return frame_stiffness(rig.manipulator, rig.posture.pose, rig.posture.coordinates)
+
+
+def _constant(group: Group, stiffness: Array) -> tuple[Array, Array]:
+    """Readings (T, S, 12), displacements and forces, and their derivative (T, 12, 6) by what is prescribed.
+
+    Of each coordinate one of the two is given; the manipulator carries the force read and the known weight.
+    """
+    weight = np.zeros(6)
+    if group.rig.down is not None:
+        weight[:3] = group.rig.platform_weight * group.rig.down
+    given = group.targets - np.where(group.channels < 6, group.nominal[:, 0], 0.0)[:, None]
+    tangent = np.zeros((len(group.numbers), 12, 6))
+    constant = np.zeros((len(group.numbers), 12))
+    for test, channels in enumerate(group.channels):
+        held, free = np.flatnonzero(channels < 6), np.flatnonzero(channels >= 6)
+        moved = tangent[test, :6]
+        moved[held, held] = 1.0
+        inner = stiffness[np.ix_(free, free)]
+        moved[free[:, None], free] = np.linalg.inv(inner)
+        moved[free[:, None], held] = -np.linalg.solve(inner, stiffness[np.ix_(free, held)])
+        tangent[test, 6:] = stiffness @ moved
+        constant[test, free] = np.linalg.solve(inner, weight[free])
+        constant[test, 6:] = stiffness @ constant[test, :6] - weight
+    return np.einsum("tci,tsi->tsc", tangent, given) + constant[:, None], tangent

@@ -8,8 +8,8 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
+from pipeline.campaign.rig import Solvable
 from pipeline.inference.program import Group
-from pipeline.inference.rigs import Solvable
 from vjm.equilibrium import Equilibrium, equilibrium, nearby
 from vjm.mechanism import initial_memory
 from vjm.reasons import Reason

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import numpy as np
 
-from pipeline.inference.manipulator_linear import by_springs, predict_constant
 from pipeline.inference.model import Model
 from pipeline.inference.prediction import Prediction, no_slides, no_stops, zeroed
 from pipeline.inference.program import INPUTS, Group, Program
@@ -15,15 +14,13 @@ from vjm.sensitivity import by_targets
 
 
 def predict_linear(program: Program) -> Prediction:
-    """Readings with the stiffness K_p (Eq. 11) of the unloaded linkage, or K_b of a bar, solved for its control.
+    """Readings with the stiffness of the unloaded rig (K_p of Eq. 11, K_b of a bar), solved for its control.
 
     The platform's six displacements and loads obey F = K t about the state under the known weights alone; what the
     control prescribes is given and the rest is solved for, whatever the mixture. Gauges follow the shape that a
     uniform bar of this K_b bends to, which a lumped spring does not have. The tangent is the same everywhere:
     `by_inputs` of every step of a test is its constant one. `states` is empty.
     """
-    if program.campaign.rig.manipulator is not None:
-        return predict_constant(program, by_springs)
     rows, channels = program.measured.shape
     values, by_inputs = np.zeros((rows, channels)), np.zeros((rows, channels, INPUTS))
     lost, reasons = np.zeros(rows, dtype=bool), dict[int, str]()

@@ -8,13 +8,11 @@ from dataclasses import dataclass, field, fields, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from pipeline.campaign import Gauge
-from pipeline.campaign import Rig as Described
-from pipeline.inference.rigs import Solvable, mechanism_of
+from pipeline.campaign import Gauge, Rig
+from pipeline.campaign.rig import Solvable
 from pipeline.parameter_names import path_of
 from vjm.effects import shipped
 from vjm.effects.base import Effect, Parameter
-from vjm.manipulator.parts import Manipulator
 
 Array = NDArray[np.float64]
 START = 3e-3
@@ -113,11 +111,11 @@ class Model:
         """The model without one of its effects."""
         return replace(self, terms=tuple(term for term in self.terms if term.effect.name != name))
 
-    def mechanism(self, rig: Described, gauges: tuple[Gauge, ...]) -> Solvable:
+    def mechanism(self, rig: Rig, gauges: tuple[Gauge, ...]) -> Solvable:
         """The mechanism of a rig. ValueError for an effect that this rig cannot have."""
-        return self._built(self.terms, mechanism_of(rig, gauges))
+        return self._built(self.terms, rig.mechanism(gauges))
 
-    def reads_alone(self, free: Free, value: float, rig: Described, gauges: tuple[Gauge, ...]) -> bool:
+    def reads_alone(self, free: Free, value: float, rig: Rig, gauges: tuple[Gauge, ...]) -> bool:
         """Whether another value of this number changes what sensors read, and nothing else.
 
         The effects before its own and itself are asked. Those of the catalogue that come after it make no difference by
@@ -126,7 +124,7 @@ class Model:
         number = self.names.index(free.effect)
         if not all(shipped(term.effect) for term in self.terms[number + 1 :]):
             return False
-        before = self._built(self.terms[:number], mechanism_of(rig, gauges))
+        before = self._built(self.terms[:number], rig.mechanism(gauges))
         own = self.terms[number]
         other = replace(own, values={**own.values, free.parameter.name: value})
         return _in_sensors_alone(*(self._built((term,), before) for term in (own, other)))
@@ -166,6 +164,5 @@ def _in_sensors_alone(one: object, other: object) -> bool:
 def _same(one: object, other: object) -> bool:
     if isinstance(one, np.ndarray) and isinstance(other, np.ndarray):
         return np.array_equal(one, other)
-    if isinstance(one, Manipulator) and isinstance(other, Manipulator):
-        return _in_sensors_alone(one, other)
-    return one is other
+    # What holds a rig's sensors inside is looked into; the rest is the same object or another.
+    return one is other or (hasattr(one, "sensors") and _in_sensors_alone(one, other))

@@ -11,6 +11,7 @@ from typing import Annotated, Any, Literal
 import numpy as np
 from pydantic import Field, ValidationError
 
+from pipeline.campaign import Rig
 from pipeline.errors import InputError
 from pipeline.inference.model import Model, Term
 from pipeline.inference.model_file import BASE, SCHEMA, ModelFile, Uncertainty
@@ -52,23 +53,21 @@ class _Top(Table):
     effects: list[dict[str, Any]] = Field(default_factory=list)
 
 
-def read_model(path: Path, known: Mapping[str, Effect] | None = None, kind: str | None = None) -> Model:
-    """The model in a file. known: effects by name; default the catalogue. kind: of the rig it is for.
+Kind = Rig | type[Rig]
+
+
+def read_model(path: Path, known: Mapping[str, Effect] | None = None, rig: Kind | None = None) -> Model:
+    """The model in a file. known: effects by name; default the catalogue. rig: what it is for, or its class.
 
     BadCampaign, an InputError, names file, line and key, what was found and what is allowed, for every mistake.
     """
-    return read_model_file(path, None if known is None else Known(known, {}), kind).model
+    return read_model_file(path, None if known is None else Known(known, {}), rig).model
 
 
-def acted_on(kind: str) -> str:
-    """The kind of rig on which effects act: of a manipulator its parallelograms."""
-    return "parallelogram" if kind == "manipulator" else kind
-
-
-def read_model_file(path: Path, known: Known | None = None, kind: str | None = None) -> ModelFile:
+def read_model_file(path: Path, known: Known | None = None, rig: Kind | None = None) -> ModelFile:
     """The model in a file with what it says of itself; complaints as above."""
     complaints = Complaints(str(path))
-    return _Reader(_text(path), path, complaints).read(known, kind)
+    return _Reader(_text(path), path, complaints).read(known, rig)
 
 
 def _text(path: Path) -> str:
@@ -91,7 +90,7 @@ class _Reader:
             complaints.add("", f"is no TOML: {str(error) or 'too deeply nested'}")
             complaints.check()
 
-    def read(self, known: Known | None, kind: str | None) -> ModelFile:
+    def read(self, known: Known | None, rig: Kind | None) -> ModelFile:
         top = self.top()
         folder = self.path.parent
         known = known_effects((folder / file for file in top.effects_from), known)
@@ -100,7 +99,7 @@ class _Reader:
         for k, entry in enumerate(top.effects):
             if (table := self.effect_table(entry, k)) is None:
                 continue
-            effect = self.effect(table.name, k, known, [t.effect.name for t in terms], kind)
+            effect = self.effect(table.name, k, known, [t.effect.name for t in terms], rig)
             if effect is None:
                 continue
             values = {p.name: self.value(effect, p, table, k) for p in effect.parameters}
@@ -135,14 +134,14 @@ class _Reader:
                 self.say(("effects", k, *loc), f"{_place(entry, k)}, {'.'.join(map(str, loc))}", said)
         return None
 
-    def effect(self, name: str, k: int, known: Known, before: list[str], kind: str | None) -> Effect | None:
+    def effect(self, name: str, k: int, known: Known, before: list[str], rig: Kind | None) -> Effect | None:
         effect, said = known.effects.get(name), ""
         if effect is None:
             said = f"is unknown, {unknown_name(name, known.effects)}"
         elif name in before:
             said = "is there twice, allowed is each effect once"
-        elif kind is not None and acted_on(kind) not in effect.kinds:
-            said = f"needs a rig of kind {' or '.join(effect.kinds)}, not {kind}"
+        elif rig is not None and rig.acted_on not in effect.kinds:
+            said = f"needs a rig of kind {' or '.join(effect.kinds)}, not {rig.kind}"
         if said:
             self.say(("effects", k, "name"), f"effect {shown(name)}", said)
             return None

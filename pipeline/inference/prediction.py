@@ -11,11 +11,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pipeline.campaign.names import COORDINATES
+from pipeline.campaign.rig import Solvable
 from pipeline.inference.branches import Sight, branched
 from pipeline.inference.history import history
 from pipeline.inference.model import Model
 from pipeline.inference.program import INPUTS, Group, Program
-from pipeline.inference.rigs import Solvable
 from vjm.effects.bar_initial_bow import BarInitialBow
 from vjm.effects.base import for_bars
 from vjm.effects.thermal_expansion import DRIVE

@@ -11,7 +11,6 @@ from numpy.typing import NDArray
 from pipeline.campaign import Campaign, Test
 from pipeline.campaign import Rig as Described
 from pipeline.campaign.names import DISPLACEMENT, FORCE, SUPPORT
-from pipeline.inference.rigs import nominal_pose
 
 Array = NDArray[np.float64]
 CHANNELS = 12
@@ -41,7 +40,7 @@ class Group:
     @property
     def nominal(self) -> Array:
         """(T, 1, 6) pose from which displacements count."""
-        return nominal_pose(self.rig, self.q)[:, None, :]
+        return self.rig.nominal_pose(self.q)[:, None, :]
 
     @cached_property
     def real(self) -> np.ndarray:
@@ -191,7 +190,7 @@ def _group(campaign: Campaign, numbers: np.ndarray) -> Group:
     reference = rig.reference_temperature
     for k, test in enumerate(tests):
         inputs = test.inputs(campaign.gauges)
-        inputs = inputs + np.where(channels[k] < 6, nominal_pose(rig, q[k]), 0.0)
+        inputs = inputs + np.where(channels[k] < 6, rig.nominal_pose(q[k]), 0.0)
         targets[k] = inputs[np.minimum(np.arange(longest), lengths[k] - 1)]
         if test.data.temperature is not None and reference is not None:
             warm = np.nan_to_num(test.data.temperature - reference)

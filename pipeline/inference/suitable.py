@@ -9,7 +9,6 @@ from pathlib import Path
 from pipeline.campaign import Campaign
 from pipeline.errors import InputError
 from pipeline.inference.model import Model
-from pipeline.inference.rigs import mechanism_of, scale_of_rig
 from pipeline.toml.spelling import unknown_name
 from vjm.effects import catalogue, from_file
 from vjm.effects.base import Effect
@@ -20,7 +19,7 @@ from vjm.lagrangian import layout
 
 def scale_for(campaign: Campaign) -> Scale:
     """By what typical sizes of effects differ from those of the catalogue on the rig of a campaign."""
-    return scale_of_rig(campaign.rig)
+    return campaign.rig.scale
 
 
 def sized_model(model: Model, campaign: Campaign) -> Model:
@@ -87,7 +86,7 @@ def check_suitable(effects: Iterable[Effect], campaign: Campaign) -> None:
     warm = any(test.data.temperature is not None for test in campaign.tests)
     for effect in effects:
         for rig in {id(test.rig): test.rig for test in campaign.tests}.values():
-            plain = mechanism_of(rig, campaign.gauges)
+            plain = rig.mechanism(campaign.gauges)
             try:
                 # A mechanism may build its bars only when they are asked for.
                 drives = layout(effect.apply(plain, effect.typicals)).drives

@@ -7,6 +7,7 @@ from collections.abc import Sequence
 
 from pipeline.campaign.mapped.layout import header_unit
 from pipeline.campaign.names import COORDINATES, known_columns
+from pipeline.campaign.rigs import KINDS
 from pipeline.init.found import Found
 from pipeline.init.known_bar import KnownBar
 from pipeline.init.words import quantity_of
@@ -19,32 +20,7 @@ CHOICES = {
 }
 """What a column of each quantity may be; the axis is never guessed, nor the sign."""
 SIMPLE = {"temperature": "temperature", "time": "time", "step": "step", "test": "test"}
-KINDS = ("bar", "parallelogram", "manipulator")
 
-RIG = {
-    "parallelogram": """kind = "parallelogram"       # two bars between four hinges; or "bar"
-length_mm = "?"              # between the hinge axes
-width_mm = "?"               # between the bars
-bar = { EA_N = "?", EIy_Nmm2 = "?", EIz_Nmm2 = "?", GJ_Nmm2 = "?" }   # of one bar
-""",
-    "bar": """kind = "bar"                 # one bar along x; or "parallelogram"
-length_mm = "?"
-bar = { EA_N = "?", EIy_Nmm2 = "?", EIz_Nmm2 = "?", GJ_Nmm2 = "?" }
-base = "clamped"             # or "pinned"
-tip = "free"                 # or "pinned", "guided"
-""",
-    "manipulator": """kind = "manipulator"         # a whole machine
-file = "?"                   # that describes its legs, beside this one; or "orthoglide"
-""",
-}
-WEIGHTS = """# gravity = [0, 0, -1]           its direction, with platform_weight_N: what hangs on the platform
-"""
-MORE = """# section = { kind = "round", diameter_mm = 12.0 } and material = { E_MPa = 7e4, nu = 0.33 } for `bar`
-# bar_stiffness = [[...], ...]   the 6x6 of one bar at its tip instead of `bar`; N, mm, rad
-# gravity = [0, 0, -1]           direction of gravity; with line_weight_N_per_mm, platform_weight_N
-# reference_temperature_C = 20.0 needed where a temperature was measured
-# fibre_y_mm, fibre_z_mm         outermost fibres of the bar, for the effect material_yield
-"""
 FILE = """# test_from = "blank_row"    or "file", "sheet"; test_column = "...": of a file with several tests
 # last_row = 120, comment = "#", missing = ["OVL", "---"], thousands = "'": rows and words that are no data
 # every = 10                 of a long file one row of ten, and those where it begins, ends or turns
@@ -75,7 +51,7 @@ def campaign_text(
     name: str, kind: str, file: str = "", found: Found | None = None, bar: KnownBar | None = None
 ) -> str:
     """campaign.toml. file: beside it, of which `found` was found; without it measurements.csv is to be written."""
-    more = WEIGHTS + NOISE if kind == "manipulator" else MORE + NOISE + GAUGES
+    more = KINDS[kind].further + NOISE + (GAUGES if KINDS[kind].has_gauges else "")
     head = f"schema = 1\nname = {_quoted(name)}\n\n[rig]\n{_rig(kind, bar)}{more}"
     tables = "" if found is None else _file(file, found) + _columns(found) + CELL
     names = ("test-1",) if found is None or not found.tests else found.tests
@@ -84,7 +60,7 @@ def campaign_text(
 
 def _rig(kind: str, bar: KnownBar | None) -> str:
     """The rig, with the bar where it is known."""
-    text = RIG[kind]
+    text = KINDS[kind].template
     if bar is not None:
         text = text.replace('length_mm = "?"', f"length_mm = {bar.length!r}")
         text = text.replace('width_mm = "?"', f"width_mm = {bar.width!r}")
@@ -161,22 +137,19 @@ def _times(found: Found) -> list[str]:
 
 
 def _control(kind: str) -> str:
-    """What controls each coordinate; a parallelogram swings along z unless something holds it there."""
-    held = {"z"} if kind == "parallelogram" else set()
+    """What controls each coordinate."""
+    held = KINDS[kind].held
     return ", ".join(f'{c} = "{"displacement" if c in held else "force"}"' for c in COORDINATES)
 
 
 def _further(kind: str, name: str) -> str:
     """A test after the first, of which every key is explained."""
-    angle = 'q_deg = "?"\n' if kind == "parallelogram" else ""
+    angle = f"{KINDS[kind].posture_key}\n" if KINDS[kind].posture_key else ""
     return f'\n[[tests]]\nid = {_quoted(name)}\n{angle}role = "fit"\ncontrol = {{ {_control(kind)} }}\n'
 
 
 def _test(kind: str, name: str) -> str:
-    angle = {
-        "parallelogram": 'q_deg = "?"                  # angle of the bars\n',
-        "manipulator": "# at_mm = [x, y, z]          where the platform stands; or columns at_x_mm, at_y_mm, at_z_mm\n",
-    }.get(kind, "")
+    angle = KINDS[kind].posture_template
     return f"""
 [[tests]]                    # one for each run of the bench, from the unloaded state
 id = {_quoted(name)}

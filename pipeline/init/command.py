@@ -8,9 +8,10 @@ from pathlib import Path
 from pipeline.campaign.mapped.grid import BadTable
 from pipeline.campaign.names import known_columns
 from pipeline.campaign.reading import DESCRIPTION, MEASUREMENTS
+from pipeline.campaign.rigs import KINDS
 from pipeline.command import usable
 from pipeline.errors import InputError
-from pipeline.init.campaign_file import KINDS, campaign_text, plain_header
+from pipeline.init.campaign_file import campaign_text, plain_header
 from pipeline.init.found import Found, looked
 from pipeline.init.known_bar import known_bar
 from pipeline.typed import command
@@ -24,9 +25,9 @@ def init(folder: Path, file: Path | None, kind: str, known: str | None = None) -
     if (folder / DESCRIPTION).exists():
         raise InputError(f"{folder / DESCRIPTION} is there already, allowed is a folder without one")
     usable(folder, f"the folder {folder}")
-    if known is not None and kind == "manipulator":
+    if known is not None and "bar" not in KINDS[kind].model_fields:
         raise InputError(
-            "--from is the bar of a bar or a parallelogram, a manipulator is described in its own file"
+            f"--from is the bar of a bar or a parallelogram, a {kind} is described in its own file"
         )
     bar = None if known is None else known_bar(known)
     found = None if file is None else _found(file)

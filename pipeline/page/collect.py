@@ -82,7 +82,7 @@ def collect(it: Subject, commands: tuple[str, ...] = (), say: Say = lambda _: No
             for e in catalogue
         ),
         sigmas=_sigmas(it.campaign, cases),
-        assumptions=(*assumptions(whole, model.names, known), *reading(whole.rig.kind)),
+        assumptions=(*assumptions(whole, model.names, known), *reading(whole.rig.axes)),
         sources=(*SOURCES, *dict.fromkeys(f"{e.name}: {e.source}." for e in catalogue)),
         commands=commands,
         versions=versions(),

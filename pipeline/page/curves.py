@@ -11,7 +11,7 @@ from pipeline.campaign import Campaign, Test
 from pipeline.campaign.names import COORDINATES
 from pipeline.compare.error import Discrepancy
 from pipeline.inference.driving import column_name, driving, unit_of
-from pipeline.page.legs import legs
+from pipeline.page.legs import lines_of
 from pipeline.page.record import Curve, Numbers, Rig, TestPage
 
 Array = NDArray[np.float64]
@@ -22,14 +22,14 @@ DIGITS = 7
 def rig_of(it: Campaign | Test) -> Rig:
     """What is drawn of a rig."""
     rig = it.rig
-    if rig.manipulator is None or rig.point is None:
-        return Rig(kind=rig.kind, length_mm=rig.length, width_mm=rig.width)
+    if rig.point is None:
+        return Rig(kind=rig.kind, length_mm=rig.length, width_mm=rig.spread)
     return Rig(
         kind=rig.kind,
         length_mm=rig.length,
-        width_mm=None,
+        width_mm=rig.spread,
         place_mm=numbers(rig.point),
-        lines=legs(rig.manipulator, rig.point),
+        lines=lines_of(rig.legs),
     )
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -10,8 +10,7 @@ from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
 from pipeline.page.record import Line
-from vjm.manipulator.parts import Manipulator, Parallelogram
-from vjm.manipulator.posture import postures
+from vjm.manipulator.parts import Parallelogram
 from vjm.parts import Actuator, Elastic, Frame, Kind, Leg, Part, Passive, Virtual, posture_of
 
 Array = NDArray[np.float64]
@@ -32,17 +31,12 @@ class _Piece:
         return float(np.linalg.norm(np.subtract(*self.along[0]))) if self.free else 0.0
 
 
-def legs(manipulator: Manipulator, point: tuple[float, float, float]) -> tuple[Line, ...]:
-    """Lines of all legs with the unloaded platform at a point, mm, base frame.
+def lines_of(legs: Iterable[tuple[Leg, Array]]) -> tuple[Line, ...]:
+    """Lines of legs with their joint coordinates, unloaded, base frame.
 
     Up to its first passive joint a leg stays; from there on every point follows the platform by its share of the way.
     """
-    found = postures(manipulator, np.array(point))
-    return tuple(
-        line
-        for leg, x in zip(manipulator.legs, found.coordinates, strict=True)
-        for line in _lines(list(_pieces(leg, x)))
-    )
+    return tuple(line for leg, x in legs for line in _lines(list(_pieces(leg, x))))
 
 
 def _lines(pieces: list[_Piece]) -> Iterator[Line]:

@@ -68,16 +68,14 @@ def assumptions(campaign: Campaign, names: tuple[str, ...], known: Mapping[str, 
         yield f"{name}: {known[name].limits}."
 
 
-_AXES = ": x along the unloaded bars at q = 0, y normal to the plane, z along the width"
 _READING = (
     "An error of 1 sigma is noise. The error of the fitted tests is over their degrees of freedom.",
     "Evidence is BIC less that of the best set, for the best set that was fitted with the effect in it.",
 )
 
 
-def reading(kind: str) -> tuple[str, ...]:
-    """How a page about a rig of some kind is to be read."""
-    axes = " of its file" if kind == "manipulator" else _AXES
+def reading(axes: str) -> tuple[str, ...]:
+    """How a page about a rig is to be read. axes: where those of its base frame lie (`Rig.axes`)."""
     return (
         "Units are N, mm, rad and N·mm. Displacements are of the platform point from its nominal unloaded pose, the "
         f"wrench is exerted on the platform at that point, both in the base frame{axes}.",

@@ -18,8 +18,8 @@ from reports.style import FAINT, INK
 TOP = 100.0
 """Sigmas of the darkest colour; the lightest is noise."""
 SHADES = "cividis_r"
-THICK = {"parallelogram": 1.0, "bar": 1.0, "manipulator": 2.0}
-"""A manipulator is some bars wide."""
+OF_LEGS = 2.0
+"""Times a bar's, the thickness of what is drawn by the lines of its legs: it is some bars wide."""
 
 
 class Scene:
@@ -46,9 +46,8 @@ class Scene:
 
     def _add(self, name: str, data: Any, pose: Any, scale: float, shade: str, radius: float) -> None:
         parts = [pyvista.lines_from_points(points) for points in lines(data, pose, scale)]
-        tubes = pyvista.merge(parts).tube(
-            radius=radius * THICK[data["rig"]["kind"]] * data["rig"]["length_mm"] / 310.0
-        )
+        thick = radius * (OF_LEGS if data["rig"]["place_mm"] is not None else 1.0)
+        tubes = pyvista.merge(parts).tube(radius=thick * data["rig"]["length_mm"] / 310.0)
         self.plotter.add_mesh(tubes, name=name, color=shade, render=False, reset_camera=False)
 
 

@@ -13,7 +13,7 @@ from fem.frame.linkages import ELEMENTS
 from fem.frame.rig import Gauge as FrameGauge
 from fem.frame.rig import Rig as FrameRig
 from fem.frame.section import Section, uniform
-from pipeline.campaign import Campaign, Data, Gauge, Noise, Rig, Test
+from pipeline.campaign import Campaign, Data, Gauge, Noise, Rig, RigOfBars, Test
 from pipeline.campaign.model import Role
 from pipeline.errors import InputError
 from pipeline.parameter_names import parted
@@ -29,7 +29,7 @@ sigmas a model that interpolates forces is 13 sigmas off in a test of 24 steps w
 
 def measure(
     name: str,
-    rig: Rig,
+    rig: RigOfBars,
     plan: Sequence[PlannedTest],
     noise: Noise,
     hidden: Mapping[str, float],
@@ -46,7 +46,7 @@ def measure(
 
 
 def true_readings(
-    rig: Rig, plan: Sequence[PlannedTest], hidden: Mapping[str, float], gauges: tuple[Gauge, ...] = ()
+    rig: RigOfBars, plan: Sequence[PlannedTest], hidden: Mapping[str, float], gauges: tuple[Gauge, ...] = ()
 ) -> list[bench.Readings]:
     """What sensors without noise would read in each test; errors as in `measure`."""
     try:
@@ -74,7 +74,7 @@ def _yields(hidden: Mapping[str, float]) -> bool:
 
 def read_out(
     name: str,
-    rig: Rig,
+    rig: RigOfBars,
     plan: Sequence[PlannedTest],
     noise: Noise,
     seed: int | None,
@@ -87,19 +87,20 @@ def read_out(
     return Campaign(name, rig, replace(noise, gauges=noise.gauges[: len(gauges)]), gauges, tuple(tests))
 
 
-def frame_rig(rig: Rig) -> FrameRig:
+def frame_rig(rig: RigOfBars) -> FrameRig:
     """The rig for the frame finite elements."""
     bar: Section | np.ndarray = rig.stiffness
     if rig.bar is not None:
         bar = uniform(EA=rig.bar.EA, EIy=rig.bar.EIy, EIz=rig.bar.EIz, GJ=rig.bar.GJ)
+    base, tip = rig.ends
     more = {} if rig.reference_temperature is None else {"reference_temperature": rig.reference_temperature}
     return FrameRig(
         rig.kind,
         rig.length,
         bar,
-        rig.width or 0.0,
-        rig.base,
-        rig.tip,
+        rig.spread or 0.0,
+        base,
+        tip,
         rig.gravity or (0.0, 0.0, -1.0),
         rig.line_weight,
         rig.platform_weight,

@@ -10,7 +10,6 @@ from fem.frame.errors import Errors
 from pipeline.campaign import Rig
 from pipeline.effect_options import number_asked, parameter_asked
 from pipeline.errors import InputError
-from pipeline.inference.rigs import mechanism_of
 from pipeline.parameter_names import parted, path_of
 from pipeline.toml.spelling import unknown_name
 from pipeline.virtual.bench import as_frame
@@ -55,14 +54,14 @@ def _simulable(text: str, effect: Effect, rig: Rig) -> None:
     paths = {path_of(effect.name, p.name): p.null for p in effect.parameters}
     try:
         Errors.of(as_frame(paths, rig))
-        effect.apply(mechanism_of(rig, ()), effect.typicals)
+        effect.apply(rig.mechanism(()), effect.typicals)
     except ValueError as error:
         raise InputError(f"--effect {text}: the virtual bench cannot have {effect.name}: {error}") from error
 
 
 def _drawn(effect: Effect, rig: Rig, generator: np.random.Generator) -> dict[str, float]:
     out = {}
-    mechanism = mechanism_of(rig, ())
+    mechanism = rig.mechanism(())
     for p in effect.parameters:
         size = p.typical * FACTOR ** generator.uniform(-1.0, 1.0)
         sign = 1.0 if p.one_sided else generator.choice([-1.0, 1.0])

@@ -13,14 +13,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fem.frame.errors import Errors
-from pipeline.campaign import Campaign, Data, Noise, Rig, Test
+from pipeline.campaign import Campaign, Data, ManipulatorRig, Noise, Test
 from pipeline.campaign.model import Role, Vector
 from pipeline.errors import InputError
 from pipeline.parameter_names import path_of
 from pipeline.virtual.bench import as_frame
 from pipeline.virtual.machine import Machine, refused
-from vjm.manipulator.parts import Manipulator, Parallelogram
-from vjm.manipulator.posture import Postures, postures
+from vjm.manipulator.effects import linkages
+from vjm.manipulator.parts import Manipulator
+from vjm.manipulator.posture import Postures
 
 Array = NDArray[np.float64]
 STEPS = 12
@@ -66,20 +67,23 @@ def plan(manipulator: Manipulator, home: Array) -> tuple[Loading, ...]:
 
 
 def measure_manipulator(
-    name: str, rig: Rig, loadings: tuple[Loading, ...], hidden: Mapping[str, Mapping[str, float]], seed: int
+    name: str,
+    rig: ManipulatorRig,
+    loadings: tuple[Loading, ...],
+    hidden: Mapping[str, Mapping[str, float]],
+    seed: int,
 ) -> Campaign:
     """The campaign that this manipulator with hidden effects (values by effect and parameter) gives, with noise.
 
     InputError for an effect that the frame at rest does not have.
     """
-    assert rig.manipulator is not None
     errors = _errors(rig, hidden)
     generator = np.random.default_rng(seed)
-    rigs: dict[Vector, Rig] = {}
+    rigs: dict[Vector, ManipulatorRig] = {}
     tests = []
     for one in loadings:
-        own = rigs.setdefault(one.point, replace(rig, point=one.point))
-        machine = Machine(rig.manipulator, errors, _posture(rig, one.point))
+        own = rigs.setdefault(one.point, replace(rig, at=one.point))
+        machine = Machine(rig.manipulator, errors, _posture(own))
         way = machine.displacements(one.loads, _weight(rig))
         data = Data(
             np.arange(len(one.loads)),
@@ -93,28 +97,25 @@ def measure_manipulator(
     return Campaign(name, rig, NOISE, (), tuple(tests))
 
 
-def _weight(rig: Rig) -> Array:
+def _weight(rig: ManipulatorRig) -> Array:
     return np.zeros(3) if rig.down is None else rig.platform_weight * rig.down
 
 
-def _errors(rig: Rig, hidden: Mapping[str, Mapping[str, float]]) -> Errors:
+def _errors(rig: ManipulatorRig, hidden: Mapping[str, Mapping[str, float]]) -> Errors:
     """What is hidden, in the truth's own record."""
-    assert rig.manipulator is not None
     if "bar_geometric_nonlinearity" in hidden:
         raise InputError("--effect: frame elements at rest do not show how bars stiffen or soften under load")
     paths = {path_of(name, p): value for name, own in hidden.items() for p, value in own.items()}
     errors = Errors.of(as_frame(paths, rig))
-    if said := refused(
-        errors, any(isinstance(p, Parallelogram) for leg in rig.manipulator.legs for p in leg.parts)
-    ):
+    if said := refused(errors, bool(linkages(rig.manipulator))):
         raise InputError(f"--effect: the virtual bench cannot have it: {said}")
     return errors
 
 
-def _posture(rig: Rig, point: Vector) -> Postures:
+def _posture(rig: ManipulatorRig) -> Postures:
     """The joints, where the drawing has them."""
-    assert rig.manipulator is not None
-    at = postures(rig.manipulator, np.array(point))
-    if not at.reached:
-        raise InputError(f"the plan has a posture at {np.round(point, 1).tolist()} mm: {at.reason}")
-    return at
+    if not rig.posture.reached:
+        raise InputError(
+            f"the plan has a posture at {np.round(rig.posture.pose[:3], 1).tolist()} mm: {rig.posture.reason}"
+        )
+    return rig.posture

@@ -27,7 +27,7 @@ def lines(test: Json, pose: Sequence[float | None] | None, scale: float) -> list
     rig, q = test["rig"], np.radians(test["q_deg"])
     known = np.zeros(6) if pose is None else np.array([value or 0.0 for value in pose]) * scale
     turn = Rotation.from_rotvec(known[3:])
-    if rig["kind"] == "manipulator":
+    if rig.get("place_mm") is not None:
         return _manipulator(rig, known[:3], turn)
     along = np.array([np.cos(q), 0.0, -np.sin(q)])
     tip = rig["length_mm"] * along + known[:3]

@@ -13,7 +13,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from pipeline.campaign import Campaign, Rig, Test, read
+from pipeline.campaign import Campaign, Rig, RigOfBars, Test, read
 from pipeline.diagnose.diagnosis import Diagnosis, diagnose
 from pipeline.diagnose.words import answered
 from pipeline.inference.model import Model
@@ -45,11 +45,10 @@ def scaled(it: Campaign, force: float, length: float) -> Campaign:
     load = np.array([force] * 3 + [moment] * 3)
 
     def rig(old: Rig) -> Rig:
-        assert old.bar_stiffness is not None
+        assert isinstance(old, RigOfBars) and old.bar_stiffness is not None
         stiffness = old.bar_stiffness * load[:, None] / size
-        width = None if old.width is None else length * old.width
-        fibres = {n: None if (v := getattr(old, n)) is None else length * v for n in ("fibre_y", "fibre_z")}
-        return replace(old, length=length * old.length, width=width, bar_stiffness=stiffness, **fibres)
+        sizes = {n: length * v for n in ("width", "fibre_y", "fibre_z") if (v := getattr(old, n, None))}
+        return replace(old, length=length * old.length, bar_stiffness=stiffness, **sizes)
 
     def test(old: Test) -> Test:
         d = old.data

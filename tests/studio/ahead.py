@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from pipeline.campaign import Campaign, Data, Noise, Rig, Test
+from pipeline.campaign import BarRig, Campaign, Data, Noise, Test
 from vjm import paper
 
 STEPS = 4
@@ -17,13 +17,13 @@ NOISE = Noise(
 
 def unmeasured() -> Campaign:
     """Pushed along and across."""
-    rig = Rig("bar", 310.0, bar_stiffness=paper.BAR_STIFFNESS)
+    rig = BarRig(length=310.0, bar_stiffness=paper.BAR_STIFFNESS)
     return Campaign(
         "ahead", rig, NOISE, (), (_pushed("axial", rig, 0, 1e3), _pushed("lateral", rig, 1, 10.0))
     )
 
 
-def _pushed(name: str, rig: Rig, axis: int, force: float) -> Test:
+def _pushed(name: str, rig: BarRig, axis: int, force: float) -> Test:
     wrench = np.zeros((STEPS, 6))
     wrench[:, axis] = np.linspace(0.0, force, STEPS)
     data = Data(

@@ -13,7 +13,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from pipeline.campaign import Campaign, Data, Gauge, Noise, Rig, Test, UniformBar
+from pipeline.campaign import BarRig, Campaign, Data, Gauge, Noise, Test, UniformBar
 from pipeline.diagnose.diagnosis import diagnose
 from pipeline.inference.fit import Fit
 from pipeline.inference.model import Model, Term
@@ -45,7 +45,7 @@ def campaign(strut: str) -> Campaign:
         EIz=YOUNG * thick * wide**3 / 12,
         GJ=YOUNG / 2.66 * wide * thick**3 / 3,
     )
-    rig = Rig("bar", LENGTH, bar=bar, base="pinned", tip="pinned")
+    rig = BarRig(length=LENGTH, bar=bar, base="pinned", tip="pinned")
     count = len(table)
     wrench, displacement = np.full((count, 6), np.nan), np.full((count, 6), np.nan)
     wrench[:, 0] = -POUND * table["P_last_lb"]

@@ -10,7 +10,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from pipeline.campaign import Campaign, Data, Noise, Rig, Test, UniformBar
+from pipeline.campaign import BarRig, Campaign, Data, Noise, Test, UniformBar
 from pipeline.diagnose.diagnosis import diagnose
 from pipeline.inference.model import Model, Term
 from pipeline.inference.prediction import predict
@@ -37,7 +37,7 @@ def campaign() -> Campaign:
         EIz=YOUNG * upright,
         GJ=shear * WIDTH * THICKNESS**3 / 3,
     )
-    rig = Rig("bar", LENGTH, bar=bar, base="clamped", tip="free")
+    rig = BarRig(length=LENGTH, bar=bar, base="clamped", tip="free")
     displacement, wrench = np.full((7, 6), np.nan), np.zeros((7, 6))
     displacement[:, 2], wrench[:, 2] = -DEFLECTION, -FORCE
     noise = Noise(np.where(np.arange(6) == 2, SIGMA, 1.0), np.full(6, 1e-6), np.zeros(0))

@@ -38,7 +38,7 @@ DESCRIPTION = {
     "unknown key": ("length_mm = 310.0", "lenght_mm = 310.0", "line 6, rig.lenght_mm: is not a key of this table, "
                     "did you mean 'length_mm'?"),
     "missing key": ("length_mm = 310.0\n", "", "line 4, rig.length_mm: is missing"),
-    "kind": ('"parallelogram"', '"delta"', "rig.kind: is 'delta', allowed is: 'parallelogram', 'bar' or 'manipulator'"),
+    "kind": ('"parallelogram"', '"delta"', "rig.kind: is 'delta', allowed is: 'bar', 'manipulator' or 'parallelogram'"),
     "length": ("length_mm = 310.0", "length_mm = -310.0", "rig.length_mm: is -310.0, allowed is: at least 0.001"),
     "true is no number": ("width_mm = 80.0", "width_mm = true", "rig.width_mm: is True, allowed is: a valid number"),
     "infinite": ("width_mm = 80.0", "width_mm = inf", "rig.width_mm: is inf, allowed is: a finite number"),

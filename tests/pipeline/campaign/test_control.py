@@ -5,8 +5,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from pipeline.campaign import BadCampaign, Gauge, Rig, read
-from pipeline.campaign.control import swing, swings
+from pipeline.campaign import BadCampaign, BarRig, Gauge, ParallelogramRig, read
+from pipeline.campaign.control import swings
 from tests.pipeline.campaign.example import BAR, TOML, laid
 from vjm import paper
 from vjm.mechanisms.bar import Bar
@@ -98,7 +98,7 @@ FORCES = ("force",) * 6
     ("station", "direction", "loose"), [(0.5, "z", False), (0.5, "y", True), (0.0, "z", True)]
 )
 def test_a_gauge_holds_what_it_sees(station: float, direction: str, loose: bool) -> None:
-    rig = Rig("parallelogram", 310.0, 80.0, paper.BAR_STIFFNESS)
+    rig = ParallelogramRig(length=310.0, width=80.0, bar_stiffness=paper.BAR_STIFFNESS)
     gauge = Gauge("g", station, direction)
     assert swings(rig, 0.0, ("force", "force", "g", "force", "force", "force"), (gauge,)) is loose
     assert swings(rig, 0.0, FORCES, (gauge,))
@@ -109,13 +109,13 @@ def test_the_swing_costs_no_energy(q: float) -> None:
     """Against the virtual springs' own stiffness at rest: the motion is in its kernel, for both mechanisms."""
     linkage = Parallelogram(310.0, 80.0, paper.BAR_STIFFNESS, q)
     pinned = Bar(310.0, paper.BAR_STIFFNESS, base="pinned")
-    rigs = [Rig("parallelogram", 310.0, 80.0), Rig("bar", 310.0, base="pinned")]
+    rigs = [ParallelogramRig(length=310.0, width=80.0), BarRig(length=310.0, base="pinned")]
     for rig, stiffness in zip(rigs, (unloaded_stiffness(linkage), unloaded_stiffness(pinned)), strict=True):
-        motion = swing(rig, q if rig.kind == "parallelogram" else 0.0)
+        motion = rig.swing(q if rig.kind == "parallelogram" else 0.0)
         assert motion is not None
         # Rounding of K11, 2.2e4 N/mm, which the kernel has to cancel.
         np.testing.assert_allclose(stiffness @ motion, 0.0, atol=1e-7)
-    assert swing(Rig("bar", 310.0), 0.0) is None
+    assert BarRig(length=310.0).swing(0.0) is None
 
 
 def test_the_example_is_held(tmp_path: Path) -> None:

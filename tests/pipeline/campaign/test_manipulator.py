@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from typer.testing import CliRunner
 
-from pipeline.campaign import BadCampaign, read, write
+from pipeline.campaign import BadCampaign, BarRig, ManipulatorRig, read, write
 from pipeline.campaign.reading import DESCRIPTION, MEASUREMENTS
 from pipeline.cli import app
 from pipeline.compare.models import compare_models
@@ -79,7 +79,7 @@ def swapped(old: str, new: str) -> Change:
 BAD: dict[str, tuple[Change, str]] = {
     "file": (swapped('"orthoglide"', '"orthoglid"'), "rig.file: orthoglid: No such file or directory"),
     "no file": (swapped('file = "orthoglide"\n', ""), "rig, file: is missing"),
-    "key": (swapped("file =", "length_mm = 3.0\nfile ="), "rig, length_mm: is not a key of this table"),
+    "key": (swapped("file =", "length_mm = 3.0\nfile ="), "length_mm is given, allowed only with kind"),
     "weight": (swapped("gravity = [0.0, 0.0, -2.0]\n", ""), "a weight is given without its direction"),
     "no place": (swapped("at_mm = [0.0, 0.0, 0.0]\n", ""), "test 'free_0': at_mm is missing"),
     "out of reach": (swapped("[50.0, -40.0, 60.0]", "[50.0, -40.0, 360.0]"), "does not reach this pose"),
@@ -113,9 +113,9 @@ def test_a_parallelogram_has_no_point(tmp_path: Path) -> None:
 def test_a_saved_model_of_a_manipulator_is_that_of_its_parallelograms(tmp_path: Path) -> None:
     model = Model().with_effects([catalogue()["axis_flexibility"]])
     write_model(tmp_path / "model.toml", ModelFile(model))
-    assert read_model(tmp_path / "model.toml", kind="manipulator").names == ("axis_flexibility",)
+    assert read_model(tmp_path / "model.toml", rig=ManipulatorRig).names == ("axis_flexibility",)
     with pytest.raises(InputError, match="needs a rig of kind parallelogram, not bar"):
-        read_model(tmp_path / "model.toml", kind="bar")
+        read_model(tmp_path / "model.toml", rig=BarRig)
 
 
 def test_a_campaign_on_a_machine_without_a_parallelogram(tmp_path: Path) -> None:

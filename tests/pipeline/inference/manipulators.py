@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from pipeline.campaign import Campaign, Data, Noise, Rig, Test
+from pipeline.campaign import Campaign, Data, ManipulatorRig, Noise, Test
 from pipeline.manipulator.description import read
 from pipeline.virtual.manipulator import NOISE
 
@@ -18,12 +18,11 @@ LOADS = np.array([150.0, -80.0, 60.0, 2e3, -1e3, 3e3])
 WAY = np.array([0.03, 0.0, 0.0, 0.0, 0.0, 5e-4])
 
 
-def rig(weight: float = 0.0) -> Rig:
+def rig(weight: float = 0.0) -> ManipulatorRig:
     described = read("orthoglide").manipulator
     gravity = (0.0, 0.0, -2.0) if weight else None
-    return Rig(
-        "manipulator",
-        described.length,
+    return ManipulatorRig(
+        length=described.length,
         gravity=gravity,
         platform_weight=weight,
         manipulator=described,
@@ -33,7 +32,7 @@ def rig(weight: float = 0.0) -> Rig:
 
 def campaign(weight: float = 0.0, noise: Noise = NOISE) -> Campaign:
     base = rig(weight)
-    rigs = [replace(base, point=point) for point in POINTS]
+    rigs = [replace(base, at=point) for point in POINTS]
     tests = [
         test("free_0", rigs[0], FREE),
         test("sliding_0", rigs[0], SLIDING),
@@ -42,7 +41,7 @@ def campaign(weight: float = 0.0, noise: Noise = NOISE) -> Campaign:
     return Campaign("small", base, noise, (), tuple(tests))
 
 
-def test(name: str, at: Rig, control: tuple[str, ...]) -> Test:
+def test(name: str, at: ManipulatorRig, control: tuple[str, ...]) -> Test:
     """Readings of what is prescribed; what is measured beside it is zero and finite."""
     data = Data(
         np.arange(STEPS.size),

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from pipeline.campaign import Campaign, Data, Gauge, Noise, Rig, Test, UniformBar
+from pipeline.campaign import BarRig, Campaign, Data, Gauge, Noise, Test, UniformBar
 from pipeline.inference.model import Model
 from pipeline.inference.prediction import predict
 from pipeline.inference.program import program
@@ -18,9 +18,8 @@ LARGE = Model().with_effects([catalogue()["bar_geometric_nonlinearity"]])
 
 def driven(middle: list[float]) -> Campaign:
     """A pinned bar, soft about y, pushed until its middle stands so far along z, mm."""
-    rig = Rig(
-        "bar",
-        LENGTH,
+    rig = BarRig(
+        length=LENGTH,
         bar=UniformBar(EA=5e6, EIy=EI, EIz=60.0 * EI, GJ=EI),
         base="pinned",
         tip="pinned",

@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from pipeline.campaign import Gauge, Noise, Rig, Test
+from pipeline.campaign import BarRig, Gauge, Noise, Test
 from pipeline.inference.frame_prediction import predict_frame
 from pipeline.inference.linear_prediction import predict_linear
 from pipeline.inference.program import program
@@ -48,7 +48,7 @@ def test_a_parallelogram_follows_the_closed_form_in_any_control() -> None:
 
 def test_a_bar_follows_its_own_stiffness() -> None:
     k = paper.BAR_STIFFNESS
-    rig = Rig("bar", 310.0, bar_stiffness=k)
+    rig = BarRig(length=310.0, bar_stiffness=k)
     values = RNG.normal(size=(5, 6)) * [100.0, 0.1, 5.0, 1e-3, 200.0, 1e-3]
     control = ("force", "displacement", "force", "displacement", "force", "displacement")
     planned = [PlannedTest("mixed", 0.0, control, values, np.full(5, 20.0))]
@@ -88,7 +88,7 @@ def test_what_nothing_holds_is_lost_with_a_reason() -> None:
 def test_the_frame_as_drawn_is_within_the_noise_and_loses_what_buckles() -> None:
     cases = program(bench())
     tangent = predict_linear(cases)
-    found = predict_frame(cases, tangent)
+    found = predict_frame(cases, lambda: tangent)
     assert not found.lost.any()
     axial = (cases.test == 0)[:, None] & cases.predicted
     ratio = residual(cases, found).values[axial]
@@ -99,7 +99,7 @@ def test_the_frame_as_drawn_is_within_the_noise_and_loses_what_buckles() -> None
     wrench[-3:, 0] = -4.2e4
     pushed = replace(test, data=replace(test.data, wrench=wrench))
     beyond = program(replace(cases.campaign, tests=(pushed,)))
-    lost = predict_frame(beyond, predict_linear(beyond))
+    lost = predict_frame(beyond, lambda: predict_linear(beyond))
     # 36.5 kN is the lowest critical load of the held linkage.
     assert lost.lost.tolist() == [False] * 9 + [True] * 3
     assert lost.reasons == dict.fromkeys([9, 10, 11], Reason.UNSTABLE)

@@ -8,6 +8,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from pipeline.campaign import BarRig, ParallelogramRig
 from pipeline.errors import InputError
 from pipeline.inference.model import Model, Term
 from pipeline.inference.model_file import ModelFile, Uncertainty, model_text, write_model
@@ -221,11 +222,11 @@ def test_an_effect_that_this_rig_cannot_have_is_refused(tmp_path: Path) -> None:
     effect = next(e for e in KNOWN.effects.values() if e.kinds == ("parallelogram",))
     path = tmp_path / "model.toml"
     write_model(path, ModelFile(Model((Term(effect, effect.typicals),))))
-    assert read_model(path, KNOWN.effects, "parallelogram").names == (effect.name,)
+    assert read_model(path, KNOWN.effects, ParallelogramRig).names == (effect.name,)
     with pytest.raises(
         InputError, match=f"effect '{effect.name}': needs a rig of kind parallelogram, not bar"
     ):
-        read_model(path, KNOWN.effects, "bar")
+        read_model(path, KNOWN.effects, BarRig)
 
 
 def test_a_file_that_cannot_be_written_is_said_and_leaves_the_old_one(tmp_path: Path) -> None:

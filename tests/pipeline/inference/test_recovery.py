@@ -7,7 +7,7 @@ from functools import cache
 import numpy as np
 import pytest
 
-from pipeline.campaign import Campaign, Rig
+from pipeline.campaign import Campaign, ParallelogramRig
 from pipeline.inference.fit import Fit
 from pipeline.inference.model import Model
 from pipeline.inference.program import program
@@ -19,11 +19,10 @@ from vjm import paper
 from vjm.effects import catalogue
 
 CATALOGUE = catalogue()
-RIG = Rig(
-    "parallelogram",
-    paper.LENGTH,
-    paper.WIDTH,
-    paper.BAR_STIFFNESS,
+RIG = ParallelogramRig(
+    length=paper.LENGTH,
+    width=paper.WIDTH,
+    bar_stiffness=paper.BAR_STIFFNESS,
     reference_temperature=20.0,
     fibre_y=6.0,
     fibre_z=7.75,

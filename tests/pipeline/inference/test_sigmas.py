@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from pipeline.campaign import Campaign, Data, Noise, Rig, Test
+from pipeline.campaign import Campaign, Data, Noise, ParallelogramRig, Test
 from pipeline.inference.program import program
 from pipeline.inference.sigmas import completed
 from pipeline.sensor_noise import from_lines
@@ -13,7 +13,7 @@ from pipeline.virtual.plan import SENSORS
 from tests.pipeline.bench import bench
 from vjm import paper
 
-RIG = Rig("parallelogram", 310.0, 80.0, bar_stiffness=paper.BAR_STIFFNESS)
+RIG = ParallelogramRig(length=310.0, width=80.0, bar_stiffness=paper.BAR_STIFFNESS)
 CONTROL = ("force", "displacement", "displacement", "displacement", "displacement", "displacement")
 UNKNOWN = Noise(np.full(6, np.nan), np.full(6, np.nan), np.full(1, np.nan))
 

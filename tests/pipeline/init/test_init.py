@@ -294,7 +294,7 @@ def test_a_bar_may_be_taken_from_a_case_or_a_result(tmp_path: Path, kind: str, s
     path.write_text(path.read_text().replace('q_deg = "?"', "q_deg = 0.0"))
     (tmp_path / "measurements.csv").write_text("test,step,z_mm,fz_N\ntest-1,0,0.0,0.0\ntest-1,1,0.1,2.0\n")
     rig = read(tmp_path).rig
-    assert rig.length == 310.0 and rig.width == (80.0 if kind == "parallelogram" else None)
+    assert rig.length == 310.0 and rig.spread == (80.0 if kind == "parallelogram" else None)
     if source == "plain_i_bar":
         area = 2 * 12.0 * 2.2 + 4.0 * (15.5 - 2 * 2.2)
         assert rig.bar is not None and pytest.approx(7e4 * area, rel=1e-12) == rig.bar.EA

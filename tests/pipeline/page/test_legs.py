@@ -5,9 +5,11 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from pipeline.campaign import ManipulatorRig
 from pipeline.manipulator.description import read
 from pipeline.manipulator.frame import frame_of
-from pipeline.page.legs import legs
+from pipeline.page.legs import lines_of
+from pipeline.page.record import Line
 from reports.campaign.linkage import lines
 from vjm.manipulator.posture import postures
 
@@ -15,12 +17,17 @@ ROUNDED = 1e-4
 """mm: what a page keeps of a place."""
 
 
+def drawn_at(point: tuple[float, float, float]) -> tuple[Line, ...]:
+    manipulator = read("orthoglide").manipulator
+    return lines_of(ManipulatorRig(length=manipulator.length, manipulator=manipulator, at=point).legs)
+
+
 @pytest.mark.parametrize("point", [(0.0, 0.0, 0.0), (50.0, -40.0, 60.0)])
 def test_every_beam_of_the_frame_is_drawn(point: tuple[float, float, float]) -> None:
     manipulator = read("orthoglide").manipulator
     found = postures(manipulator, np.array(point))
     frame = frame_of(manipulator, found.pose, found.coordinates)
-    drawn = np.array([line.points for line in legs(manipulator, point)], dtype=float)
+    drawn = np.array([line.points for line in drawn_at(point)], dtype=float)
     assert len(frame.beams) == 9
     for beam in frame.beams:
         ends = frame.positions[[beam.base, beam.tip]]
@@ -28,8 +35,7 @@ def test_every_beam_of_the_frame_is_drawn(point: tuple[float, float, float]) -> 
 
 
 def test_feet_stay_and_tips_move_as_one_body_with_the_platform() -> None:
-    manipulator = read("orthoglide").manipulator
-    every = legs(manipulator, (50.0, -40.0, 60.0))
+    every = drawn_at((50.0, -40.0, 60.0))
     rig = {
         "kind": "manipulator",
         "length_mm": 310.0,

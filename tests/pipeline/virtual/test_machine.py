@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 
 from fem.frame.errors import Errors
-from pipeline.campaign import Campaign, Data, Rig, Test
+from pipeline.campaign import Campaign, Data, ManipulatorRig, Test
 from pipeline.inference.model import Model, Term
 from pipeline.inference.prediction import predict
 from pipeline.inference.program import program
@@ -54,20 +54,20 @@ def values(name: str) -> dict[str, float]:
 def by_springs(machine: str, name: str | None) -> np.ndarray:
     """(S, 6) displacements under the loads."""
     whole = MACHINES[machine]
-    rig = Rig("manipulator", whole.length, manipulator=whole, file=machine, point=POINT)
+    rig = ManipulatorRig(length=whole.length, manipulator=whole, file=machine, at=POINT)
     count = len(LOADS)
     nothing = np.zeros((count, 6)), LOADS, np.zeros((count, 0)), None
     data = Data(np.arange(count), *nothing, np.zeros(count, dtype=np.int64))
     test = Test("t", 0.0, "fit", ("force",) * 6, "nominal", rig, data)
     model = Model() if name is None else Model((Term(EFFECTS[name], values(name)),))
-    found = predict(model, program(Campaign("c", replace(rig, point=None), NOISE, (), (test,))), slopes=False)
+    found = predict(model, program(Campaign("c", replace(rig, at=None), NOISE, (), (test,))), slopes=False)
     assert not found.lost.any()
     return found.values[:, :6]
 
 
 def by_frame(machine: str, name: str | None) -> np.ndarray:
     whole = MACHINES[machine]
-    rig = Rig("manipulator", whole.length, manipulator=whole)
+    rig = ManipulatorRig(length=whole.length, manipulator=whole)
     own = {} if name is None else {f"{name}.{p}": value for p, value in values(name).items()}
     errors = Errors.of(as_frame(own, rig))
     return Machine(whole, errors, postures(whole, np.array(POINT))).displacements(LOADS, np.zeros(3))
@@ -93,7 +93,7 @@ def test_an_effect_in_both(machine: str, name: str) -> None:
 def test_a_wrong_sign_shows(machine: str, name: str) -> None:
     """Each parameter of the truth turned to its other side of null, where it has one, is another machine."""
     springs = by_springs(machine, name)
-    rig = Rig("manipulator", MACHINES[machine].length, manipulator=MACHINES[machine])
+    rig = ManipulatorRig(length=MACHINES[machine].length, manipulator=MACHINES[machine])
     allowed = 1e-5 * size(springs)
     turned = 0
     for p in EFFECTS[name].parameters:
