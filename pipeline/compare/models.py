@@ -18,11 +18,11 @@ from pipeline.compare.failure import findings, groups, too_short
 from pipeline.compare.headline import headline
 from pipeline.compare.record import Comparison, ModelError
 from pipeline.inference.claims import trusted
-from pipeline.inference.fit import SETTLED, Fit
+from pipeline.inference.fit import Fit
 from pipeline.inference.frame_prediction import predict_frame
-from pipeline.inference.inputs import linearised
 from pipeline.inference.linear_prediction import predict_linear
 from pipeline.inference.model import Model
+from pipeline.inference.objective import Objective
 from pipeline.inference.prediction import Prediction, moved_along, predict
 from pipeline.inference.program import Program, program
 from pipeline.inference.residual import residual
@@ -40,6 +40,8 @@ TITLES = {
     "saved": "VJM with",
     "fea": "FEA, frame elements as drawn",
 }
+SETTLED = 3.0
+"""Whitened RMS below which a misfit moves the inputs by no more than their noise."""
 Say = Callable[[str], None]
 Solve = Callable[[np.ndarray | None], Prediction]
 """A prediction at inputs shifted by (R, 7) from the measured ones."""
@@ -64,7 +66,7 @@ def compare_models(campaign: Campaign, saved: Model | None = None, say: Say = la
         "vjm": (Model(), lambda shift: predict(Model(), cases, slopes=False, shift=shift)),
     }
     if saved is not None:
-        plans["saved"] = (saved, lambda shift: linearised(saved, cases, slopes=False, shift=shift)[0])
+        plans["saved"] = (saved, _evaluated(saved, cases))
     plans["fea"] = (Model(), lambda shift: predict_frame(cases, tangent, shift))
     found = []
     for key, (model, solve) in plans.items():
@@ -88,6 +90,14 @@ def compare_models(campaign: Campaign, saved: Model | None = None, say: Say = la
         versions=versions(),
         data=dict(whole.digests),
         commit=commit(),
+    )
+
+
+def _evaluated(model: Model, cases: Program) -> Solve:
+    """Of a model that may have kinks: each row on its better side, from there at other inputs."""
+    first = cache(lambda: Objective(model, cases).at(model.values, slopes=False, within=np.inf).prediction)
+    return lambda shift: (
+        first() if shift is None else predict(model, cases, slopes=False, start=first(), shift=shift)
     )
 
 

@@ -10,7 +10,7 @@ import numpy as np
 from pipeline.diagnose.evidence import PLAUSIBLE
 from pipeline.inference.fit import Fit, fit
 from pipeline.inference.intervals import has_an_end, landscape
-from pipeline.inference.model import Model
+from pipeline.inference.model import Model, at_bound
 from pipeline.inference.program import Program
 
 RISE = 2.0
@@ -26,11 +26,12 @@ def undetermined(found: Fit, whole: Program) -> tuple[str, ...]:
 def determined(found: Fit, whole: Program) -> Fit:
     """The fit with numbers that nothing determines put at their null and left there, those that show least first.
 
-    What only combinations determine is told by as many numbers as there are combinations. The same fit where all are
-    determined, or where it would leave more.
+    One that ends at its bound is not determined either where null fits as well: near a bound an effect may be far from
+    linear, so the derivatives there do not say how far the number may go. What only combinations determine is told by
+    as many numbers as there are combinations. The same fit where all are determined, or where it would leave more.
     """
     here = found
-    while blind := undetermined(here, whole):
+    while blind := tuple(dict.fromkeys((*undetermined(here, whole), *at_bound(here.model)))):
         fewer = _with_one_less(here, blind, whole, found.chi_square + RISE)
         if fewer is None:
             return found

@@ -84,6 +84,8 @@ def ruled(found: Found, judgement: Judgement, attempts: Attempts) -> Ruling:
             out,
         )
     settled = determined(here, shelf.whole)
+    # One that nothing determines may end at its bound as well as beside it; it is at null now.
+    bounded = at_bound(settled.model)
     because = _not_named(settled, shelf, bounded)
     verdict: Verdict = "unknown" if because else "identified"
     return Ruling(verdict, (best,), settled, (), None, alike, bounded, out, because)

@@ -18,8 +18,8 @@ from pipeline.inference.prediction import Prediction, predict
 from pipeline.inference.program import Program
 from pipeline.inference.residual import residual
 from pipeline.inference.sent import fits_at_once
-from pipeline.inference.sides import sided
 from pipeline.inference.starts import best_fit, height
+from pipeline.inference.stops import sided
 from pipeline.parameter_names import parted, path_of
 from vjm.effects.base import Effect
 from vjm.work import TooMuch, spent

@@ -20,10 +20,14 @@ from pipeline.inference.fit import Fit
 from pipeline.inference.program import Program
 from pipeline.inference.residual import whitening
 from pipeline.inference.span import basis
+from vjm.effects.sized import LENGTH
 
 Array = NDArray[np.float64]
 NOTHING = 0.01
 """Part of a constant that is nothing beside it."""
+FARTHEST = {"mm": LENGTH, "rad": 1.0}
+"""Zero of a prescribed displacement or rotation, at most, on the bench of the paper: it acts through the mechanism,
+whose tangent says nothing of one as long as the linkage. What is only read may have any zero."""
 
 
 @dataclass(frozen=True)
@@ -72,11 +76,22 @@ def zeros(found: Fit) -> list[Zero]:
         left = columns - taken @ (taken.T @ columns)
         sizes = np.linalg.norm(left, axis=0)
         seen = sizes > FLAT * np.maximum(np.linalg.norm(columns, axis=0), 1e-300)
+        farthest = _farthest(whole, channel)
         for k in np.flatnonzero(seen):
             value = float(left[:, k] @ found.whitened / sizes[k] ** 2)
+            if abs(value) > farthest:
+                continue
             everywhere = own[k] == max(own, key=len)
             out.append(_zero(found, channel, own[k], everywhere, (value, 1.0 / float(sizes[k])), len(named)))
     return sorted(out, key=lambda it: -it.gain)
+
+
+def _farthest(whole: Program, channel: int) -> float:
+    """In the channel's unit."""
+    if not np.any(whole.channels == channel):
+        return np.inf
+    unit = unit_of(channel)
+    return FARTHEST.get(unit, np.inf) * whole.campaign.rig.scale.of(unit)
 
 
 def _zero(

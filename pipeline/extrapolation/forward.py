@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from pipeline.diagnose.estimates import DOUBT, KINKED
 from pipeline.diagnose.shelf import Names, Shelf
-from pipeline.inference.sides import SIDE, sided
+from pipeline.inference.stops import SIDE, sided
 
 
 def forward(shelf: Shelf) -> Names:

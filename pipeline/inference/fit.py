@@ -11,10 +11,8 @@ from numpy.typing import NDArray
 from scipy.linalg import qr
 from scipy.optimize import lsq_linear
 
-from pipeline.inference.ground import Ground, nothing
-from pipeline.inference.inputs import linearised
 from pipeline.inference.model import Model
-from pipeline.inference.objective import Objective
+from pipeline.inference.objective import Evaluation, Objective
 from pipeline.inference.parts import at_rows, joined
 from pipeline.inference.prediction import Prediction
 from pipeline.inference.program import Program
@@ -32,10 +30,10 @@ VAIN = 0.05
 """Of chi-square, a fifth of a standard error: a smaller promise that is not kept is left, as happens at kinks."""
 HALFWAY = 0.5
 """Of what is left to a bound: a step from where an effect hardly shows may lead to what no linkage bears."""
-SETTLE = 3
-"""Times that a fit is linearised anew before it ends."""
 LOSING, LOSSES = 1.0, 8
 """Damping after a step on which rows lost their equilibrium, and how often that may be before a fit ends there."""
+ROUGH = 0.1
+"""Of what a step promises, by which chi-square at its end may be off."""
 SHORTEST = 0.03
 """Of a step not taken, at least, that the next one takes: else as much as a parabola through both its ends wants."""
 WEAK = 1e-10
@@ -44,6 +42,10 @@ HELD = 0.1
 """Of the number that shows most, in typical sizes each: a damped step takes no other for less."""
 LATE = 10
 """A fit that is far above noise ends when so many evaluations took nothing."""
+FAR = 2.0
+"""A model that leaves so many times what noise does is far from it: no verdict hangs on how much it leaves."""
+DRAGGING = 0.01
+"""Of what is left beyond noise: less than this is nothing there."""
 TINY = 1e-12
 WORK, ROWS = 1000.0, 20
 """Work (`vjm.work`) after which a fit of no row ends where it is, and the rows for which it takes as many again. The
@@ -136,42 +138,33 @@ def fit(
     """
     (rows, own), *others = program.by_role
     begin = start if start is None or not others else at_rows(start, program, own, rows)
-    aim = Objective(model, own, begin)
-    values, ended = model.values, False
+    aim = Objective(model, own)
     if model.free:
-        values, ended = _descend(aim, watch, plausible, share)
-    prediction, there = aim.at(values)
+        end = _descend(aim, begin, watch, plausible, share)
+    else:
+        there = aim.at(model.values, begin)
+        end = _End(there, there.rounds, ended=False)
+    values, there = end.there.values, end.there.with_slopes
     if not others:
-        return Fit(model.at(values), prediction, there, aim.count, ended)
-    pieces = [(rows, own, prediction)]
+        return Fit(model.at(values), there.prediction, there.residual, end.evaluations, end.ended)
+    pieces = [(rows, own, there.prediction)]
     for rest, apart in others:
         near = None if start is None else at_rows(start, program, apart, rest)
-        held = Objective(model, apart, near)
-        held.again(values)
-        pieces.append((rest, apart, held.at(values)[0]))
+        pieces.append((rest, apart, Objective(model, apart).at(values, near).with_slopes.prediction))
     whole = joined(program, pieces)
-    return Fit(model.at(values), whole, residual(program, whole), aim.count, ended)
-
-
-SETTLED = 3.0
-"""Whitened RMS below which a misfit moves the inputs by no more than their noise."""
+    return Fit(model.at(values), whole, residual(program, whole), end.evaluations, end.ended)
 
 
 def unfitted(model: Model, cases: Program) -> Fit:
-    """A model as it is: nothing is fitted but, where it leaves little, the inputs, which were measured as well.
-
-    Seen from the measured ones their noise would be in the slopes; what leaves much moves them by more than noise.
-    """
+    """A model as it is: nothing is fitted but the inputs, which were measured as well."""
     fixed = replace(model, fixed=frozenset(each.name for each in model.free) | model.fixed)
-    first = Fit(fixed, *linearised(fixed, cases), 1)
-    if first.rms > SETTLED:
-        return first
-    return Fit(fixed, *linearised(fixed, cases, start=first.prediction, shift=first.residual.shift), 2)
+    there = Objective(fixed, cases).at(fixed.values)
+    return Fit(fixed, there.prediction, there.residual, there.rounds)
 
 
 @dataclass(frozen=True, eq=False)
 class _Pulled:
-    """The residuals of an objective with a pull towards null, and their derivatives by typical sizes.
+    """An objective with a pull towards null, and its derivatives by typical sizes.
 
     scale, null: (P,). pull: (P, P), by typical sizes from null.
     """
@@ -188,84 +181,104 @@ class _Pulled:
         null = np.array([each.parameter.null for each in free])
         return cls(aim, scale, null, np.eye(len(free)) / plausible)
 
-    def residuals(self, values: Array) -> Array:
+    def residuals(self, there: Evaluation) -> Array:
         """(N + 1 + P,)"""
-        return np.concatenate([self.aim.residuals(values), self.pull @ ((values - self.null) / self.scale)])
+        return np.concatenate([there.residuals, self.pull @ ((there.values - self.null) / self.scale)])
 
-    def total(self, values: Array) -> float:
-        """The sum of their squares."""
-        return float(np.sum(self.residuals(values) ** 2))
-
-    def jacobian(self, values: Array) -> Array:
+    def jacobian(self, there: Evaluation) -> Array:
         """(N + 1 + P, P)"""
-        return np.vstack([self.aim.jacobian(values) * self.scale, self.pull])
+        return np.vstack([there.jacobian * self.scale, self.pull])
 
 
-def _descend(aim: Objective, watch: Watch | None, plausible: float, share: float) -> tuple[Array, bool]:
-    """Values (P,) near the model's of least chi-square, and whether the work ran out: Levenberg-Marquardt in a box.
+@dataclass(frozen=True, eq=False)
+class _End:
+    """Where a descent ends. evaluations: of the campaign. ended: whether its work ran out before."""
+
+    there: Evaluation
+    evaluations: int
+    ended: bool
+
+
+def _descend(
+    aim: Objective, start: Prediction | None, watch: Watch | None, plausible: float, share: float
+) -> _End:
+    """The least chi-square near the model's values: Levenberg-Marquardt in a box.
 
     Each step solves the linear problem within the bounds exactly (P. B. Stark, R. L. Parker, Computational
     Statistics 10, 1995), so that effects leave the bound where they begin at once. With residuals in sigmas the
-    stop has a meaning: no step promises more than `PROMISE` of chi-square, linearised near the inputs that fit best;
-    near the measured ones slopes would be too small by what their noise adds to their spread.
+    stop has a meaning: no step promises more than `PROMISE` of chi-square.
     """
     bounds = np.array([each.bounds for each in aim.model.free]).T
     reach = np.array([_reach(each.parameter) for each in aim.model.free]).T
     pulled = _Pulled.of(aim, plausible)
-    scale, values = pulled.scale, np.clip(aim.model.values, *bounds)
-    damping, least, settled, losses, past, stale = 0.0, 0.0, 0, 0, list[float](), True
+    scale, damping, least, losses, past = pulled.scale, 0.0, 0.0, 0, list[float]()
     ends = spent() + share * WORK * allowance(aim.program)
-    ground = Ground(aim, pulled.total)
-    ground.begin(values)
-    here, slopes, lost, place = pulled.residuals(values), pulled.jacobian(values), aim.lost, aim.place
+    there = aim.at(np.clip(aim.model.values, *bounds), start, within=np.inf)
+    here, slopes, count = pulled.residuals(there), pulled.jacobian(there), there.rounds
     for _ in range(STEPS):
-        room = (bounds - values) / scale * reach
+        room = (bounds - there.values) / scale * reach
         step = _step(slopes, here, room, damping)
         promise = here @ here - np.sum((here + slopes @ step) ** 2)
         unit = max(1.0, float(here @ here) / here.size)
         if not promise > PROMISE * unit:
-            if damping > 0.0:
-                # It may be the damping that promises so little.
-                damping, least = _less(damping), least / 10.0
-                continue
-            if settled == SETTLE or ground.circling or not ground.anew(place, values):
+            if damping == 0.0 and there.settled:
                 break
-            settled += 1
-            here, slopes, place = pulled.residuals(values), pulled.jacobian(values), aim.place
+            if damping == 0.0:
+                there, count = _settled(there, count)
+                here, slopes = pulled.residuals(there), pulled.jacobian(there)
+                continue
+            # It may be the damping that promises so little.
+            damping, least = _less(damping), least / 10.0
             continue
-        tried = np.clip(values + scale * step, *bounds)
-        there = pulled.residuals(tried)
-        gain = here @ here - there @ there
+        tried = aim.at(
+            np.clip(there.values + scale * step, *bounds), there.prediction, within=float(ROUGH * promise)
+        )
+        count += tried.rounds
+        gain = here @ here - np.sum(pulled.residuals(tried) ** 2)
         if watch is not None:
-            watch(f"{aim.count} evaluations, chi-square {min(here @ here, there @ there):.5g}")
-        if aim.lost < lost or (aim.lost == lost and gain > 0.1 * promise):
-            values, here, slopes, lost, place = tried, there, pulled.jacobian(tried), aim.lost, aim.place
+            watch(f"{count} evaluations, chi-square {min(here @ here, here @ here - gain):.5g}")
+        if tried.lost < there.lost or (tried.lost == there.lost and gain > 0.1 * promise):
+            there = tried.with_slopes
+            here, slopes = pulled.residuals(there), pulled.jacobian(there)
             damping = max(_less(damping), least)
             least /= 10.0
-            stale = stale or bool(gain > unit)
-        elif stale and promise > unit and ground.anew(place, values):
-            # Far from the inputs that fit best a sum of squares is too small, which makes the step look worse.
-            stale = False
-            here, slopes, lost, place = pulled.residuals(values), pulled.jacobian(values), aim.lost, aim.place
+        elif not there.settled and tried.lost == there.lost:
+            # Where inputs are not settled a sum of squares is too small, which makes the step look worse.
+            there, count = _settled(there, count)
+            here, slopes = pulled.residuals(there), pulled.jacobian(there)
         else:
             # Beyond what the linkage bears every row costs many tries: back at once, and no soon return.
-            losing = aim.lost > lost
-            share = max(1.0 / (2.0 - float(gain / promise)), SHORTEST)
-            damping = max(10.0 * damping, LOSING) if losing else _shorter(slopes, here, room, damping, share)
+            losing = tried.lost > there.lost
+            part = max(1.0 / (2.0 - float(gain / promise)), SHORTEST)
+            damping = max(10.0 * damping, LOSING) if losing else _shorter(slopes, here, room, damping, part)
             least, losses = (damping, losses + 1) if losing else (least, losses)
-            aim.back(place)
         past.append(float(here @ here))
         vain = gain <= 0.0 and promise < VAIN * unit
-        over = spent() > ends or drags(past, here.size)
-        if vain or damping > 1e6 or losses == LOSSES or ground.circling or over:
+        if vain or damping > 1e6 or losses == LOSSES or spent() > ends or drags(past, here.size):
             break
-    return ground.end(place, values), spent() > ends
+    return _End(there, count, spent() > ends)
+
+
+def _settled(there: Evaluation, count: int) -> tuple[Evaluation, int]:
+    """An evaluation with settled inputs, far above noise as far as they settle, and the predictions until then."""
+    found = there.settle()
+    return replace(found, settled=True).with_slopes, count + found.rounds - there.rounds
 
 
 def _reach(it: Parameter) -> tuple[float, float]:
     """Of the way to its bounds, how far one step may take a number: half of that to where an effect is strongest."""
     low, high = (HALFWAY if it.one_sided and it.null == other else 1.0 for other in (it.high, it.low))
     return low, high
+
+
+def far(total: float, count: int) -> bool:
+    """Whether a sum of so many squares is far above noise."""
+    return total > FAR * count
+
+
+def nothing(gain: float, total: float, count: int) -> bool:
+    """Whether a sum of so many squares is far above noise, and what it fell by is nothing."""
+    return far(total, count) and gain < DRAGGING * (total - count)
 
 
 def allowance(program: Program) -> float:

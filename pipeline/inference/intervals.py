@@ -19,14 +19,13 @@ from numpy.typing import NDArray
 from scipy.stats import norm
 
 from pipeline.inference.fit import WORK, Fit, allowance
-from pipeline.inference.inputs import linearised
 from pipeline.inference.landscape import BLIND, CLOSE, NEARLY, RISE, STEPS, Landscape, Range
-from pipeline.inference.model import Free, Model
+from pipeline.inference.model import Free
+from pipeline.inference.objective import Objective
 from pipeline.inference.parts import at_rows
 from pipeline.inference.prediction import Prediction
 from pipeline.inference.program import Program
-from pipeline.inference.residual import Residual
-from pipeline.inference.sides import sided
+from pipeline.inference.stops import sided
 from pipeline.processors import at_once
 from vjm.work import at_most
 
@@ -71,7 +70,7 @@ def landscape(best: Fit, program: Program) -> Landscape:
     rows, own = program.by_role[0]
     near = at_rows(best.prediction, program, own, rows)
     return Landscape(
-        _Near(best.model, near, own),
+        _Near(Objective(best.model, own), near),
         best.model.values,
         ranges,
         best.residual.aimed,
@@ -86,23 +85,19 @@ def _range(each: Free, doubt: float) -> Range:
 
 @dataclass(frozen=True, eq=False)
 class _Near:
-    """The residuals of a campaign about its best fit: solved from there, linearised at the same inputs."""
+    """The residuals of a campaign about its best fit, found from there."""
 
-    model: Model
+    aim: Objective
     near: Prediction
-    program: Program
-
-    def _at(self, values: Array, slopes: bool) -> Residual:
-        return linearised(self.model.at(values), self.program, slopes, self.near, self.near.shift)[1]
 
     def residuals(self, values: Array) -> Array:
         """(N + 1,)"""
-        return self._at(values, slopes=False).aimed
+        return self.aim.at(values, self.near, slopes=False, within=CLOSE).residuals
 
     def both(self, values: Array) -> tuple[Array, Array]:
         """(N + 1,) and (N + 1, P)"""
-        found = self._at(values, slopes=True)
-        return found.aimed, found.aimed_by
+        found = self.aim.at(values, self.near, within=CLOSE)
+        return found.residuals, found.jacobian
 
 
 def intervals(land: Landscape) -> tuple[Interval, ...]:

@@ -1,91 +1,119 @@
-"""What a fit makes least, as a function of the free numbers of a model; it knows where it was last."""
+"""What a fit makes least: a function of the free parameters of a model.
+
+At given parameters the true inputs of every row are those that fit best (`pipeline.inference.residual`), found by
+Gauss-Newton steps row by row until they settle. The same parameters give the same sum of squares wherever an
+evaluation begins: where it begins saves iterations, no more. At the inputs that fit best the derivatives that the
+weights have by the parameters cancel (envelope theorem), so the gradient of chi-square is that of the residual alone.
+"""
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
 
-from pipeline.inference.inputs import begun, kinked, linearised, sloped
+from pipeline.inference.contact_branches import begun, kinked, on_best_sides
 from pipeline.inference.model import Model
-from pipeline.inference.prediction import Prediction
+from pipeline.inference.prediction import Prediction, predict
 from pipeline.inference.program import Program
-from pipeline.inference.residual import Residual
+from pipeline.inference.residual import Residual, residual
 
 Array = NDArray[np.float64]
-Place = tuple[Prediction | None, tuple[bytes, Prediction, Residual] | None]
-"""Where an objective was last: what it starts from, and what it solved there."""
+NEAR = 0.1
+"""Of their sigmas: inputs are settled when a step moves them by no more."""
+SAME = 1e-3
+"""Of chi-square, of which noise makes one for every reading, or of its mean square where that is more: inputs are
+settled too when a step changes the sum of squares by no more."""
+ROUNDS = 6
+"""Steps of the inputs, at most. Far above noise they may not settle: no verdict hangs on how much is left there."""
 
 
-@dataclass(eq=False)
-class Objective:
-    """Whitened residuals and derivatives at values (P,); goes on from where it was last, at first from the start.
+@dataclass(frozen=True, eq=False)
+class Evaluation:
+    """An objective at values (P,) of its free parameters.
 
-    The inputs that fit best follow from one evaluation to the next, the first ones from the start. At them the
-    derivatives that the weights have by the values cancel (envelope theorem), so the gradient of chi² is that of the
-    residual alone.
+    settled: whether the inputs are those that fit best; else the sum of squares is an estimate. rounds: predictions of
+    the campaign that it took.
     """
 
-    model: Model
-    program: Program
-    last: Prediction | None = None
-    count: int = 0
-    _known: tuple[bytes, Prediction, Residual] | None = field(default=None, repr=False)
-
-    def at(self, values: Array) -> tuple[Prediction, Residual]:
-        """Prediction and residual at values with derivatives by the free numbers."""
-        here, found = self._solved(values)
-        if here.by_free.shape[-1] < len(self.model.free):
-            here, found = sloped(self.model.at(values), self.program, here)
-            self.last, self._known = here, (np.asarray(values).tobytes(), here, found)
-        return here, found
-
-    def _solved(self, values: Array) -> tuple[Prediction, Residual]:
-        """Prediction and residual at values; where rows choose their sides, at no small cost, derivatives wait until
-        they are asked for, which after a step that is not taken they are not."""
-        key = np.asarray(values).tobytes()
-        if self._known is None or self._known[0] != key:
-            known = self._known
-            shift = known[2].shift if known else begun(self.model, self.program, self.last)
-            slopes = not kinked(self.model)
-            found = linearised(self.model.at(values), self.program, slopes, self.last, shift)
-            self.last = found[0]
-            self.count += 1
-            self._known = (key, *found)
-        return self._known[1], self._known[2]
+    objective: Objective
+    values: Array
+    prediction: Prediction
+    residual: Residual
+    settled: bool
+    rounds: int
 
     @property
     def lost(self) -> int:
-        """Rows without an equilibrium where it was last."""
-        return 0 if self._known is None else int(self._known[1].lost.sum())
-
-    def residuals(self, values: Array) -> Array:
-        """(N + 1,) as `Residual.aimed`."""
-        return self._solved(values)[1].aimed
-
-    def again(self, values: Array) -> Array:
-        """(N + 1,) linearised anew, at the inputs that fit best by what is known."""
-        it = self._solved(values)[1]
-        self._known = (b"", self._known[1], it) if self._known is not None else None
-        return self.residuals(values)
+        """Rows without an equilibrium."""
+        return int(self.prediction.lost.sum())
 
     @property
-    def place(self) -> Place:
-        """Where it was last, to come back to by `back`."""
-        return self.last, self._known
+    def residuals(self) -> Array:
+        """(N + 1,) as `Residual.aimed`."""
+        return self.residual.aimed
 
-    def back(self, place: Place) -> None:
-        """Go on from there: a step that was not taken may have ended on another branch."""
-        self.last, self._known = place
-
-    def unsettled(self, values: Array) -> float:
-        """By how many of its sigmas an input that fits best is off the one near which the model was linearised."""
-        prediction, it = self._solved(values)
-        sigma = self.program.input_sigma
-        off = np.abs(it.shift - prediction.shift)[sigma > 0.0] / sigma[sigma > 0.0]
-        return float(off.max(initial=0.0))
-
-    def jacobian(self, values: Array) -> Array:
+    @property
+    def jacobian(self) -> Array:
         """(N + 1, P) as `Residual.aimed_by`."""
-        return self.at(values)[1].aimed_by
+        return self.with_slopes.residual.aimed_by
+
+    @cached_property
+    def with_slopes(self) -> Evaluation:
+        """The same, with derivatives by the free parameters."""
+        if self.prediction.by_free.shape[-1] == len(self.objective.model.free):
+            return self
+        it = self.objective
+        there = predict(
+            it.model.at(self.values), it.program, start=self.prediction, shift=self.prediction.shift
+        )
+        return replace(self, prediction=there, residual=residual(it.program, there))
+
+    def settle(self, within: float = 0.0) -> Evaluation:
+        """The same with inputs that are settled, or known as far as chi-square is wanted: `within` how much."""
+        it, here, found, rounds = self.objective, self.prediction, self.residual, self.rounds
+        slopes = here.by_free.shape[-1] == len(it.model.free)
+        model, total, same = it.model.at(self.values), float(found.aimed @ found.aimed), np.inf
+        while True:
+            off = _off(here, found)
+            settled = off.max(initial=0.0) <= NEAR or same <= SAME * max(1.0, total / found.aimed.size)
+            if settled or rounds >= self.rounds + ROUNDS or float(np.sum(off**2)) <= within:
+                return Evaluation(it, self.values, here, found, bool(settled), rounds)
+            here = predict(model, it.program, slopes, start=here, shift=found.shift)
+            found = residual(it.program, here)
+            before, total, rounds = total, float(found.aimed @ found.aimed), rounds + 1
+            same = abs(total - before)
+
+
+@dataclass(frozen=True, eq=False)
+class Objective:
+    """Whitened residuals of the rows of a program as a function of the free parameters of a model."""
+
+    model: Model
+    program: Program
+
+    def at(
+        self, values: Array, near: Prediction | None = None, slopes: bool = True, within: float = 0.0
+    ) -> Evaluation:
+        """Its value at values (P,), found from the states and the inputs of a prediction of a like model.
+
+        within: chi-square by which the value may be off; no input is looked for that can change it by less.
+        """
+        model = self.model.at(values)
+        if kinked(model):
+            here = on_best_sides(model, self.program, near)
+        else:
+            shift = begun(model, self.program, near)
+            here = predict(model, self.program, slopes, start=near, shift=shift)
+        found = residual(self.program, here)
+        return Evaluation(self, values, here, found, settled=False, rounds=1).settle(within)
+
+
+def _off(here: Prediction, found: Residual) -> Array:
+    """(R,) by how many of its sigmas an input that fits best is off the one near which a row was linearised, at
+    most."""
+    sigma = found.program.input_sigma
+    off = np.divide(np.abs(found.shift - here.shift), sigma, out=np.zeros_like(sigma), where=sigma > 0.0)
+    return np.asarray(off.max(axis=1, initial=0.0))

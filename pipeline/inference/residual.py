@@ -24,16 +24,14 @@ from numpy.typing import NDArray
 
 from pipeline.inference.prediction import Prediction
 from pipeline.inference.program import LOST, Program
-from pipeline.inference.sides import SIDE, SPREAD
 from pipeline.inference.span import basis
+from pipeline.inference.stops import SIDE, SPREAD, on_their_sides
 
 Array = NDArray[np.float64]
 FARTHEST = 5.0
 """Sigmas from where it was read that an input is looked for."""
 ROUNDED = 1e5
 """Noise of an input in sigmas of a reading from which the covariance is not formed: its ones would be lost."""
-SURE = 2.0
-"""Standard deviations from which a row is sure of its stop."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -89,9 +87,8 @@ class Residual:
     """e whitened: (R, C), zero where nothing is compared.
 
     slopes: (R, C, P) of the prediction, whitened. offsets: (R, C, O) whitened columns of unknown zeros.
-    shift: (R, 7) of the inputs that fit best, from the measured ones, as far as noise may move them. charge: (R,)
-    chi-square that it costs to bring the inputs to where the row was linearised, if they fit best on the other side of
-    a stop. undecided: (R,) rows that may as well lie on another side of a play.
+    shift: (R, 7) of the inputs that fit best, from the measured ones, as far as noise may move them. across, charge,
+    undecided: as in `pipeline.inference.stops.Sides`.
     """
 
     program: Program
@@ -99,6 +96,7 @@ class Residual:
     slopes: Array
     offsets: Array
     shift: Array
+    across: Array
     charge: Array
     undecided: np.ndarray
 
@@ -161,12 +159,12 @@ def residual(program: Program, prediction: Prediction) -> Residual:
     slopes, offsets = weights.apply(prediction.by_free), weights.apply(_unknown_zeros(program, prediction))
     gain = np.einsum("rij,rjk->rik", weights.factors, through)
     shift = program.input_sigma**2 * np.einsum("rik,ri->rk", gain, values)
-    charge, undecided = _beside_stops(prediction, shift, program.input_sigma, gain)
-    shift = _near(shift, program.input_sigma)
+    sides = on_their_sides(prediction, shift, program.input_sigma, gain)
+    shift, across = (_near(each, program.input_sigma) for each in (sides.shift, sides.across))
     values[prediction.lost] = np.where(program.predicted[prediction.lost], LOST, 0.0)
     slopes[prediction.lost] = 0.0
     offsets[prediction.lost] = 0.0
-    return Residual(program, values, slopes, offsets, shift, charge, undecided)
+    return Residual(program, values, slopes, offsets, shift, across, sides.charge, sides.undecided)
 
 
 def _near(shift: Array, sigma: Array) -> Array:
@@ -176,28 +174,6 @@ def _near(shift: Array, sigma: Array) -> Array:
         axis=1, keepdims=True
     )
     return shift * (FARTHEST / np.maximum(size, FARTHEST))
-
-
-def _beside_stops(
-    prediction: Prediction, shift: Array, sigma: Array, gain: Array
-) -> tuple[Array, NDArray[np.bool_]]:
-    """(R,) squared distance of the inputs, in their standard deviations once the row is read, from a stop that is
-    pressed, and whether it is too short to be sure of that stop.
-
-    A row linearised with a bar at its stop is linear only where the stop is pressed. If the inputs that fit best by
-    that line press it the other way, those at which it just touches are the best that belong to the line.
-    """
-    force, slope = prediction.stops[..., 0], prediction.stops[..., 1:] * sigma[:, None, :]
-    # The whitened derivatives by the whitened inputs: what the readings say of the inputs.
-    said = np.einsum("rkj,rcj->rkc", slope, gain * sigma[:, None, :])
-    variance = np.sum(slope**2, axis=-1) - np.sum(said**2, axis=-1)
-    moved = force + np.einsum("rkj,rj->rk", prediction.stops[..., 1:], shift - prediction.shift)
-    kept = ~prediction.lost[:, None]
-    away = (np.sign(force) * moved < 0.0) & kept
-    costs = np.divide(moved**2, variance, out=np.full_like(moved, LOST**2), where=variance > 0.0)
-    charge = np.max(np.where(away, np.minimum(costs, LOST**2), 0.0), axis=1, initial=0.0)
-    undecided = np.any((moved**2 <= SURE**2 * np.maximum(variance, 0.0)) & kept, axis=1)
-    return np.asarray(charge), np.asarray(undecided)
 
 
 def _unknown_zeros(program: Program, prediction: Prediction) -> Array:

@@ -10,10 +10,9 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import lsq_linear
 
-from pipeline.inference.fit import Fit, fit
-from pipeline.inference.ground import far
-from pipeline.inference.inputs import begun, linearised
+from pipeline.inference.fit import Fit, far, fit
 from pipeline.inference.model import Free, Model
+from pipeline.inference.objective import Objective
 from pipeline.inference.parts import at_rows
 from pipeline.inference.prediction import Prediction
 from pipeline.inference.program import Program
@@ -170,8 +169,8 @@ def height(model: Model, program: Program, start: Prediction | None) -> float:
     """Chi-square after one linear step of what is smooth in the model: a rung is judged with the rest fitted."""
     kinked = {t.effect.name for t in model.terms if not t.effect.smooth}
     model = replace(model, fixed=model.fixed | {f.name for f in model.free if f.effect in kinked})
-    shift = begun(model, program, start)
-    here = Fit(model, *linearised(model, program, bool(model.free), start, shift), 1)
+    there = Objective(model, program).at(model.values, start, within=np.inf).with_slopes
+    here = Fit(model, there.prediction, there.residual, there.rounds)
     if not model.free:
         return here.chi_square
     scale = np.array([abs(each.parameter.typical) for each in model.free])

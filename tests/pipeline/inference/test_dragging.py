@@ -5,8 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from pipeline.inference.fit import LATE, drags
-from pipeline.inference.ground import DRAGGING
+from pipeline.inference.fit import DRAGGING, LATE, drags
 
 ROWS = 100
 

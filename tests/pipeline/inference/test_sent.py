@@ -15,9 +15,9 @@ from pipeline.coverage.trial import campaign
 from pipeline.diagnose.diagnosis import answer_of, diagnose
 from pipeline.inference import sent
 from pipeline.inference.fit import Fit, fit
-from pipeline.inference.inputs import linearised
 from pipeline.inference.intervals import intervals, landscape
 from pipeline.inference.model import Model
+from pipeline.inference.objective import Objective
 from pipeline.inference.program import program
 from pipeline.inference.sent import fits_at_once
 from pipeline.inference.starts import best_fit
@@ -59,10 +59,9 @@ def test_a_fit_comes_back_as_it_was_made(two: None) -> None:
         np.testing.assert_array_equal(other.model.values, here.model.values)
         np.testing.assert_array_equal(other.jacobian, here.jacobian)
         # Fits that follow go on from its states, with what its laws remember.
-        again, left = linearised(other.model, CASES, start=other.prediction, shift=other.residual.shift)
-        same, kept = linearised(here.model, CASES, start=here.prediction, shift=here.residual.shift)
-        np.testing.assert_array_equal(again.values, same.values)
-        np.testing.assert_array_equal(left.values, kept.values)
+        again, same = (Objective(it.model, CASES).at(it.model.values, it.prediction) for it in (other, here))
+        np.testing.assert_array_equal(again.prediction.values, same.prediction.values)
+        np.testing.assert_array_equal(again.residual.values, same.residual.values)
 
 
 def test_that_the_work_ran_out_is_sent_and_the_fit_not_begun_again(

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from functools import cache
 from itertools import pairwise
+from typing import Any
 
 import numpy as np
 import pytest
@@ -14,7 +15,7 @@ from pipeline.inference.fit import Fit, _descend, fit
 from pipeline.inference.intervals import intervals, landscape
 from pipeline.inference.landscape import NEARLY
 from pipeline.inference.model import Model
-from pipeline.inference.objective import Objective
+from pipeline.inference.objective import Evaluation, Objective
 from pipeline.inference.prediction import predict
 from pipeline.inference.program import Program, program
 from pipeline.inference.residual import residual
@@ -121,17 +122,19 @@ def test_a_strain_of_yielding_between_two_sizes_of_the_ladder_is_found(strain: f
 
 
 @pytest.mark.long
-def test_no_step_of_a_fit_goes_most_of_the_way_to_where_an_effect_is_strongest() -> None:
+def test_no_step_of_a_fit_goes_most_of_the_way_to_where_an_effect_is_strongest(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
     model, tried = BENT.with_effects([EFFECTS["material_yield"]]), [0.0026]
-    aim = Objective(model.at(np.array(tried)), yielding(0.00215).by_role[0][1])
-    residuals = aim.residuals
+    evaluated = Objective.at
 
-    def seen(values: np.ndarray) -> np.ndarray:
+    def seen(aim: Objective, values: np.ndarray, *how: Any, **more: Any) -> Evaluation:
         tried.append(float(values[0]))
-        return residuals(values)
+        return evaluated(aim, values, *how, **more)
 
-    aim.residuals = seen  # type: ignore[method-assign]
-    assert _descend(aim, None, np.inf, 1.0)[0][0] == pytest.approx(0.00215, rel=0.01)
+    monkeypatch.setattr(Objective, "at", seen)
+    aim = Objective(model.at(np.array(tried)), yielding(0.00215).by_role[0][1])
+    assert _descend(aim, None, None, np.inf, 1.0).there.values[0] == pytest.approx(0.00215, rel=0.01)
     low = model.free[0].bounds[0]
     assert all(value >= low + 0.499 * (before - low) for before, value in pairwise(tried))
     assert min(tried) < low + 0.501 * (max(tried) - low), "the first step would have gone farther"

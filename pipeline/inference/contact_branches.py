@@ -1,14 +1,13 @@
-"""Near which inputs a model is linearised: the measured ones, those of the last step, or on the far side of a kink.
+"""Which side of its stops each row is on, of a model with kinks such as the stop of a play.
 
-With a kink, such as the stop of a play, the inputs that fit a row best may lie beyond it, where the slope at the
-measured ones does not point: within a play of ± 10 µm a force of half a newton decides the position, and it is read
-with a noise of one. What a row prescribed as force is then better looked for from the displacement that was measured
-with it: solved with displacements prescribed, the model says which forces it takes to be where the platform was.
-Rows that press other stops there are tried from there as well, those that are not sure of their side or charged for the
-stop that they press (`pipeline.inference.residual`) from the measured inputs, and keep what leaves the lesser
-chi-square: with only what the last step of a fit left to them they would stay on the sides of other numbers. A row that
-fits badly with a slide inside its play may belong to one of its stops, where a displacement that was prescribed is read
-with a noise as large as the play: it is tried from the nearest inputs at which the slide touches.
+The response is a line on either side of a kink, and the inputs that fit a row best may lie beyond it: within a play of
+± 10 µm a force of half a newton decides the position, and it is read with a noise of one. Each row is on the side on
+which its least chi-square is lowest, with the inputs held to that side (`pipeline.inference.stops`). Two places begin:
+the measured inputs and, as what was prescribed as force is better looked for from the displacement that was measured
+with it, where the platform was. A row that a stop charges is tried beyond that stop: its sum of squares is continuous
+there, so it falls, until no stop is worth crossing. One that fits badly may belong to a stop that is not next to it,
+where a displacement that was prescribed is read with a noise as large as the play: it is tried beyond each that is
+near.
 
 Where laws remember, each row chooses its side with the memory that the history has brought to it; the history is then
 solved once more, at the inputs that were chosen.
@@ -16,6 +15,7 @@ solved once more, at the inputs that were chosen.
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import replace
 
 import numpy as np
@@ -27,77 +27,75 @@ from pipeline.inference.parts import ARRAYS, states_at, states_with
 from pipeline.inference.prediction import Prediction, predict
 from pipeline.inference.program import Program
 from pipeline.inference.residual import Residual, residual
-from pipeline.inference.sides import sided
+from pipeline.inference.stops import Bounds, sided
 from vjm.mechanism import initial_memory
 
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
+CROSSINGS = 4
+"""Stops that a row crosses, at most, to where it fits better."""
 BADLY = 0.05
 """Chance that noise makes a row so bad that other sides are tried: sides tried for all rows would take up noise."""
 MOST = 0.5
 """Part of the rows: a model that fits fewer has other faults than their sides."""
 WITHIN = 4.0
 """Sigmas of the inputs within which a stop may have been touched."""
-OVER = 0.01
-"""Of half the play, by which the stop is passed, so that the slide is at it."""
+WORTH = 1e-3
+"""Of chi-square: a row that a stop charges with less stays."""
 
 
-def linearised(
-    model: Model,
-    cases: Program,
-    slopes: bool = True,
-    start: Prediction | None = None,
-    shift: Array | None = None,
-) -> tuple[Prediction, Residual]:
-    """Prediction and residual, arguments as of `predict`; of a model with kinks each row on its better side."""
-    swapped = cases.by_displacement if kinked(model) else None
-    if swapped is None:
-        here = predict(model, cases, slopes, start=start, shift=shift)
-        return here, residual(cases, here)
+def on_best_sides(model: Model, cases: Program, start: Prediction | None = None) -> Prediction:
+    """Readings of a model with kinks, each row on the side of its stops that leaves the least chi-square; without
+    derivatives by the free parameters.
+
+    Where it begins the readings say, never the start: from whose states equilibria are only found sooner.
+    """
     held = remembering(model)
     if held:
-        start = predict(model, cases, slopes=False, start=start, shift=shift, order=0)
+        start = predict(model, cases, slopes=False, start=start, order=0)
+    here = _crossed(model, cases, _reached(model, cases, start, held))
+    # Each from here: once taken to the wrong one of two stops, a row has no way to the other.
+    for rows, shift in list(_misplaced(cases, here)):
+        here = _better(model, cases, here, _whole(cases, rows), shift, here)
+    here = _crossed(model, cases, here)
+    return predict(model, cases, slopes=False, start=here, shift=here.shift) if held else here
+
+
+def _crossed(model: Model, cases: Program, here: Prediction) -> Prediction:
+    """Rows that a stop charges on its other side where that is better, from there on too."""
+    new = np.ones(len(cases.test), dtype=bool)
+    for _ in range(CROSSINGS):
+        left = residual(cases, here)
+        rows = _whole(cases, (left.charge > WORTH) & new)
+        if not rows.size:
+            return here
+        there = _better(model, cases, here, rows, left.across, here)
+        # A row that stayed would stay again.
+        here, new = there, np.any(there.shift != here.shift, axis=1)
+    return here
+
+
+def _misplaced(cases: Program, here: Prediction) -> Iterator[tuple[Mask, Array]]:
+    """For each stop rows (R,) that fit badly and are near it, and the inputs (R, 7) just beyond it; none where half of
+    all rows fit badly: there the model is wrong, not a side missed."""
+    bounds, sigma = Bounds.of(here, cases.input_sigma), cases.input_sigma
+    bad = _squares(residual(cases, here)) > chi2.isf(BADLY, np.maximum(cases.predicted.sum(axis=1), 1))
+    if np.mean(bad) < MOST:
+        for number in range(bounds.room.shape[1]):
+            way, far = bounds.beyond(number)
+            yield bad & (far < WITHIN), here.shift + sigma * way
+
+
+def _reached(model: Model, cases: Program, start: Prediction | None, held: bool) -> Prediction:
+    """At the measured inputs or, where that is better, where the platform was: there with the forces that take it."""
+    swapped = cases.by_displacement
+    if swapped is None:
+        return predict(model, cases, slopes=False, start=start, held=held)
     # Which stops are pressed where the platform was, a row that is lost there does not say on any branch.
-    reached = predict(model, swapped, slopes=False, start=start, order=0, held=held, bent=False)
-    # Which side is better the readings say: what the numbers change is asked where that is settled.
-    here = predict(model, cases, slopes=False, start=reached, shift=shift, held=held)
-    for rows, other in (
-        (_elsewhere(reached, here) & ~reached.lost, _shift_to(reached, swapped, cases)),
-        (_unsure(residual(cases, here)) & np.any(here.shift, axis=1), np.zeros_like(cases.input_sigma)),
-    ):
-        here = _better(model, cases, here, _whole(cases, rows), other, reached)
-    for play in range(here.slides.shape[1]):
-        # Both stops are tried from inside: once taken to the wrong one, a row has no way to the other.
-        for rows, other in [_touching(cases, here, play, side) for side in (1.0, -1.0)]:
-            here = _better(model, cases, here, _whole(cases, rows), other, here)
-    if slopes:
-        return sloped(model, cases, here)
-    if held:
-        here = predict(model, cases, slopes=False, start=here, shift=here.shift)
-    return here, residual(cases, here)
-
-
-def sloped(model: Model, cases: Program, here: Prediction) -> tuple[Prediction, Residual]:
-    """A prediction and its residual again, on the sides that its rows have chosen, with derivatives."""
-    there = predict(model, cases, start=here, shift=here.shift)
-    return there, residual(cases, there)
-
-
-def _touching(cases: Program, here: Prediction, play: int, side: float) -> tuple[Mask, Array]:
-    """(R,) rows that fit badly with this slide inside its play, and the shift (R, 7) to the nearest inputs, in their
-    sigmas, at which it touches the stop on that side; none that are far, and none where half of all rows fit
-    badly: there the model is wrong, not a stop missed."""
-    strain, half, slope = here.slides[:, play, 0], here.slides[:, play, 1], here.slides[:, play, 2:]
-    count = np.sum(cases.predicted, axis=1)
-    bad = _squares(residual(cases, here)) > chi2.isf(BADLY, np.maximum(count, 1))
-    inside = (np.abs(strain) < half) & np.isfinite(half) & ~here.lost
-    rows = bad & inside & (np.mean(bad) < MOST)
-    gap = np.where(rows, side * (1.0 + OVER) * half - strain, 0.0)
-    moved = cases.input_sigma**2 * slope
-    variance = np.sum(slope * moved, axis=1)
-    rows &= (gap**2 < WITHIN**2 * variance) & (variance > 0.0)
-    way = np.divide(gap, variance, out=np.zeros_like(gap), where=rows)
-    return rows, here.shift + way[:, None] * moved
+    there = predict(model, swapped, slopes=False, start=start, order=0, held=held, bent=False)
+    here = predict(model, cases, slopes=False, start=there, held=held)
+    rows = _whole(cases, _elsewhere(there, here) & ~there.lost)
+    return _better(model, cases, here, rows, _shift_to(there, swapped, cases), there)
 
 
 def _better(
@@ -153,11 +151,6 @@ def _squares(left: Residual) -> Array:
 def _elsewhere(one: Prediction, other: Prediction) -> Mask:
     """(R,) rows that press other stops."""
     return np.asarray(np.any(np.sign(one.stops[..., 0]) != np.sign(other.stops[..., 0]), axis=1))
-
-
-def _unsure(left: Residual) -> Mask:
-    """(R,) rows that may belong to another side of a play than the one they are on."""
-    return np.asarray((left.charge > 0.0) | left.undecided)
 
 
 def _whole(cases: Program, chosen: Mask) -> NDArray[np.int64]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from pipeline.inference.sides import SIDE, SPREAD
+from pipeline.inference.stops import SIDE, SPREAD
 
 
 def taken_up(play: float) -> np.ndarray:
