@@ -10,33 +10,31 @@ from scipy.stats import chi2, norm
 
 from pipeline.adequacy.constancy import largest_departure
 from pipeline.adequacy.patterns import scores
-from pipeline.diagnose.evidence import FALSE_ALARM
 from pipeline.inference.driving import column_name
 from pipeline.inference.fit import Fit, fit
 from pipeline.inference.program import program
 from pipeline.noise import lag_one
+from pipeline.selection.criteria import CRITERIA, Criteria
 from reports.quantities import percent, short, sigma
 
 Array = NDArray[np.float64]
-LEVEL = FALSE_ALARM / 6
-"""Chance, of each of six checks, that noise fails it: the truth is refused as seldom as a name is false."""
 HELD_OUT, SIZE = "held out", "size"
-LARGER = 1.15
-"""Scatter up to so many times the sigmas, and without any order, is put down to the sigmas."""
 
 
 @dataclass(frozen=True)
 class Check:
-    """One look at a residual. p_value: chance that noise looks like this in any of the places looked at."""
+    """One look at a residual. p_value: chance that noise looks like this in any of the places looked at; level: below
+    which noise would be too seldom."""
 
     name: str
     p_value: float
     words: str
+    level: float
 
     @property
     def passed(self) -> bool:
         """Whether noise may have done it."""
-        return self.p_value >= LEVEL
+        return self.p_value >= self.level
 
 
 @dataclass(frozen=True)
@@ -52,29 +50,32 @@ class Judgement:
         return all(check.passed for check in self.checks)
 
 
-def judge(found: Fit) -> Judgement:
+def judge(found: Fit, criteria: Criteria = CRITERIA) -> Judgement:
     """The residual of a fit, of the fitted tests and of those held out."""
-    size, order = _size(found), _order(found)
+    level = criteria.check_level
+    size, order = _size(found, level), _order(found, level)
     scatter = 1.0
-    if not size.passed and order.passed and found.rms <= LARGER:
+    if not size.passed and order.passed and found.rms <= criteria.scatter_factor:
         scatter = found.rms
-        size = Check(size.name, 1.0, f"the scatter is {percent(scatter - 1.0)} larger than the sigmas say")
+        size = Check(
+            size.name, 1.0, f"the scatter is {percent(scatter - 1.0)} larger than the sigmas say", level
+        )
     out = [
-        _lost(found),
+        _lost(found, level),
         size,
         order,
-        _series(found, scatter),
-        _patterns(found, scatter),
-        _constant(found, scatter),
+        _series(found, scatter, level),
+        _patterns(found, scatter, criteria),
+        _constant(found, scatter, level),
     ]
     checks = [check for check in out if check is not None]
-    held = _held_out(found, scatter)
+    held = _held_out(found, scatter, level)
     if found.model.free and held is not None and not held.passed and all(check.passed for check in checks):
         held = _held_out_anew(found, scatter, held)
     return Judgement(tuple(checks if held is None else [*checks, held]), scatter)
 
 
-def _lost(found: Fit) -> Check | None:
+def _lost(found: Fit, level: float) -> Check | None:
     lost = np.flatnonzero(found.prediction.lost)
     if not lost.size:
         return None
@@ -82,21 +83,21 @@ def _lost(found: Fit) -> Check | None:
     tests = dict.fromkeys(whole.campaign.tests[n].id for n in whole.test[lost])
     reason = found.prediction.reasons.get(int(lost[0]), "no equilibrium")
     words = f"the model has no stable state in {lost.size} rows ({', '.join(tests)}): {reason}"
-    return Check("states", 0.0, words)
+    return Check("states", 0.0, words, level)
 
 
-def _size(found: Fit) -> Check:
+def _size(found: Fit, level: float) -> Check:
     p = float(chi2.sf(found.chi_square, max(found.degrees, 1)))
-    return Check(SIZE, p, f"what is left is {sigma(found.rms)} sigma")
+    return Check(SIZE, p, f"what is left is {sigma(found.rms)} sigma", level)
 
 
-def _order(found: Fit) -> Check:
+def _order(found: Fit, level: float) -> Check:
     try:
         check = lag_one(list(_paths(found).values()))
     except ValueError as error:
-        return Check("order", 1.0, f"order along the load paths cannot be judged: {error}")
+        return Check("order", 1.0, f"order along the load paths cannot be judged: {error}", level)
     words = f"neighbours along the load paths correlate by {check.statistic:.2f}"
-    return Check("order", check.p_value, words)
+    return Check("order", check.p_value, words, level)
 
 
 def _paths(found: Fit) -> dict[tuple[int, int], Array]:
@@ -109,7 +110,7 @@ def _paths(found: Fit) -> dict[tuple[int, int], Array]:
     return out
 
 
-def _series(found: Fit, scatter: float) -> Check:
+def _series(found: Fit, scatter: float, level: float) -> Check:
     """The worst of all tests and channels."""
     paths = _paths(found)
     worst, p = max(
@@ -119,20 +120,20 @@ def _series(found: Fit, scatter: float) -> Check:
     rms = float(np.sqrt(np.mean(paths[worst] ** 2)))
     name = column_name(worst[1], whole.campaign.gauges)
     words = f"{name} in test {whole.campaign.tests[worst[0]].id} is off by {sigma(rms)} sigma"
-    return Check("series", float(min(1.0, p * len(paths))), words)
+    return Check("series", float(min(1.0, p * len(paths))), words, level)
 
 
-def _patterns(found: Fit, scatter: float) -> Check:
+def _patterns(found: Fit, scatter: float, criteria: Criteria) -> Check:
     """The worst of all sensors' patterns."""
-    every = scores(found)
+    every = scores(found, criteria)
     if not every:
-        return Check("patterns", 1.0, "no pattern of a sensor can be seen")
+        return Check("patterns", 1.0, "no pattern of a sensor can be seen", criteria.check_level)
     p = 2.0 * float(norm.sf(abs(every[0].score) / scatter)) * len(every)
     words = f"the rest looks as if {every[0].words} ({sigma(abs(every[0].score))} sigma)"
-    return Check("patterns", min(1.0, p), words)
+    return Check("patterns", min(1.0, p), words, criteria.check_level)
 
 
-def _constant(found: Fit, scatter: float) -> Check | None:
+def _constant(found: Fit, scatter: float, level: float) -> Check | None:
     """The worst of all numbers at each angle and in each test."""
     it = largest_departure(found)
     if it is None:
@@ -140,10 +141,10 @@ def _constant(found: Fit, scatter: float) -> Check | None:
     p = 2.0 * float(norm.sf(abs(it.score) / scatter)) * it.looks
     more = "more" if it.change > 0.0 else "less"
     words = f"{it.name} would be {short(abs(it.change))} {more} {it.where} ({sigma(abs(it.score))} sigma)"
-    return Check("constancy", min(1.0, p), words)
+    return Check("constancy", min(1.0, p), words, level)
 
 
-def _held_out(found: Fit, scatter: float) -> Check | None:
+def _held_out(found: Fit, scatter: float, level: float) -> Check | None:
     """Tests that were never used, with the uncertainty that the fitted numbers leave them."""
     whole = found.residual.program
     used = whole.predicted & ~whole.fitted[:, None]
@@ -167,7 +168,7 @@ def _held_out(found: Fit, scatter: float) -> Check | None:
         total -= float(pull @ np.linalg.solve(inner, pull))
     p = float(chi2.sf(total / scatter**2, residual.size))
     rms = float(np.sqrt(np.mean(residual**2)))
-    return Check(HELD_OUT, p, f"tests that were held out are off by {sigma(rms)} sigma")
+    return Check(HELD_OUT, p, f"tests that were held out are off by {sigma(rms)} sigma", level)
 
 
 def _held_out_anew(found: Fit, scatter: float, linear: Check) -> Check:
@@ -178,7 +179,7 @@ def _held_out_anew(found: Fit, scatter: float, linear: Check) -> Check:
     both = fit(found.model, program(replace(whole.campaign, tests=tests)), found.prediction)
     count = both.whitened.size - found.whitened.size
     p = float(chi2.sf((both.chi_square - found.chi_square) / scatter**2, max(count, 1)))
-    return linear if p < LEVEL else Check(HELD_OUT, p, linear.words)
+    return linear if p < linear.level else replace(linear, p_value=p)
 
 
 def _root(covariance: Array) -> Array:

@@ -18,12 +18,11 @@ from pipeline.inference.fit import Fit
 from pipeline.inference.program import Program
 from pipeline.inference.residual import whitening
 from pipeline.inference.span import basis
+from pipeline.selection.criteria import Criteria
 
 Array = NDArray[np.float64]
 LAG = 0.7
 """Of a reading that is still there a step later, in a sensor that follows slowly."""
-CHOSEN = 5.0
-"""Sigmas up to which a reading may be what a row chose its side of a play by."""
 FLAT = 1e-3
 """Part of a column that must be left when what the fit can move is taken out of it."""
 
@@ -38,13 +37,13 @@ class Pattern:
     amplitude: float
 
 
-def scores(found: Fit) -> list[Pattern]:
+def scores(found: Fit, criteria: Criteria) -> list[Pattern]:
     """How well the residual of the fitted tests follows each pattern, after the fit took its part; largest first."""
     whole = found.residual.program
     used = whole.predicted & whole.fitted[:, None]
     weights = whitening(whole, found.prediction)
     taken = basis(np.hstack([found.jacobian, found.residual.flat(found.residual.offsets)]))
-    residual, readings = found.whitened, _expected(found)
+    residual, readings = found.whitened, _expected(found, criteria.chosen_side)
     out = []
     for channel in range(whole.measured.shape[1]):
         named = list(_errors(whole, readings, channel))
@@ -90,15 +89,15 @@ def acting(found: Fit, channel: int, errors: Array) -> Array:
     return out
 
 
-def _expected(found: Fit) -> Array:
+def _expected(found: Fit, chosen_side: float) -> Array:
     """(R, C) readings as they would be without noise: with it, a pattern would follow the noise of its own sensor. So
-    would small ones of a row that chose its side of a play by that noise: they are zero."""
+    would small ones, up to so many sigmas, of a row that chose its side of a play by that noise: they are zero."""
     whole = found.residual.program
     readings = found.prediction.values.copy()
     given = np.take_along_axis(np.nan_to_num(whole.measured), whole.channels, axis=1)
     np.put_along_axis(readings, whole.channels, given + found.residual.shift[:, :6], axis=1)
     readings[found.prediction.lost] = 0.0
-    chosen = found.residual.undecided[:, None] & (np.abs(readings) < CHOSEN * whole.sigma)
+    chosen = found.residual.undecided[:, None] & (np.abs(readings) < chosen_side * whole.sigma)
     return np.where(chosen, 0.0, readings)
 
 

@@ -15,9 +15,9 @@ from numpy.typing import NDArray
 
 from pipeline.diagnose.picture import Picture
 from pipeline.diagnose.shelf import Names, Shelf
+from pipeline.selection.criteria import CRITERIA
 
 Array = NDArray[np.float64]
-APPARENT = 2.33
 
 
 @dataclass(frozen=True)
@@ -37,7 +37,7 @@ class Likeness:
     @property
     def needed(self) -> float:
         """Size from which the right one is named in 95 % of cases."""
-        return APPARENT * self.gamma
+        return CRITERIA.name_deviations * self.gamma
 
 
 def likenesses(shelf: Shelf, names: Names) -> list[Likeness]:

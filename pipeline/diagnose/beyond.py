@@ -15,23 +15,22 @@ from pipeline.diagnose.merit import badness
 from pipeline.diagnose.rivals import Found
 from pipeline.diagnose.shelf import Names
 
-NEAR = 25.0
-"""Chi-square up to which a set that is worse without such an effect is looked at with it."""
-
 
 def with_what_held_out_tests_need(found: Found) -> Found:
     """The same, or with an effect that is there or not added to the best set and its rivals."""
     shelf, best = found.shelf, found.best
-    if [check.name for check in judge(shelf.fit(best)).checks if not check.passed] != [HELD_OUT]:
+    if [check.name for check in judge(shelf.fit(best), shelf.criteria).checks if not check.passed] != [
+        HELD_OUT
+    ]:
         return found
     for name, effect in shelf.candidates.items():
         more: Names = best | {name}
         if effect.parameters or more == best:
             continue
         # That the fitted tests may like it a little less is chance: what it leaves of them is noise as well.
-        if judge(shelf.fit(more)).noise:
+        if judge(shelf.fit(more), shelf.criteria).noise:
             # With it the data may exclude less than they did without.
-            worst = badness(shelf, best) + NEAR
+            worst = badness(shelf, best) + shelf.criteria.held_out_gap
             near = [n for n in shelf.fits if len(n) <= len(best) and badness(shelf, n) < worst]
             sets = list(dict.fromkeys(n | {name} for n in near))
             return replace(found, best=more, rivals=tuple(possible(shelf, sets, more)), beyond=name)

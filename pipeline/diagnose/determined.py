@@ -7,14 +7,11 @@ from dataclasses import replace
 
 import numpy as np
 
-from pipeline.diagnose.evidence import PLAUSIBLE
 from pipeline.inference.fit import Fit, fit
 from pipeline.inference.intervals import has_an_end, landscape
 from pipeline.inference.model import Model, at_bound
 from pipeline.inference.program import Program
-
-RISE = 2.0
-"""Chi-square by which a fit may rise where numbers that nothing determines are put at null: beyond, they were."""
+from pipeline.selection.criteria import Criteria
 
 
 def undetermined(found: Fit, whole: Program) -> tuple[str, ...]:
@@ -23,7 +20,7 @@ def undetermined(found: Fit, whole: Program) -> tuple[str, ...]:
     return tuple(each.name for k, each in enumerate(found.model.free) if not has_an_end(land, k))
 
 
-def determined(found: Fit, whole: Program) -> Fit:
+def determined(found: Fit, whole: Program, criteria: Criteria) -> Fit:
     """The fit with numbers that nothing determines put at their null and left there, those that show least first.
 
     One that ends at its bound is not determined either where null fits as well: near a bound an effect may be far from
@@ -32,15 +29,17 @@ def determined(found: Fit, whole: Program) -> Fit:
     """
     here = found
     while blind := tuple(dict.fromkeys((*undetermined(here, whole), *at_bound(here.model)))):
-        fewer = _with_one_less(here, blind, whole, found.chi_square + RISE)
+        fewer = _with_one_less(here, blind, whole, criteria, found.chi_square)
         if fewer is None:
             return found
         here = fewer
     return here
 
 
-def _with_one_less(here: Fit, blind: Sequence[str], whole: Program, most: float) -> Fit | None:
-    """The fit with one of these numbers at null that leaves no more than so much; None where each leaves more.
+def _with_one_less(
+    here: Fit, blind: Sequence[str], whole: Program, criteria: Criteria, least: float
+) -> Fit | None:
+    """The fit with one of these numbers at null that leaves hardly more than the least; None where each leaves more.
 
     Of a product of two numbers, such as the spring of a friction that never slips, one at null is no effect at all, the
     other at its usual size tells the product.
@@ -48,8 +47,8 @@ def _with_one_less(here: Fit, blind: Sequence[str], whole: Program, most: float)
     free = {each.name: k for k, each in enumerate(here.model.free)}
     sizes = {n: float(np.linalg.norm(here.jacobian[:, free[n]])) * _typical(here, free[n]) for n in blind}
     for name in sorted(blind, key=lambda each: sizes[each]):
-        fewer = fit(_nulled(here.model, name), whole, here.prediction, None, PLAUSIBLE)
-        if fewer.chi_square <= most:
+        fewer = fit(_nulled(here.model, name), whole, here.prediction, None, criteria.plausible)
+        if fewer.chi_square <= least + criteria.undetermined_rise:
             return fewer
     return None
 

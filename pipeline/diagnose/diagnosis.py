@@ -37,11 +37,9 @@ from pipeline.inference.program import program
 from pipeline.inference.sigmas import completed
 from pipeline.inference.suitable import check_suitable, scale_for, sized_model
 from pipeline.provenance import commit, versions
+from pipeline.selection.criteria import CRITERIA, Criteria
 from vjm.effects.base import Effect
 from vjm.effects.sized import all_sized
-
-FEW = 3
-"""Rivals for which the next test is sought."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -105,7 +103,11 @@ class Diagnosis:
 
 
 def diagnose(
-    campaign: Campaign, model: Model, known: Mapping[str, Effect], say: Say = lambda _: None
+    campaign: Campaign,
+    model: Model,
+    known: Mapping[str, Effect],
+    say: Say = lambda _: None,
+    criteria: Criteria = CRITERIA,
 ) -> Diagnosis:
     """Look for what the model lacks. InputError for a campaign that cannot be judged or a model that it cannot have."""
     begin = perf_counter()
@@ -114,27 +116,31 @@ def diagnose(
     whole = trusted(completed(campaign), model)
     candidates, refused = suitable(whole, model, known)
     cases, attempts = program(whole), Attempts()
-    shelf = Shelf(cases, model, candidates, say)
+    shelf = Shelf(cases, model, candidates, say, criteria)
     before = beginning(shelf)
     if why := untested(before):
         found = Found(shelf, frozenset(), ())
         nothing = Ruling("nothing_tested", (frozenset(),), before)
         return Diagnosis(whole, found, nothing, Judgement((), 1.0), {}, None, refused, why, (), _since(begin))
-    found = search_one_by_one(shelf) if plain_zero(before) else with_what_held_out_tests_need(search(shelf))
-    judgement = judge(shelf.fit(found.best))
+    found = (
+        search_one_by_one(shelf)
+        if plain_zero(before, criteria)
+        else with_what_held_out_tests_need(search(shelf))
+    )
+    judgement = judge(shelf.fit(found.best), criteria)
     say("what else could explain it")
     ruling = ruled(found, judgement, attempts)
     next_test = None
     if len(ruling.sets) > 1:
         say("the next test")
-        fits = [shelf.fit(n) for n in ruling.sets[:FEW]]
+        fits = [shelf.fit(n) for n in ruling.sets[: criteria.next_test_sets]]
         next_test = attempts.get("the next test", lambda: best_next_test(fits, shelf.whole), None)
     stable = attempts.get("whether folds of the tests agree", lambda: _agreements(shelf, found.best), {})
     return Diagnosis(
         whole,
         found,
         ruling,
-        judge(ruling.fit),
+        judge(ruling.fit, criteria),
         stable,
         next_test,
         refused,
@@ -249,7 +255,11 @@ def _steps(it: Diagnosis) -> list[Fit]:
 
 
 def _alike(it: Diagnosis) -> tuple[tuple[str, ...], ...]:
-    return tuple(dict.fromkeys((a.effect, a.rival) for a in it.alike if a.correlation > 0.9))
+    return tuple(
+        dict.fromkeys(
+            (a.effect, a.rival) for a in it.alike if a.correlation > it.shelf.criteria.confusable_correlation
+        )
+    )
 
 
 def candidates_of(it: Diagnosis) -> tuple[Candidate, ...]:

@@ -9,11 +9,6 @@ from itertools import combinations
 from pipeline.diagnose.merit import cost, price
 from pipeline.diagnose.shelf import Names, Shelf
 
-LEADERS = 7
-"""Candidates of which pairs are looked at."""
-DOUBT, KINKED = 0.15, 0.6
-"""Part of what an effect explains by which its first-order estimate may be wrong; of one with kinks, from a probe."""
-
 
 @dataclass(frozen=True)
 class Estimate:
@@ -30,7 +25,7 @@ def estimates(shelf: Shelf, start: Names, counts: Iterable[int]) -> list[Estimat
     every = [name for name in found.signatures if start >= set(shelf.candidates[name].includes)]
     base = cost(shelf, start)
     single = {name: found.gain([name]) for name in every}
-    leaders = sorted(single, key=lambda name: -single[name].value)[:LEADERS]
+    leaders = sorted(single, key=lambda name: -single[name].value)[: shelf.criteria.leaders]
     out = [Estimate(start, base, {})]
     for count in counts:
         groups = [(n,) for n in single] if count == 1 else list(combinations(leaders, count))
@@ -44,7 +39,8 @@ def estimates(shelf: Shelf, start: Names, counts: Iterable[int]) -> list[Estimat
 
 def doubt(shelf: Shelf, names: Names) -> float:
     """Part of what these effects explain by which the estimate may be wrong."""
-    return DOUBT if all(shelf.candidates[name].smooth for name in names) else KINKED
+    smooth = all(shelf.candidates[name].smooth for name in names)
+    return shelf.criteria.estimate_error if smooth else shelf.criteria.kinked_estimate_error
 
 
 def raw(shelf: Shelf, e: Estimate) -> float:

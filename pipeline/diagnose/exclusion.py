@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import numpy as np
 
-from pipeline.diagnose.evidence import RAW, apart
 from pipeline.diagnose.merit import badness, seen
 from pipeline.diagnose.shelf import Names, Shelf
 
@@ -32,7 +31,7 @@ def possible(shelf: Shelf, sets: list[Names], best: Names) -> list[Names]:
 
 def excluded(shelf: Shelf, rival: Names, best: Names) -> bool:
     """Whether the data speak against a rival."""
-    return worse(shelf, rival, best) > max(RAW, needed(shelf, rival, best))
+    return worse(shelf, rival, best) > max(shelf.criteria.exclusion_least, needed(shelf, rival, best))
 
 
 def worse(shelf: Shelf, rival: Names, best: Names) -> float:
@@ -45,4 +44,6 @@ def needed(shelf: Shelf, rival: Names, best: Names) -> float:
     the numbers take up that one of them has more, as far as the data see them, and where rows choose sides in one of
     them alone, by how much that varies."""
     more = seen(shelf, best) - seen(shelf, rival)
-    return apart(more) + abs(shelf.fit(rival).residual.spread - shelf.fit(best).residual.spread)
+    return shelf.criteria.apart(more) + abs(
+        shelf.fit(rival).residual.spread - shelf.fit(best).residual.spread
+    )

@@ -8,20 +8,17 @@ from pipeline.diagnose.estimates import estimates
 from pipeline.diagnose.merit import cost, is_noise, root_of, taken
 from pipeline.diagnose.shelf import Names, Shelf
 
-FEW, BEAM = 20, 3
-"""Rows up to which that is so, and the sets that are grown side by side."""
-
 
 def few(shelf: Shelf) -> bool:
     """Whether no more rows are fitted than that."""
-    return int(shelf.whole.fitted.sum()) <= FEW
+    return int(shelf.whole.fitted.sum()) <= shelf.criteria.few_steps
 
 
 def leading(shelf: Shelf, sets: set[Names]) -> list[Names]:
     """The best of these sets, as many as are grown side by side: where every row is lost no slope says by what."""
     rows = shelf.whole.fitted
     able = [names for names in sets if not shelf.fit(names).prediction.lost[rows].all()]
-    return sorted(able, key=lambda names: cost(shelf, names))[:BEAM]
+    return sorted(able, key=lambda names: cost(shelf, names))[: shelf.criteria.few_sets]
 
 
 def grown_by_everything(shelf: Shelf, starts: list[Names], roots: list[Names]) -> list[Names]:

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from pipeline.diagnose.evidence import entry
+from pipeline.diagnose.merit import entry
 from pipeline.diagnose.picture import Picture
 from pipeline.diagnose.shelf import Names, Shelf
 from pipeline.inference.fit import Fit
@@ -63,5 +63,5 @@ def agreement(shelf: Shelf, names: Names, name: str) -> float | None:
 
 def _chosen(shelf: Shelf, about: Picture) -> str:
     every: Sequence[str] = list(about.signatures)
-    worth = [about.gain([n]).value - entry(shelf.candidates[n], len(shelf.candidates)) for n in every]
+    worth = [about.gain([n]).value - entry(shelf, n) for n in every]
     return every[int(np.argmax(worth))]

@@ -22,12 +22,9 @@ from pipeline.inference.fit import Fit
 from pipeline.inference.prediction import Prediction, predict
 from pipeline.inference.program import Program, program
 from pipeline.inference.residual import Residual, residual, whitening
+from pipeline.selection.criteria import CRITERIA
 
 Array = NDArray[np.float64]
-
-
-ENOUGH = 30.0
-"""Chi-square between two models beyond which more is of no use."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -40,12 +37,13 @@ class NextTest:
     @property
     def worth(self) -> float:
         """How many pairs are parted well, a poorly parted one counting for its share."""
-        return sum(min(value, ENOUGH) for value in self.parted.values()) / ENOUGH
+        enough = CRITERIA.next_test
+        return sum(min(value, enough) for value in self.parted.values()) / enough
 
     @property
     def apart(self) -> list[tuple[int, int]]:
         """Pairs of models that would be told apart."""
-        return [pair for pair, value in self.parted.items() if value > ENOUGH / 2]
+        return [pair for pair, value in self.parted.items() if value > CRITERIA.next_test / 2]
 
 
 @dataclass(frozen=True, eq=False)

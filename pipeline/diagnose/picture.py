@@ -15,7 +15,6 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import lsq_linear
 
-from pipeline.diagnose.evidence import PLAUSIBLE
 from pipeline.diagnose.signatures import Look, Signature
 from pipeline.inference.fit import Fit
 from pipeline.inference.span import RANK, basis
@@ -37,7 +36,7 @@ class Picture:
 
     residual: (N,) whitened, of the rows that are looked at. base: (N, P) what the fit can move. tests: (N,) numbers.
     share: of the fitted readings that are looked at. rescues: chi-square with an effect at its typical size, where
-    that was looked at.
+    that was looked at. plausible: typical sizes of a number that count as one sigma.
     """
 
     fit: Fit
@@ -46,6 +45,7 @@ class Picture:
     base: Array
     tests: NDArray[np.int_]
     share: float
+    plausible: float
     rescues: Mapping[str, float] = field(default_factory=dict)
 
     def without(self, test: int) -> Picture:
@@ -54,7 +54,9 @@ class Picture:
         some = {
             name: replace(s, columns=tuple(c[kept] for c in s.columns)) for name, s in self.signatures.items()
         }
-        return Picture(self.fit, some, self.residual[kept], self.base[kept], self.tests[kept], self.share)
+        return Picture(
+            self.fit, some, self.residual[kept], self.base[kept], self.tests[kept], self.share, self.plausible
+        )
 
     @cached_property
     def _small(self) -> tuple[Array, dict[str, list[Array]]]:
@@ -65,13 +67,13 @@ class Picture:
     def _weighed(self) -> tuple[Array, dict[str, list[Array]]]:
         """The same, with how plausible the numbers are: of the fit and of what is added, each a reading more."""
         free = self.fit.model.free
-        scale = PLAUSIBLE * np.array([f.parameter.typical for f in free])
+        scale = self.plausible * np.array([f.parameter.typical for f in free])
         away = (self.fit.model.values - np.array([f.parameter.null for f in free])) / scale
         own = [size for s in self.signatures.values() for size in s.sizes]
         zeros = self.base.shape[1] - len(free)
         # What is looked at stands for more readings than it has; numbers do not.
         fitted = np.sqrt(self.share) * np.hstack([np.diag(1.0 / scale), np.zeros((len(free), zeros))])
-        added = np.sqrt(self.share) * np.diag(np.array(own) / PLAUSIBLE)
+        added = np.sqrt(self.share) * np.diag(np.array(own) / self.plausible)
         base = np.vstack([self.base, fitted, np.zeros((len(own), self.base.shape[1]))])
         residual = np.concatenate([self.residual, -np.sqrt(self.share) * away, np.zeros(len(own))])
         return self._split(
@@ -121,7 +123,9 @@ class Picture:
         return self._small[1][name][probe]
 
 
-def picture(found: Fit, every: Sequence[Signature], at: Look, rescues: Mapping[str, float]) -> Picture:
+def picture(
+    found: Fit, every: Sequence[Signature], at: Look, rescues: Mapping[str, float], plausible: float
+) -> Picture:
     """Of a fit and the signatures about it."""
     it = found.residual
     used = it.program.predicted & it.program.fitted[:, None]
@@ -131,7 +135,14 @@ def picture(found: Fit, every: Sequence[Signature], at: Look, rescues: Mapping[s
     tests = np.broadcast_to(it.program.test[rows][:, None], mask.shape)[mask]
     share = float(mask.sum() / max(used.sum(), 1)) or 1.0
     return Picture(
-        found, {s.effect.name: s for s in every}, it.values[rows][mask], base, tests, share, rescues
+        found,
+        {s.effect.name: s for s in every},
+        it.values[rows][mask],
+        base,
+        tests,
+        share,
+        plausible,
+        rescues,
     )
 
 

@@ -7,21 +7,6 @@ import numpy as np
 from pipeline.diagnose.merit import badness, cost, price, root_of
 from pipeline.diagnose.shelf import Names, Shelf
 
-HOPELESS = 300.0
-"""Times the least chi-square of the roots, beyond which a root is left out unseen."""
-FAR_OFF = 5.0
-"""Times the chi-square of a fit, or of noise, that the same numbers, smooth ones moved by a linear step, leave without
-an effect that is there or not: then it is needed. The fit itself takes longest where it ends far from all noise."""
-NEAR = 1.5
-"""Times the chi-square of a set, or of noise, that one without an effect of it leaves, at most, to be fitted twice."""
-NEEDLESS = 4.0
-"""Times what it has to show: an effect that by its own numbers explains less may not be needed."""
-CERTAIN = 100.0
-"""The same of an effect with kinks, whose numbers say less: sets without it are tried up to there."""
-MORE, BY = 2.0, 2.0
-"""An effect should cost a fit what its own numbers say; so many times that and so much of chi-square, and the fit
-without it has ended elsewhere."""
-
 
 def pruned(shelf: Shelf, names: Names) -> Names:
     """The set without what is no longer needed."""
@@ -40,7 +25,7 @@ def _fit_fewer(shelf: Shelf, names: Names, fewer: list[Names]) -> None:
     """Fit sets without one of the effects from where the whole set stands, which takes least; those that this does not
     show to be good or far from it as if there were no larger set."""
     shelf.fit_again(fewer, names)
-    most = NEAR * shelf.least(names)
+    most = shelf.criteria.refit_near * shelf.least(names)
     shelf.fit_anew(
         [n for n in fewer if cost(shelf, n) > cost(shelf, names) and shelf.fit(n).chi_square < most]
     )
@@ -59,8 +44,8 @@ def fit_from(shelf: Shelf, names: Names) -> None:
         if fewer not in shelf.fits or not shelf.candidates[name].parameters:
             continue
         gap, said = badness(shelf, fewer) - badness(shelf, names), _said(shelf, names, name)
-        if cost(shelf, fewer) > cost(shelf, names) and said < NEEDLESS * price(shelf, [name]):
-            again += [fewer] if gap > MORE * said + BY else []
+        if cost(shelf, fewer) > cost(shelf, names) and said < shelf.criteria.needless * price(shelf, [name]):
+            again += [fewer] if gap > shelf.criteria.elsewhere * said + shelf.criteria.elsewhere_least else []
     shelf.fit_again(again, names)
 
 
@@ -72,10 +57,11 @@ def _dispensable(shelf: Shelf, names: Names, name: str) -> bool:
     """
     if not shelf.candidates[name].parameters:
         root = root_of(shelf, names)
-        if shelf.fit(root - {name}).chi_square >= HOPELESS * shelf.fit(root).chi_square:
+        if shelf.fit(root - {name}).chi_square >= shelf.criteria.hopeless * shelf.fit(root).chi_square:
             return False
-        return names - {name} in shelf.fits or shelf.left_without(names, name) < FAR_OFF
-    most = NEEDLESS if shelf.candidates[name].smooth else CERTAIN
+        return names - {name} in shelf.fits or shelf.left_without(names, name) < shelf.criteria.far_off
+    smooth = shelf.candidates[name].smooth
+    most = shelf.criteria.needless if smooth else shelf.criteria.kinked_needless
     return _said(shelf, names, name) < most * price(shelf, [name])
 
 

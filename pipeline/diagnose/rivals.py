@@ -4,17 +4,12 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from pipeline.diagnose.estimates import DOUBT, estimates, raw
+from pipeline.diagnose.estimates import estimates, raw
 from pipeline.diagnose.exclusion import possible
 from pipeline.diagnose.few_rows import few, fit_together
 from pipeline.diagnose.merit import badness, cost, excess, taken
 from pipeline.diagnose.pruning import fit_from
 from pipeline.diagnose.shelf import Names, Shelf
-
-NEARLY = 0.9
-"""Part of what an effect stands for by which a rival may promise less and still be fitted, where rows are few."""
-WIDTH = 4
-"""Rivals of one effect that are fitted, at most, where rows are many."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -35,20 +30,22 @@ def with_rivals(shelf: Shelf, best: Names) -> Found:
 
     A set that leaves more than noise explains nothing, and then others are of use that may: only those are fitted.
     """
-    beyond = 0.0 if few(shelf) else excess(shelf, best)
+    criteria, small = shelf.criteria, few(shelf)
+    beyond = 0.0 if small else excess(shelf, best)
+    share = criteria.few_rival_share if small else criteria.estimate_error
     without = [best - {name} for name in best if shelf.candidates[name].parameters]
     shelf.fit_all({names: {} for names in without})
     fit_from(shelf, best)
     wanted: dict[Names, dict[str, float]] = {}
     for start in without:
         gap = cost(shelf, start) - cost(shelf, best)
-        limit = cost(shelf, best) - beyond + max(25.0, (NEARLY if few(shelf) else DOUBT) * gap)
+        limit = cost(shelf, best) - beyond + max(criteria.rival_gap, share * gap)
         near = [
             e for e in estimates(shelf, start, (1,)) if e.names not in (start, best) and raw(shelf, e) < limit
         ]
-        wanted |= {e.names: e.probes for e in near[: None if few(shelf) else WIDTH]}
+        wanted |= {e.names: e.probes for e in near[: None if small else criteria.rivals_fitted]}
     shelf.fit_all(wanted)
-    if few(shelf):
+    if small:
         fit_together(shelf, best)
     winner = min(shelf.fits, key=lambda names: cost(shelf, names))
     if winner != best:

@@ -14,7 +14,6 @@ from pipeline.answer import Verdict
 from pipeline.attempt import Attempts
 from pipeline.diagnose.apart import Likeness, likenesses
 from pipeline.diagnose.determined import determined, undetermined
-from pipeline.diagnose.evidence import RAW
 from pipeline.diagnose.exclusion import needed, worse
 from pipeline.diagnose.merit import implausibility, is_noise, taken
 from pipeline.diagnose.rivals import Found
@@ -22,9 +21,6 @@ from pipeline.diagnose.sensor_faults import Instead, faults_instead, zero_first
 from pipeline.diagnose.shelf import Names, Shelf
 from pipeline.inference.fit import Fit
 from pipeline.inference.model import at_bound
-
-EQUAL = 1.0 - 1e-6
-"""Correlation from which two effects are one in all readings."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -83,7 +79,7 @@ def ruled(found: Found, judgement: Judgement, attempts: Attempts) -> Ruling:
             at_bound(shelf.fit(sets[0]).model),
             out,
         )
-    settled = determined(here, shelf.whole)
+    settled = determined(here, shelf.whole, shelf.criteria)
     # One that nothing determines may end at its bound as well as beside it; it is at null now.
     bounded = at_bound(settled.model)
     because = _not_named(settled, shelf, bounded)
@@ -116,9 +112,13 @@ def _with_equals(found: Found, alike: tuple[Likeness, ...], bounded: tuple[str, 
     rivals = list(found.rivals)
     for each in alike:
         other = best - {each.effect} | {each.rival}
-        if each.correlation > EQUAL and shelf.affords(other) and _whole(shelf, other):
+        if (
+            each.correlation > shelf.criteria.equal_correlation
+            and shelf.affords(other)
+            and _whole(shelf, other)
+        ):
             shelf.fit(other)
-            if worse(shelf, other, best) <= max(RAW, needed(shelf, other, best)):
+            if worse(shelf, other, best) <= max(shelf.criteria.exclusion_least, needed(shelf, other, best)):
                 rivals.append(other)
     if bounded:
         room = taken(shelf, best)
@@ -135,14 +135,15 @@ def _whole(shelf: Shelf, names: Names) -> bool:
 def _implausible(found: Found) -> Iterator[Names]:
     """Sets as simple as the best one that fit as well and are out only because their numbers would be implausible."""
     shelf, best = found.shelf, found.best
-    mine = implausibility(shelf.fit(best))
+    plausible = shelf.criteria.plausible
+    mine = implausibility(shelf.fit(best), plausible)
     for names in shelf.fits:
         if names == best or names in found.rivals or not names or best < names or names < best:
             continue
         if len(names) > len(best) and taken(shelf, names) > taken(shelf, best):
             continue
-        far = implausibility(shelf.fit(names)) - mine
-        limit = max(RAW, needed(shelf, names, best))
+        far = implausibility(shelf.fit(names), plausible) - mine
+        limit = max(shelf.criteria.exclusion_least, needed(shelf, names, best))
         if worse(shelf, names, best) > limit >= worse(shelf, names, best) - max(far, 0.0):
             yield names
 

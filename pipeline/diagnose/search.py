@@ -13,28 +13,14 @@ from itertools import combinations
 import numpy as np
 
 from pipeline.diagnose.estimates import Estimate, doubt, estimates
-from pipeline.diagnose.evidence import APART
 from pipeline.diagnose.exclusion import possible
 from pipeline.diagnose.few_rows import few, grown_by_everything
 from pipeline.diagnose.merit import cost, is_noise, root_of
-from pipeline.diagnose.pruning import HOPELESS, pruned
+from pipeline.diagnose.pruning import pruned
 from pipeline.diagnose.rivals import Found, with_rivals
 from pipeline.diagnose.shelf import Names, Shelf
 from pipeline.inference.fit import allowance
 from vjm.work import TooMuch, spent
-
-WIDTH = 4
-"""Sets of one size that are fitted, at most, of those that compete."""
-MOST = 5
-"""Effects in a set."""
-ENOUGH = 24
-"""Fits after which a search that has found nothing good goes on no further."""
-WORK = 5000.0
-"""Work (`vjm.work`) after which a search of no row begins no further fit, a multiple of it where there are more. Of the
-36 slowest of 600 benches one is cut, an unknown that stays one; the next takes 0.82 of it."""
-FAR, SLOW = 2.0, 0.7
-"""Sigmas from which an explanation is far from one; growth that leaves more than this part of chi-square is slow. What
-is far from explained and falls slowly is not explained by more effects: so it ends as unknown."""
 
 
 def search_one_by_one(shelf: Shelf) -> Found:
@@ -47,7 +33,7 @@ def search_one_by_one(shelf: Shelf) -> Found:
 
 def search(shelf: Shelf) -> Found:
     """The best set, and those that may as well be true; what was fitted until then where that takes too long."""
-    shelf.ends = spent() + WORK * allowance(shelf.whole)
+    shelf.ends = spent() + shelf.criteria.search_work * allowance(shelf.whole)
     try:
         return _searched(shelf)
     except TooMuch:
@@ -74,7 +60,7 @@ def _searched(shelf: Shelf) -> Found:
         alone = [names for names in starts if len(names - root_of(shelf, names)) == 1]
         one = _best(shelf, alone or [best])
         best = _built(shelf, _best(shelf, [best, *(e.names for e in _competing(shelf, one, 1))]))
-    return Found(shelf, best, ()) if shelf.fit(best).rms > FAR else with_rivals(shelf, best)
+    return Found(shelf, best, ()) if shelf.fit(best).rms > shelf.criteria.far else with_rivals(shelf, best)
 
 
 def _best(shelf: Shelf, sets: Sequence[Names]) -> Names:
@@ -87,9 +73,9 @@ def _built(shelf: Shelf, best: Names) -> Names:
         better = pruned(shelf, _grown(shelf, best))
         if cost(shelf, better) >= cost(shelf, best):
             return best
-        slow = shelf.fit(better).chi_square > SLOW * shelf.fit(best).chi_square
+        slow = shelf.fit(better).chi_square > shelf.criteria.slow * shelf.fit(best).chi_square
         best = better
-        if slow and shelf.fit(best).rms > FAR:
+        if slow and shelf.fit(best).rms > shelf.criteria.far:
             return best
 
 
@@ -114,14 +100,15 @@ def _roots(shelf: Shelf) -> list[Names]:
     switches = _switches(shelf)
     roots = [frozenset(some) for k in range(len(switches) + 1) for some in combinations(switches, k)]
     least = min(shelf.fit(root).chi_square for root in roots)
-    roots = [root for root in roots if shelf.fit(root).chi_square <= HOPELESS * least]
+    roots = [root for root in roots if shelf.fit(root).chi_square <= shelf.criteria.hopeless * least]
     if len(roots) == 1:
         return roots
     promise = {
         root: min(cost(shelf, root), *(e.cost for e in estimates(shelf, root, (1, 2)))) for root in roots
     }
     least = min(promise.values())
-    return [root for root in roots if promise[root] < least + max(100.0, 0.5 * abs(least))]
+    gap = max(shelf.criteria.root_gap, shelf.criteria.root_share * abs(least))
+    return [root for root in roots if promise[root] < least + gap]
 
 
 def _competing(shelf: Shelf, start: Names, count: int) -> list[Estimate]:
@@ -130,8 +117,8 @@ def _competing(shelf: Shelf, start: Names, count: int) -> list[Estimate]:
     every = _looked_up(shelf, start, count)
     best = min([here, *(cost(shelf, n) for n in shelf.fits), *(e.cost for e in every)])
     hoped = {e.names: e.cost - doubt(shelf, e.names - start) * max(here - e.cost, 0.0) for e in every}
-    within = [e for e in every if e.cost < here and hoped[e.names] < best + 2 * APART]
-    within = sorted(within, key=lambda e: hoped[e.names])[:WIDTH]
+    within = [e for e in every if e.cost < here and hoped[e.names] < best + shelf.criteria.competing]
+    within = sorted(within, key=lambda e: hoped[e.names])[: shelf.criteria.sets_fitted]
     shelf.fit_all({e.names: e.probes for e in within})
     return within
 
@@ -141,7 +128,7 @@ def _looked_up(shelf: Shelf, start: Names, count: int) -> list[Estimate]:
     with kinks of which fits found nothing; far from one, an effect alone may be misled."""
     every = [e for e in estimates(shelf, start, {1, count}) if e.names != start]
     wanted = [e for e in every if len(e.names - start) == count]
-    if count == 1 or shelf.fit(start).rms > FAR:
+    if count == 1 or shelf.fit(start).rms > shelf.criteria.far:
         return wanted
     vain = [e for e in every if e not in wanted and e.names in shelf.fits and not _smooth(shelf, e, start)]
     missed = {e.names: cost(shelf, e.names) - e.cost for e in vain}
@@ -155,13 +142,14 @@ def _smooth(shelf: Shelf, e: Estimate, start: Names) -> bool:
 
 def _grown(shelf: Shelf, start: Names) -> Names:
     """The best set with one effect more, or two; the same if none is better."""
-    if len(start) >= MOST or len(shelf.fits) >= ENOUGH:
+    criteria = shelf.criteria
+    if len(start) >= criteria.most_effects or len(shelf.fits) >= criteria.most_fits:
         return start
     switched = _switched(shelf, start)
     if cost(shelf, switched) < cost(shelf, start):
         return switched
     here = shelf.fit(start)
-    if here.rms > FAR and estimates(shelf, start, (1, 2))[0].cost > SLOW * here.chi_square:
+    if here.rms > criteria.far and estimates(shelf, start, (1, 2))[0].cost > criteria.slow * here.chi_square:
         return start
     # Where noise is all that is left, two that show only together have nothing to show.
     counts = (1,) if is_noise(shelf, start) else (1, 2)

@@ -8,10 +8,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pipeline.inference.fit import Fit
+from pipeline.selection.criteria import Criteria
 
 Array = NDArray[np.float64]
-SHOWN, UNSEEN = 5.0, 2.0
-"""Sigmas from which the tests at an angle show an effect, and below which those at all other angles do not."""
 
 
 @dataclass(frozen=True)
@@ -22,7 +21,7 @@ class Place:
     tests: tuple[str, ...]
 
 
-def only_place(found: Fit, name: str) -> Place | None:
+def only_place(found: Fit, name: str, criteria: Criteria) -> Place | None:
     """Of an effect of the fitted model; None where several angles show it, or it shows at none, or there is one angle.
 
     What the effect does to the readings, to first order in its numbers, free of what the other numbers and unknown
@@ -35,9 +34,12 @@ def only_place(found: Fit, name: str) -> Place | None:
     if len(sizes) < 2:
         return None
     q, *others = sorted(sizes, key=lambda each: -sizes[each])
-    if sizes[q] < SHOWN or float(np.linalg.norm([sizes[other] for other in others])) > UNSEEN:
+    if (
+        sizes[q] < criteria.shown
+        or float(np.linalg.norm([sizes[other] for other in others])) > criteria.not_shown
+    ):
         return None
-    mine = [k for k in np.argsort(-shown) if angles[k] == q and shown[k] > UNSEEN]
+    mine = [k for k in np.argsort(-shown) if angles[k] == q and shown[k] > criteria.not_shown]
     return Place(q, tuple(whole.campaign.tests[k].id for k in mine))
 
 

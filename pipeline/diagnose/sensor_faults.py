@@ -8,22 +8,12 @@ from dataclasses import dataclass
 from scipy.stats import chi2
 
 from pipeline.adequacy.patterns import scores
-from pipeline.diagnose.evidence import apart, numbers
-from pipeline.diagnose.merit import badness, cost
+from pipeline.diagnose.merit import badness, cost, numbers
 from pipeline.diagnose.rivals import Found
 from pipeline.diagnose.shelf import Names, Shelf
 from pipeline.diagnose.zeros import Zero, zeros
 from pipeline.inference.fit import Fit
-
-MOST = 2.5
-"""A sensor's zero comes before all physics where it leaves less than the best set of effects by this, or noise.
-Discrete mistakes take far more than that off a misfit, an effect that looks a little like one takes less."""
-NOISE = 1e-3
-"""Chance that noise leaves so much: what is as large as that is noise."""
-LARGE, NEARLY_ALL = 20.0, 0.99
-"""Sigmas from which a misfit is large; part of its chi-square that is nearly all of it."""
-NEAR = 12
-"""Sets of least cost beside which a zero is looked for."""
+from pipeline.selection.criteria import Criteria
 
 
 @dataclass(frozen=True)
@@ -51,7 +41,7 @@ def faults_instead(found: Found) -> tuple[Instead, ...]:
         if not effect.parameters or any(name in shelf.candidates[other].includes for other in without):
             continue
         gain = badness(shelf, without) - badness(shelf, best)
-        enough = gain - apart(numbers(effect) - 1)
+        enough = gain - shelf.criteria.apart(numbers(effect) - 1)
         every = sorted(_faults(shelf, name, without, gain), key=lambda it: -it.explains)
         out += [it for it in every[:1] if it.explains >= enough]
     return tuple(out)
@@ -60,23 +50,27 @@ def faults_instead(found: Found) -> tuple[Instead, ...]:
 def _faults(shelf: Shelf, name: str, without: Names, gain: float) -> Iterator[Instead]:
     """What each fault would explain in place of an effect."""
     fit = shelf.fit(without)
-    for zero in zeros(fit):
+    for zero in zeros(fit, shelf.criteria):
         # One test alone that was not zeroed is a choice among many: it has to do better than the effect.
         if zero.everywhere or zero.gain >= gain:
             yield Instead(name, without, zero.words, zero.gain, gain, zero)
-    for pattern in scores(fit)[:1]:
+    for pattern in scores(fit, shelf.criteria)[:1]:
         yield Instead(name, without, pattern.words, pattern.score**2, gain)
 
 
-def plain_zero(found: Fit) -> bool:
+def plain_zero(found: Fit, criteria: Criteria) -> bool:
     """Whether a zero alone explains nearly all of a large misfit: then nothing else is looked for in depth."""
-    every = zeros(found)
-    return bool(every) and found.rms > LARGE and every[0].gain > NEARLY_ALL * found.chi_square
+    every = zeros(found, criteria)
+    return (
+        bool(every)
+        and found.rms > criteria.zero_large
+        and every[0].gain > criteria.zero_most * found.chi_square
+    )
 
 
-def _plainer(fit: Fit, zero: Zero) -> bool:
+def _plainer(fit: Fit, zero: Zero, criteria: Criteria) -> bool:
     """Whether another fault of a sensor explains more than a zero."""
-    return any(pattern.score**2 > zero.gain for pattern in scores(fit)[:1])
+    return any(pattern.score**2 > zero.gain for pattern in scores(fit, criteria)[:1])
 
 
 def zero_first(found: Found, explained: bool) -> Instead | None:
@@ -84,19 +78,19 @@ def zero_first(found: Found, explained: bool) -> Instead | None:
 
     explained: whether the best set leaves noise; a zero beside all of it would only take up some of that.
     """
-    shelf, best = found.shelf, found.best
-    sets = sorted(shelf.fits, key=lambda names: cost(shelf, names))[:NEAR]
+    shelf, best, criteria = found.shelf, found.best, found.shelf.criteria
+    sets = sorted(shelf.fits, key=lambda names: cost(shelf, names))[: criteria.zero_sets]
     most = shelf.fit(best).chi_square
     out: list[tuple[float, Instead]] = []
     for names in dict.fromkeys([frozenset(), *sets]):
         if explained and best <= names:
             continue
         fit = shelf.fit(names)
-        for zero in zeros(fit)[:1]:
+        for zero in zeros(fit, criteria)[:1]:
             left = fit.chi_square - zero.gain
             total = cost(shelf, names) - zero.gain + zero.price
-            noise = left <= float(chi2.isf(NOISE, max(fit.degrees - 1, 1)))
-            worth = zero.gain > zero.price and total < cost(shelf, best) and not _plainer(fit, zero)
-            if worth and (noise or left < most / MOST):
+            noise = left <= float(chi2.isf(criteria.zero_chance, max(fit.degrees - 1, 1)))
+            worth = zero.gain > zero.price and total < cost(shelf, best) and not _plainer(fit, zero, criteria)
+            if worth and (noise or left < most / criteria.zero_factor):
                 out.append((total, Instead("", names, zero.words, zero.gain, most, zero)))
     return min(out, key=lambda it: it[0])[1] if out else None

@@ -8,7 +8,6 @@ from functools import cached_property, partial
 
 import numpy as np
 
-from pipeline.diagnose.evidence import PLAUSIBLE
 from pipeline.diagnose.picture import Picture, picture
 from pipeline.diagnose.signatures import Look, Probe, Say, hidden, look, probed, probes, signatures
 from pipeline.inference.fit import WORK, Fit, allowance, fit, unfitted
@@ -21,12 +20,11 @@ from pipeline.inference.sent import fits_at_once
 from pipeline.inference.starts import best_fit, height
 from pipeline.inference.stops import sided
 from pipeline.parameter_names import parted, path_of
+from pipeline.selection.criteria import CRITERIA, Criteria
 from vjm.effects.base import Effect
 from vjm.work import TooMuch, spent
 
 Names = frozenset[str]
-FEW_READINGS = 24
-"""Readings up to which a set has no numbers that they do not see: two of the largest effects would take them all."""
 
 
 @dataclass(eq=False)
@@ -42,6 +40,7 @@ class Shelf:
     base: Model
     candidates: Mapping[str, Effect]
     say: Say
+    criteria: Criteria = CRITERIA
     fits: dict[Names, Fit] = field(default_factory=dict)
     pictures: dict[Names, Picture] = field(default_factory=dict)
     tried: set[tuple[Names, Names]] = field(default_factory=set)
@@ -50,7 +49,7 @@ class Shelf:
     at: Look = field(init=False)
 
     def __post_init__(self) -> None:
-        self.at = look(self.whole)
+        self.at = look(self.whole, self.criteria.screened_steps)
 
     @property
     def evaluations(self) -> int:
@@ -71,11 +70,14 @@ class Shelf:
     def unseen(self) -> frozenset[str]:
         """Names effect.parameter that stay at null: where readings are few, those that they do not see beside the
         others of their effect, at any plausible size. Where readings are many a fit finds them by itself."""
-        if self.room > FEW_READINGS or self.fit(frozenset()).prediction.lost.any():
+        if self.room > self.criteria.few_readings or self.fit(frozenset()).prediction.lost.any():
             return frozenset()
         shown = self.picture(frozenset()).signatures
         return frozenset(
-            name for it in shown.values() if not it.probes for name in hidden(it, self.base.fixed)
+            name
+            for it in shown.values()
+            if not it.probes
+            for name in hidden(it, self.base.fixed, self.criteria)
         )
 
     def order(self, names: Names) -> tuple[str, ...]:
@@ -120,7 +122,10 @@ class Shelf:
             return
         self._begun(f"{self._title(larger)} with one less")
         self.tried |= {(names, larger) for names in models}
-        calls = [(m, partial(fit, m, self.whole, there.prediction, None, PLAUSIBLE)) for m in models.values()]
+        calls = [
+            (m, partial(fit, m, self.whole, there.prediction, None, self.criteria.plausible))
+            for m in models.values()
+        ]
         for names, found in zip(models, fits_at_once(calls, self.whole), strict=True):
             self._keep(names, found)
 
@@ -139,7 +144,11 @@ class Shelf:
             return found
         model = _valued(self._model(names), smaller.model)
         # One that ran out of its work would do so again.
-        again = found if found.ended else fit(model, self.whole, smaller.prediction, None, PLAUSIBLE)
+        again = (
+            found
+            if found.ended
+            else fit(model, self.whole, smaller.prediction, None, self.criteria.plausible)
+        )
         count = found.evaluations + (0 if again is found else again.evaluations)
         if again.order <= smaller.order:
             return replace(again, evaluations=count)
@@ -177,7 +186,8 @@ class Shelf:
             self._begun(f"what could be added to {self._title(names)}")
             found = self.fit(names)
             every = signatures(found, list(self.candidates.values()), self._probes, self.at, self.say)
-            self.pictures[names] = picture(found, every, self.at, self._rescues(found))
+            plausible = self.criteria.plausible
+            self.pictures[names] = picture(found, every, self.at, self._rescues(found), plausible)
         return self.pictures[names]
 
     def _rescues(self, found: Fit) -> dict[str, float]:
@@ -195,7 +205,9 @@ class Shelf:
 
     @cached_property
     def _probes(self) -> list[Probe]:
-        return probes(self.base, list(self.candidates.values()), self.whole, self.say)
+        return probes(
+            self.base, list(self.candidates.values()), self.whole, self.criteria.plain_probe, self.say
+        )
 
     def _fitted(self, names: Names, begin: Mapping[str, float]) -> Fit:
         effects = [self.candidates[name] for name in self.order(names)]
@@ -207,10 +219,10 @@ class Shelf:
         new = [e.name for e in effects]
         # A probe says nothing of sizes below it, and rows that chose their side from there may stay on the wrong one.
         if not kinked or any(sided(e) or e.name not in begin for e in kinked):
-            return best_fit(model, self.whole, new, start, None, PLAUSIBLE)
+            return best_fit(model, self.whole, new, start, None, self.criteria.plausible)
         for effect in kinked:
             model = probed(model, effect, begin[effect.name])
-        return fit(model, self.whole, start, None, PLAUSIBLE)
+        return fit(model, self.whole, start, None, self.criteria.plausible)
 
     def _begun(self, what: str) -> None:
         if spent() > self.ends:

@@ -15,7 +15,6 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.linalg import qr
 
-from pipeline.diagnose.evidence import PLAUSIBLE
 from pipeline.inference.fit import Fit
 from pipeline.inference.model import Model
 from pipeline.inference.parts import at_rows
@@ -24,16 +23,11 @@ from pipeline.inference.program import Program
 from pipeline.inference.residual import residual, whitening
 from pipeline.parameter_names import path_of
 from pipeline.processors import at_once
+from pipeline.selection.criteria import Criteria
 from vjm.effects.base import Effect, Parameter
 
 Array = NDArray[np.float64]
 Say = Callable[[str], None]
-PLAIN = 100.0
-"""Sigmas of all readings together from which nobody overlooks an effect."""
-SEEN = 1e-3
-"""Part of the largest column that must be left of another one for it to be seen beside it."""
-ENOUGH = 200
-"""Rows that a look at smooth effects needs; of more, some are left out."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -56,7 +50,7 @@ class Signature:
         return [(value - first.null) / first.typical for value in self.probes]
 
 
-def hidden(it: Signature, fixed: Collection[str]) -> list[str]:
+def hidden(it: Signature, fixed: Collection[str], criteria: Criteria) -> list[str]:
     """Names effect.parameter that a smooth effect's own others make needless.
 
     What is seen of it, at plausible sizes, is spanned by the columns that show most (QR with pivots).
@@ -64,9 +58,9 @@ def hidden(it: Signature, fixed: Collection[str]) -> list[str]:
     names = [path_of(it.effect.name, p.name) for p in it.effect.parameters]
     free = [name for name in names if name not in fixed]
     (columns,) = it.columns
-    triangle, order = qr(columns * PLAUSIBLE, mode="r", pivoting=True)
+    triangle, order = qr(columns * criteria.plausible, mode="r", pivoting=True)
     sizes = np.abs(np.diag(triangle))
-    kept = {int(order[k]) for k in np.flatnonzero(sizes > SEEN * sizes.max(initial=0.0))}
+    kept = {int(order[k]) for k in np.flatnonzero(sizes > criteria.hidden_share * sizes.max(initial=0.0))}
     return [name for k, name in enumerate(free) if k not in kept]
 
 
@@ -78,7 +72,7 @@ class Look:
     program: Program
 
 
-def look(whole: Program, enough: int = ENOUGH) -> Look:
+def look(whole: Program, enough: int) -> Look:
     """At most about `enough` rows, equally spaced within each fitted test, with its first and last."""
     share = min(1.0, enough / max(int(whole.fitted.sum()), 1))
     kept = []
@@ -145,7 +139,7 @@ class Probe:
     change: Array
 
 
-def probes(base: Model, effects: Sequence[Effect], whole: Program, say: Say) -> list[Probe]:
+def probes(base: Model, effects: Sequence[Effect], whole: Program, plain: float, say: Say) -> list[Probe]:
     """Of every effect with kinks, on the base model without what is there or not: lumped bars are quick.
 
     An effect that cannot be without another is compared with that one: the difference is its own.
@@ -161,15 +155,20 @@ def probes(base: Model, effects: Sequence[Effect], whole: Program, say: Say) -> 
         besides = bare.with_effects([known[name] for name in effect.includes if name not in bare.names])
         if effect.includes not in without:
             without[effect.includes] = predict(besides, own, slopes=False)
-        for it in _probes_of(effect, besides, without[effect.includes], own, say):
+        for it in _probes_of(effect, besides, without[effect.includes], own, plain, say):
             change = np.zeros(whole.measured.shape)
             change[rows] = it.change
             out.append(replace(it, change=change))
     return out
 
 
-def _probes_of(effect: Effect, besides: Model, without: Prediction, own: Program, say: Say) -> list[Probe]:
-    """The weakest first, up to one that is plain: stronger ones cost most and tell no more. own: rows to fit."""
+def _probes_of(
+    effect: Effect, besides: Model, without: Prediction, own: Program, plain: float, say: Say
+) -> list[Probe]:
+    """The weakest first, up to one that is plain; stronger ones cost most and tell no more.
+
+    own: rows to fit. plain: sigmas of all readings together.
+    """
     out = []
     weights = whitening(own, without)
     used = own.predicted
@@ -179,7 +178,7 @@ def _probes_of(effect: Effect, besides: Model, without: Prediction, own: Program
         there = predict(model, own, slopes=False, order=0)
         lost = (there.lost | without.lost)[:, None]
         out.append(Probe(effect, value, np.where(lost, 0.0, there.values - without.values)))
-        if np.linalg.norm(weights.apply(np.where(used, out[-1].change, 0.0))[used]) > PLAIN:
+        if np.linalg.norm(weights.apply(np.where(used, out[-1].change, 0.0))[used]) > plain:
             break
     return out
 

@@ -14,7 +14,6 @@ from pipeline.attempt import Attempts
 from pipeline.campaign.names import COORDINATES
 from pipeline.diagnose.description import descriptions
 from pipeline.diagnose.diagnosis import Diagnosis, answer_of, in_words
-from pipeline.diagnose.evidence import RAW
 from pipeline.diagnose.exclusion import needed, worse
 from pipeline.diagnose.menu import Choice, menu
 from pipeline.diagnose.merit import badness
@@ -107,7 +106,7 @@ def _evidence(it: Diagnosis, answer: Answer) -> Iterator[str]:
 
 
 def _where(it: Diagnosis, name: str) -> str:
-    place = only_place(it.fit, name)
+    place = only_place(it.fit, name, it.shelf.criteria)
     if place is None:
         return ""
     tests = ", ".join(place.tests)
@@ -151,7 +150,7 @@ def _why_not(it: Diagnosis) -> Iterator[str]:
     near = sorted(shelf.fits, key=lambda names: shelf.fit(names).chi_square)
     for names in [n for n in near if n and n != frozenset(it.sets[0])][:3]:
         found = shelf.fit(names)
-        worst = min(judge(found).checks, key=lambda check: check.p_value)
+        worst = min(judge(found, it.shelf.criteria).checks, key=lambda check: check.p_value)
         why = "" if worst.name == SIZE else f": {worst.words}"
         yield f"{_and(shelf.order(names))} leaves {sigma(found.rms)} sigma{why}."
 
@@ -189,7 +188,7 @@ def _rivals(it: Diagnosis) -> Iterator[str]:
         least = min(map(frozenset, it.sets), key=lambda names: badness(shelf, names))
         for names in it.sets:
             more = worse(shelf, frozenset(names), least)
-            limit = max(needed(shelf, frozenset(names), least), RAW)
+            limit = max(needed(shelf, frozenset(names), least), shelf.criteria.exclusion_least)
             so = f"{short(limit)} would exclude it"
             if more > limit:
                 so = "alone that might exclude it, but not with others as near or with numbers that only fit noise"

@@ -11,20 +11,17 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.stats import chi2
 
 from pipeline.adequacy.patterns import FLAT, acting
-from pipeline.diagnose.evidence import FALSE_ALARM
 from pipeline.inference.driving import column_name, unit_of
 from pipeline.inference.fit import Fit
 from pipeline.inference.program import Program
 from pipeline.inference.residual import whitening
 from pipeline.inference.span import basis
+from pipeline.selection.criteria import Criteria
 from vjm.effects.sized import LENGTH
 
 Array = NDArray[np.float64]
-NOTHING = 0.01
-"""Part of a constant that is nothing beside it."""
 FARTHEST = {"mm": LENGTH, "rad": 1.0}
 """Zero of a prescribed displacement or rotation, at most, on the bench of the paper: it acts through the mechanism,
 whose tangent says nothing of one as long as the linkage. What is only read may have any zero."""
@@ -34,7 +31,8 @@ whose tangent says nothing of one as long as the linkage. What is only read may 
 class Zero:
     """A constant that a channel reads too much. tests: ids of those it is in. value, std: in `unit`. gain: chi-square
     that it takes off, after the numbers of the fit took their part; looks: how many constants were looked at. unloaded:
-    whether the model expects nothing of the channel there, so that the readings are nothing but this constant."""
+    whether the model expects nothing of the channel there, so that the readings are nothing but this constant.
+    price: chi-square that noise alone takes off by the best of so many constants, once in two hundred campaigns."""
 
     column: str
     tests: tuple[str, ...]
@@ -45,11 +43,7 @@ class Zero:
     gain: float
     looks: int
     unloaded: bool
-
-    @property
-    def price(self) -> float:
-        """Chi-square that noise alone takes off by the best of so many constants, once in two hundred campaigns."""
-        return float(chi2.isf(FALSE_ALARM / self.looks, 1))
+    price: float
 
     @property
     def words(self) -> str:
@@ -58,7 +52,7 @@ class Zero:
         return f'{self.column} starts at {self.value:.3g} {self.unit}{where}: zero = "fitted"?'
 
 
-def zeros(found: Fit) -> list[Zero]:
+def zeros(found: Fit, criteria: Criteria) -> list[Zero]:
     """Every constant that the readings can tell beside the numbers of a fit, the one that explains most first."""
     whole = found.residual.program
     named = list(_constants(whole))
@@ -82,7 +76,11 @@ def zeros(found: Fit) -> list[Zero]:
             if abs(value) > farthest:
                 continue
             everywhere = own[k] == max(own, key=len)
-            out.append(_zero(found, channel, own[k], everywhere, (value, 1.0 / float(sizes[k])), len(named)))
+            out.append(
+                _zero(
+                    found, channel, own[k], everywhere, (value, 1.0 / float(sizes[k])), len(named), criteria
+                )
+            )
     return sorted(out, key=lambda it: -it.gain)
 
 
@@ -101,6 +99,7 @@ def _zero(
     everywhere: bool,
     estimate: tuple[float, float],
     looks: int,
+    criteria: Criteria,
 ) -> Zero:
     """estimate: the constant and its standard error."""
     whole, expected = found.residual.program, found.prediction.values
@@ -108,9 +107,11 @@ def _zero(
     ids = tuple(whole.campaign.tests[k].id for k in tests)
     unit = unit_of(channel).replace("Nmm", "N·mm")
     rows = np.isin(whole.test, tests) & whole.predicted[:, channel]
-    unloaded = bool(rows.any() and np.all(np.abs(expected[rows, channel]) < NOTHING * abs(value)))
+    unloaded = bool(rows.any() and np.all(np.abs(expected[rows, channel]) < criteria.zero_alone * abs(value)))
     name = column_name(channel, whole.campaign.gauges)
-    return Zero(name, ids, everywhere, value, std, unit, (value / std) ** 2, looks, unloaded)
+    return Zero(
+        name, ids, everywhere, value, std, unit, (value / std) ** 2, looks, unloaded, criteria.entry(1, looks)
+    )
 
 
 def _constants(whole: Program) -> Iterator[tuple[int, tuple[int, ...]]]:

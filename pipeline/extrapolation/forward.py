@@ -6,9 +6,9 @@ each fitted number, but for a constant.
 
 from __future__ import annotations
 
-from pipeline.diagnose.estimates import DOUBT, KINKED
 from pipeline.diagnose.shelf import Names, Shelf
 from pipeline.inference.stops import SIDE, sided
+from pipeline.selection.criteria import CRITERIA
 
 
 def forward(shelf: Shelf) -> Names:
@@ -55,7 +55,7 @@ def _hopes(shelf: Shelf, here: Names) -> dict[str, tuple[float, dict[str, float]
             out[name] = float("-inf"), {}
         elif name in about.signatures:
             gain = about.gain([name])
-            doubt = DOUBT if effect.smooth else KINKED
+            doubt = CRITERIA.estimate_error if effect.smooth else CRITERIA.kinked_estimate_error
             # A probe does not know what rows gain by choosing their sides.
             rows = float(shelf.whole.fitted.sum()) if sided(effect) else 0.0
             fall = (1.0 + doubt) * gain.value + SIDE * rows

@@ -16,15 +16,15 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import brentq
-from scipy.stats import chi2, ncx2, norm
+from scipy.stats import ncx2, norm
 
 from pipeline.diagnose.apart import multiple_correlation
-from pipeline.diagnose.evidence import APART, FALSE_ALARM, numbers
+from pipeline.diagnose.merit import numbers
 from pipeline.plan.seen import Seen
+from pipeline.selection.criteria import CRITERIA
 from vjm.effects.base import Effect, Parameter
 
 Array = NDArray[np.float64]
-POWER, SURE = 0.9, 0.95
 BLIND, FAR = 1e-6, 1e3
 """Sigmas below which nothing shows; and how many times a size that was looked at another may be."""
 
@@ -52,16 +52,16 @@ class Visible:
 
 @cache
 def needed(degrees: int, looks: int) -> float:
-    """Sigmas that an effect of so many numbers needs to be let in with `POWER`, of so many looks."""
-    limit = chi2.isf(FALSE_ALARM / looks, degrees)
-    square = brentq(lambda size: ncx2.sf(limit, degrees, size) - POWER, 1e-6, 1e4)
+    """Sigmas that an effect of so many numbers needs to be let in with the power asked for, of so many looks."""
+    limit = CRITERIA.entry(degrees, looks)
+    square = brentq(lambda size: ncx2.sf(limit, degrees, size) - CRITERIA.detection_power, 1e-6, 1e4)
     return float(np.sqrt(square))
 
 
 def apart() -> float:
-    """Sigmas that a rival must leave unexplained to be excluded in `SURE` of the cases."""
-    z = norm.ppf(SURE)
-    return float(z + np.sqrt(z * z + APART))
+    """Sigmas that a rival must leave unexplained to be excluded with the power asked for."""
+    z = norm.ppf(CRITERIA.rival_power)
+    return float(z + np.sqrt(z * z + CRITERIA.exclusion))
 
 
 def visible(them: Seen, candidates: Mapping[str, Effect]) -> list[Visible]:

@@ -18,6 +18,7 @@ from pipeline.inference.prediction import predict
 from pipeline.inference.program import program
 from pipeline.inference.residual import residual
 from pipeline.inference.span import basis
+from pipeline.selection.criteria import CRITERIA
 from vjm.effects.base import Effect
 
 Array = NDArray[np.float64]
@@ -81,9 +82,9 @@ def seen(campaign: Campaign, model: Model, candidates: Mapping[str, Effect], say
     there = predict(model, cases)
     left = residual(cases, there)
     found = Fit(model, there, replace(left, values=np.zeros_like(left.values)), 1)
-    at = look(cases)
+    at = look(cases, CRITERIA.screened_steps)
     every = [effect for name, effect in candidates.items() if name not in model.names]
-    kinked = probes(model, list(candidates.values()), cases, say)
+    kinked = probes(model, list(candidates.values()), cases, CRITERIA.plain_probe, say)
     signs = signatures(found, every, kinked, at, say)
     used = cases.predicted & cases.fitted[:, None]
     mask = used[at.rows]

@@ -15,6 +15,7 @@ from pipeline.inference.fit import Fit, fit
 from pipeline.inference.model import Model
 from pipeline.inference.program import Program, program
 from pipeline.inference.starts import best_fit
+from pipeline.selection.criteria import CRITERIA
 from pipeline.simulate import bench_rig
 from pipeline.virtual.bench import measure
 from pipeline.virtual.plan import GAUGES, bench_plan
@@ -39,7 +40,7 @@ def fitted(steps: int, seed: int) -> Fit:
 
 @pytest.mark.parametrize("seed", [1, pytest.param(2, marks=pytest.mark.long)])
 def test_readings_by_which_rows_chose_their_sides_are_no_pattern(seed: int) -> None:
-    assert abs(scores(fitted(10, seed))[0].score) < 4.0
+    assert abs(scores(fitted(10, seed), CRITERIA)[0].score) < 4.0
 
 
 @pytest.mark.long

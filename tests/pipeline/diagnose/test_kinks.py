@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import pytest
 
-from pipeline.diagnose.evidence import APART
 from pipeline.diagnose.exclusion import excluded, needed
 from pipeline.diagnose.shelf import Names, Shelf
 from pipeline.inference.model import Model
 from pipeline.inference.program import program
 from pipeline.inference.starts import best_fit
+from pipeline.selection.criteria import CRITERIA
 from tests.pipeline.diagnose.bench import bench
 from vjm.effects import catalogue
 
@@ -28,11 +28,11 @@ def shelf(play: float) -> Shelf:
 
 def test_a_kink_in_one_set_alone_asks_for_more() -> None:
     it = shelf(6e-4)
-    assert needed(it, CONTACT, SOFT) == APART
+    assert needed(it, CONTACT, SOFT) == CRITERIA.exclusion
     choices = it.fit(PLAY).residual
     assert choices.spread > 0.0 < choices.doubt
     assert it.fit(CONTACT).residual.spread == it.fit(CONTACT).residual.doubt == 0.0
-    assert needed(it, PLAY, CONTACT) == needed(it, CONTACT, PLAY) == APART + choices.spread
+    assert needed(it, PLAY, CONTACT) == needed(it, CONTACT, PLAY) == CRITERIA.exclusion + choices.spread
 
 
 @pytest.mark.parametrize(("play", "plain"), [(6e-4, False), (6e-3, True)])

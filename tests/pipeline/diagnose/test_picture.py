@@ -10,13 +10,14 @@ import numpy as np
 import pytest
 
 from pipeline.diagnose.apart import multiple_correlation
-from pipeline.diagnose.evidence import APART, FALSE_ALARM, entry
+from pipeline.diagnose.merit import entry
 from pipeline.diagnose.picture import Picture
 from pipeline.diagnose.shelf import Shelf
 from pipeline.diagnose.signatures import Signature
 from pipeline.inference.fit import Fit
 from pipeline.inference.model import Model
 from pipeline.inference.program import program
+from pipeline.selection.criteria import CRITERIA
 from tests.pipeline.diagnose.bench import bench
 from vjm.effects import catalogue
 
@@ -68,16 +69,22 @@ def test_what_takes_implausible_numbers_off_another_is_worth_that(share: float) 
     column = np.full((6, 1), 1e3)
     other = Signature(EFFECTS["joint_torsional_stiffness"], (column,), np.array([-np.inf]))
     fit = cast(Fit, SimpleNamespace(model=model, chi_square=0.0))
-    about = Picture(fit, {"other": other}, np.zeros(6), column / size, np.zeros(6, dtype=int), share)
+    about = Picture(
+        fit, {"other": other}, np.zeros(6), column / size, np.zeros(6, dtype=int), share, CRITERIA.plausible
+    )
     assert about.gain(["other"]).value == pytest.approx(2.0, rel=1e-4)
 
 
 def test_thresholds() -> None:
     """One of seventeen candidates with one number: 13.2, by Bonferroni; more for more numbers and more looks."""
-    assert entry(EFFECTS["modulus_error"], 17) == pytest.approx(13.2, abs=0.1)
-    assert entry(EFFECTS["base_compliance"], 17) > entry(EFFECTS["load_offset"], 17)
-    assert entry(EFFECTS["joint_clearance"], 17) > entry(EFFECTS["modulus_error"], 17)
-    assert FALSE_ALARM < 0.02
+    names = ("modulus_error", "base_compliance", "load_offset", "joint_clearance")
+    others = [name for name in catalogue() if name not in names][:13]
+    seventeen = {name: catalogue()[name] for name in (*names, *others)}
+    it = cast(Shelf, SimpleNamespace(criteria=CRITERIA, candidates=seventeen))
+    assert entry(it, "modulus_error") == pytest.approx(13.2, abs=0.1)
+    assert entry(it, "base_compliance") > entry(it, "load_offset")
+    assert entry(it, "joint_clearance") > entry(it, "modulus_error")
+    assert CRITERIA.false_alarm < 0.02
 
 
 @pytest.mark.parametrize(("size", "wrong"), [(5.0, 0.132), (10.0, 0.013)])
@@ -88,5 +95,5 @@ def test_the_wrong_one_of_two_alike_effects(size: float, wrong: float) -> None:
     data = size * one + rng.standard_normal((200_000, 2))
     ahead = (data @ other) ** 2 - (data @ one) ** 2
     assert np.mean(ahead > 0.0) == pytest.approx(wrong, rel=0.05)
-    assert np.mean(ahead > APART) < 0.4 * wrong
+    assert np.mean(ahead > CRITERIA.exclusion) < 0.4 * wrong
     assert multiple_correlation(one, other[:, None]) == pytest.approx(0.9)

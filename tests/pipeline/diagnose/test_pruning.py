@@ -10,11 +10,12 @@ from pipeline.challenge.benches import scaled
 from pipeline.coverage.cases import BASE
 from pipeline.diagnose.diagnosis import diagnose
 from pipeline.diagnose.merit import cost
-from pipeline.diagnose.pruning import FAR_OFF, NEAR, fit_from, pruned
+from pipeline.diagnose.pruning import fit_from, pruned
 from pipeline.diagnose.shelf import Names, Shelf
 from pipeline.inference.fit import Fit, fit
 from pipeline.inference.model import Model
 from pipeline.inference.program import program
+from pipeline.selection.criteria import CRITERIA
 from pipeline.simulate import bench_rig
 from pipeline.virtual.bench import measure
 from pipeline.virtual.plan import GAUGES, SENSORS, bench_plan
@@ -74,7 +75,7 @@ def test_what_is_there_or_not_is_needed_where_little_is_explained_without_it() -
     fit_without = fit(shelf.fit(names).model.without(BASE), cases).chi_square
     # The step is linear, so a fit may leave less.
     assert fit_without == pytest.approx(shelf.left_without(names, BASE) * shelf.least(names), rel=0.05)
-    assert fit_without > 2.0 * FAR_OFF * shelf.least(names)
+    assert fit_without > 2.0 * CRITERIA.far_off * shelf.least(names)
     assert pruned(shelf, names) == names
     assert names - {BASE} not in shelf.fits
 
@@ -101,7 +102,7 @@ def test_a_fit_from_there_that_shows_nothing_is_made_anew(monkeypatch: pytest.Mo
     away = stuck(shelf, SMALL)
     best = shelf.fits.pop(SMALL).chi_square
     monkeypatch.setattr(Shelf, "fit_again", lambda it, wanted, _: it.fits.update(dict.fromkeys(wanted, away)))
-    assert best + 30.0 < away.chi_square < NEAR * shelf.least(LARGE)
+    assert best + 30.0 < away.chi_square < CRITERIA.refit_near * shelf.least(LARGE)
     assert pruned(shelf, LARGE) == SMALL
     assert shelf.fit(SMALL).chi_square == pytest.approx(best, abs=0.01)
 

@@ -10,13 +10,13 @@ import pytest
 
 from pipeline.diagnose import exclusion, few_rows, rivals
 from pipeline.diagnose.estimates import Estimate
-from pipeline.diagnose.evidence import APART, apart
 from pipeline.diagnose.exclusion import possible
 from pipeline.diagnose.few_rows import fit_together
 from pipeline.diagnose.merit import seen, taken
 from pipeline.diagnose.shelf import Names, Shelf
 from pipeline.inference.model import Model
 from pipeline.inference.program import program
+from pipeline.selection.criteria import CRITERIA
 from tests.pipeline.diagnose.bench import AXIAL, MIXED, bench
 from vjm.effects import catalogue
 
@@ -27,8 +27,8 @@ def kept(monkeypatch: pytest.MonkeyPatch, gaps: dict[str, float]) -> set[str]:
     """Which of these sets, "a+b" to their gaps, remain beside the best one."""
     of = {frozenset(names.split("+")): value for names, value in gaps.items()}
     monkeypatch.setattr(exclusion, "worse", lambda shelf, rival, best: of[rival])
-    monkeypatch.setattr(exclusion, "needed", lambda shelf, rival, best: APART)
-    found = possible(cast(Shelf, None), [*of, BEST, frozenset[str]()], BEST)
+    monkeypatch.setattr(exclusion, "needed", lambda shelf, rival, best: CRITERIA.exclusion)
+    found = possible(cast(Shelf, SimpleNamespace(criteria=CRITERIA)), [*of, BEST, frozenset[str]()], BEST)
     return {"+".join(sorted(names)) for names in found}
 
 
@@ -60,7 +60,9 @@ def test_beside_a_set_that_explains_nothing_only_what_may_explain_is_looked_at(
     costs = {best: 100.0, frozenset("a"): 200.0, frozenset("b"): 200.0, rival: 120.0}
     fitted: list[Names] = []
     effect = SimpleNamespace(parameters=(None,))
-    shelf = SimpleNamespace(candidates=dict.fromkeys("abc", effect), fits=[best], fit_all=fitted.extend)
+    shelf = SimpleNamespace(
+        candidates=dict.fromkeys("abc", effect), fits=[best], fit_all=fitted.extend, criteria=CRITERIA
+    )
     monkeypatch.setattr(rivals, "few", lambda _: False)
     monkeypatch.setattr(rivals, "excess", lambda _, names: beyond)
     monkeypatch.setattr(rivals, "cost", lambda _, names: costs[names])
@@ -81,7 +83,8 @@ def test_beside_a_set_that_explains_nothing_only_what_may_explain_is_looked_at(
 
 def test_more_numbers_have_to_show_more() -> None:
     """Six of them take up 22.5 of noise one time in a thousand; what has fewer needs one less for each."""
-    assert apart(0) == APART and apart(-2) == APART - 2.0
+    apart, least = CRITERIA.apart, CRITERIA.exclusion
+    assert apart(0) == least and apart(-2) == least - 2.0
     assert apart(6) == pytest.approx(22.5, abs=0.1)
     noise = np.random.default_rng(3).chisquare(3, size=100_000)
     assert np.mean(noise > apart(3)) == pytest.approx(0.001, abs=0.0004)

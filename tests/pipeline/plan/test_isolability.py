@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 from scipy.stats import chi2
 
-from pipeline.diagnose.evidence import APART, FALSE_ALARM
 from pipeline.plan.isolability import apart, matrix, needed, visible
 from pipeline.plan.seen import Seen
+from pipeline.selection.criteria import CRITERIA
 from vjm.effects import catalogue
 
 EFFECTS = {name: catalogue()[name] for name in ("modulus_error", "bar_stiffness_asymmetry")}
@@ -27,7 +27,7 @@ def two(rho: float, first: float, second: float) -> Seen:
 def test_an_effect_of_the_needed_size_is_let_in_nine_times_of_ten() -> None:
     size, draws = needed(3, 17), 200_000
     noise = GENERATOR.normal(size=(draws, 3)) + [size, 0.0, 0.0]
-    share = np.mean(np.sum(noise**2, axis=1) > chi2.isf(FALSE_ALARM / 17, 3))
+    share = np.mean(np.sum(noise**2, axis=1) > chi2.isf(CRITERIA.false_alarm / 17, 3))
     assert share == pytest.approx(0.9, abs=0.003)
 
 
@@ -52,7 +52,7 @@ def test_a_rival_is_excluded_in_95_of_100_at_that_size() -> None:
     right, wrong = np.array([1.0, 0.0]), np.array([rho, np.sqrt(1.0 - rho**2)])
     data = size * right + GENERATOR.normal(size=(draws, 2))
     worse = (data @ right) ** 2 - (data @ wrong) ** 2
-    assert np.mean(worse > APART) == pytest.approx(0.95, abs=0.005)
+    assert np.mean(worse > CRITERIA.exclusion) == pytest.approx(0.95, abs=0.005)
 
 
 def test_what_is_all_alike_is_never_told_apart() -> None:

@@ -1,0 +1,1 @@
+"""From fits to the sets of effects that may be true."""
