@@ -57,6 +57,11 @@ coverage: $(STAMP)
 extrapolation: $(STAMP)
 	$(PYTHON) -m pipeline.extrapolation
 
+# Every criterion of the diagnosis halved and doubled on sixty benches: an hour or two, to be stopped and started too.
+.PHONY: sensitivity
+sensitivity: $(STAMP)
+	$(PYTHON) -m pipeline.sensitivity
+
 # The shipped campaign, measured again on the virtual bench; what it hides stands here and in its sealed answer.
 example: $(STAMP)
 	rm -f examples/bench/campaign.toml examples/bench/measurements.csv examples/bench.sealed.json

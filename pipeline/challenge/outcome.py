@@ -94,7 +94,7 @@ def outcome(number: int, commit: str, code: str) -> Outcome:
         "code": code,
     }
     try:
-        it, found, without = _measured(number)
+        it, found, without = measured(number)
     except RuntimeError as error:
         return Outcome(**common, error=f"bench: {error}", seconds=round(process_time() - began, 2))
     campaign = campaign_of(it, found, it.seed)
@@ -141,7 +141,7 @@ def judged(it: Case, verdict: str, sets: Sequence[Sequence[str]]) -> Score:
     return "part" if any(names <= truth for names in named) else "wrong"
 
 
-def _measured(number: int) -> tuple[Case, list[Readings], list[Readings]]:
+def measured(number: int) -> tuple[Case, list[Readings], list[Readings]]:
     """The case with loads that its bench bears, and its readings with and without what is hidden, both exact."""
     for share in SHARES:
         it = case(number, share)

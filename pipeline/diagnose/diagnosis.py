@@ -111,25 +111,15 @@ def diagnose(
 ) -> Diagnosis:
     """Look for what the model lacks. InputError for a campaign that cannot be judged or a model that it cannot have."""
     begin = perf_counter()
-    model, known = sized_model(model, campaign), all_sized(known, scale_for(campaign))
-    check_suitable([term.effect for term in model.terms], campaign)
-    whole = trusted(completed(campaign), model)
-    candidates, refused = suitable(whole, model, known)
-    cases, attempts = program(whole), Attempts()
-    shelf = Shelf(cases, model, candidates, say, criteria)
-    before = beginning(shelf)
-    if why := untested(before):
-        found = Found(shelf, frozenset(), ())
-        nothing = Ruling("nothing_tested", (frozenset(),), before)
-        return Diagnosis(whole, found, nothing, Judgement((), 1.0), {}, None, refused, why, (), _since(begin))
-    found = (
-        search_one_by_one(shelf)
-        if plain_zero(before, criteria)
-        else with_what_held_out_tests_need(search(shelf))
-    )
-    judgement = judge(shelf.fit(found.best), criteria)
-    say("what else could explain it")
-    ruling = ruled(found, judgement, attempts)
+    shelf, refused = _prepared(campaign, model, known, say, criteria)
+    whole, attempts = shelf.whole.campaign, Attempts()
+    it = chosen(shelf, attempts)
+    if it.untested:
+        found, judgement = Found(shelf, frozenset(), ()), Judgement((), 1.0)
+        return Diagnosis(
+            whole, found, it.ruling, judgement, {}, None, refused, it.untested, (), _since(begin)
+        )
+    found, ruling = it.found, it.ruling
     next_test = None
     if len(ruling.sets) > 1:
         say("the next test")
@@ -148,6 +138,44 @@ def diagnose(
         tuple(attempts.failed),
         _since(begin),
     )
+
+
+def fit_cache(campaign: Campaign, model: Model, known: Mapping[str, Effect]) -> Shelf:
+    """Where fits of the campaign are kept, none made yet. InputError as of `diagnose`."""
+    return _prepared(campaign, model, known, lambda _: None, CRITERIA)[0]
+
+
+def _prepared(
+    campaign: Campaign, model: Model, known: Mapping[str, Effect], say: Say, criteria: Criteria
+) -> tuple[Shelf, dict[str, str]]:
+    """The empty fit cache, and the effects that are refused and why."""
+    model, known = sized_model(model, campaign), all_sized(known, scale_for(campaign))
+    check_suitable([term.effect for term in model.terms], campaign)
+    whole = trusted(completed(campaign), model)
+    candidates, refused = suitable(whole, model, known)
+    return Shelf(program(whole), model, candidates, say, criteria), refused
+
+
+@dataclass(frozen=True, eq=False)
+class Chosen:
+    """What the criteria choose of all fits. untested: why nothing can be tested, or ""."""
+
+    found: Found
+    ruling: Ruling
+    untested: str = ""
+
+
+def chosen(shelf: Shelf, attempts: Attempts) -> Chosen:
+    """The verdict and what it rests on. What is optional and fails is said in the attempts."""
+    before = beginning(shelf)
+    if why := untested(before):
+        found = Found(shelf, frozenset(), ())
+        return Chosen(found, Ruling("nothing_tested", (frozenset(),), before), why)
+    plain = plain_zero(before, shelf.criteria)
+    found = search_one_by_one(shelf) if plain else with_what_held_out_tests_need(search(shelf))
+    judgement = judge(shelf.fit(found.best), shelf.criteria)
+    shelf.say("what else could explain it")
+    return Chosen(found, ruled(found, judgement, attempts))
 
 
 def beginning(shelf: Shelf) -> Fit:
@@ -257,7 +285,7 @@ def _steps(it: Diagnosis) -> list[Fit]:
 def _alike(it: Diagnosis) -> tuple[tuple[str, ...], ...]:
     return tuple(
         dict.fromkeys(
-            (a.effect, a.rival) for a in it.alike if a.correlation > it.shelf.criteria.confusable_correlation
+            (a.effect, a.rival) for a in it.alike if 1.0 - a.correlation < it.shelf.criteria.confusable_within
         )
     )
 

@@ -113,7 +113,7 @@ def _with_equals(found: Found, alike: tuple[Likeness, ...], bounded: tuple[str, 
     for each in alike:
         other = best - {each.effect} | {each.rival}
         if (
-            each.correlation > shelf.criteria.equal_correlation
+            1.0 - each.correlation < shelf.criteria.equal_within
             and shelf.affords(other)
             and _whole(shelf, other)
         ):

@@ -64,7 +64,7 @@ def plain_zero(found: Fit, criteria: Criteria) -> bool:
     return (
         bool(every)
         and found.rms > criteria.zero_large
-        and every[0].gain > criteria.zero_most * found.chi_square
+        and every[0].gain > (1.0 - criteria.zero_left) * found.chi_square
     )
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property, partial
 
@@ -20,7 +20,7 @@ from pipeline.inference.sent import fits_at_once
 from pipeline.inference.starts import best_fit, height
 from pipeline.inference.stops import sided
 from pipeline.parameter_names import parted, path_of
-from pipeline.selection.criteria import CRITERIA, Criteria
+from pipeline.selection.criteria import CRITERIA, Criteria, refits
 from vjm.effects.base import Effect
 from vjm.work import TooMuch, spent
 
@@ -33,7 +33,7 @@ class Shelf:
 
     candidates: by name, in the order in which they enter a model. tried: sets that were fitted from where a larger one
     stands, and that one. looks: what `left_without` found. ends: work (`vjm.work`) after which nothing new is
-    begun, but `TooMuch` raised.
+    begun, but `TooMuch` raised. known: fits of the same campaign, model and candidates that need not be made again.
     """
 
     whole: Program
@@ -46,6 +46,7 @@ class Shelf:
     tried: set[tuple[Names, Names]] = field(default_factory=set)
     looks: dict[tuple[Names, str], float] = field(default_factory=dict)
     ends: float = np.inf
+    known: Shelf | None = None
     at: Look = field(init=False)
 
     def __post_init__(self) -> None:
@@ -70,6 +71,8 @@ class Shelf:
     def unseen(self) -> frozenset[str]:
         """Names effect.parameter that stay at null: where readings are few, those that they do not see beside the
         others of their effect, at any plausible size. Where readings are many a fit finds them by itself."""
+        if self.known is not None:
+            return self.known.unseen
         if self.room > self.criteria.few_readings or self.fit(frozenset()).prediction.lost.any():
             return frozenset()
         shown = self.picture(frozenset()).signatures
@@ -86,18 +89,43 @@ class Shelf:
 
     def fit(self, names: Names, begin: Mapping[str, float] | None = None) -> Fit:
         """The base model with these effects at its best fit. begin: where those with kinks begin."""
-        if names not in self.fits:
+        if names not in self._all_known([names]):
             self._begun(self._title(names))
             self.fits[names] = self._no_worse(names, self._fitted(names, begin or {}))
         return self.fits[names]
 
     def fit_all(self, wanted: Mapping[Names, Mapping[str, float]]) -> None:
         """Fit several sets of which none holds another, each as `fit` does it alone."""
-        self._fit_all({names: begin for names, begin in wanted.items() if names not in self.fits})
+        there = self._all_known(wanted)
+        self._fit_all({names: begin for names, begin in wanted.items() if names not in there})
 
     def fit_anew(self, wanted: Sequence[Names]) -> None:
         """Fit sets as if they had not been, and keep the better fit of each."""
-        self._fit_all({names: {} for names in wanted})
+        there = self._all_known(wanted) if self.known else {}
+        self._fit_all({names: {} for names in wanted if names not in there})
+
+    def under(self, criteria: Criteria) -> Shelf:
+        """As if nothing had been looked at, under other criteria; sets that were fitted have the fits that they have
+        here, unless what is changed changes them."""
+        if refits(self.criteria, criteria):
+            return Shelf(self.whole, self.base, self.candidates, self.say, criteria)
+        return replace(
+            self,
+            criteria=criteria,
+            fits={},
+            pictures={},
+            looks=dict(self.looks),
+            tried=set(self.tried),
+            ends=np.inf,
+            known=self,
+        )
+
+    def _all_known(self, wanted: Iterable[Names]) -> Mapping[Names, Fit]:
+        """All fits, with those of the wanted sets that were made under other criteria."""
+        if self.known is not None:
+            own = self.known.fits
+            self.fits |= {names: own[names] for names in wanted if names in own and names not in self.fits}
+        return self.fits
 
     def _fit_all(self, new: Mapping[Names, Mapping[str, float]]) -> None:
         # What takes longest is begun first: rows that choose their side, then other kinks.
@@ -182,6 +210,8 @@ class Shelf:
 
     def picture(self, names: Names) -> Picture:
         """What could be added to a fit."""
+        if self.known is not None and self.known.fits.get(names) is self.fit(names):
+            return self.pictures.setdefault(names, self.known.picture(names))
         if names not in self.pictures:
             self._begun(f"what could be added to {self._title(names)}")
             found = self.fit(names)
@@ -205,6 +235,8 @@ class Shelf:
 
     @cached_property
     def _probes(self) -> list[Probe]:
+        if self.known is not None:
+            return self.known._probes
         return probes(
             self.base, list(self.candidates.values()), self.whole, self.criteria.plain_probe, self.say
         )

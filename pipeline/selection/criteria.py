@@ -8,7 +8,7 @@ solvers are no criteria and stand where the solver is.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, field, fields
+from dataclasses import dataclass, field, fields, replace
 from functools import cache
 from typing import Any
 
@@ -30,8 +30,12 @@ class Criterion:
     source: str
 
 
-def _criterion(value: float, unit: str, group: str, meaning: str, source: str = OWN) -> Any:
-    return field(default=value, metadata={"unit": unit, "group": group, "meaning": meaning, "source": source})
+def _criterion(
+    value: float, unit: str, group: str, meaning: str, source: str = OWN, fits: bool = False
+) -> Any:
+    """fits: whether fits themselves depend on it, not only what is chosen of them."""
+    told = {"unit": unit, "group": group, "meaning": meaning, "source": source}
+    return field(default=value, metadata={"told": told, "fits": fits})
 
 
 @dataclass(frozen=True)
@@ -81,15 +85,16 @@ class Criteria:
         "exclusion",
         "one standard deviation of a parameter before anything was measured: a tilt by 15 degrees explains a heavy "
         "ruler as well as its weight does, and is not what is meant by a tilt",
+        fits=True,
     )
-    equal_correlation: float = _criterion(
-        1.0 - 1e-6, SHARE, "exclusion", "correlation from which two effects are one in all readings"
-    )
-    confusable_correlation: float = _criterion(
-        0.9,
+    equal_within: float = _criterion(
+        1e-6,
         SHARE,
         "exclusion",
-        "correlation from which a candidate is listed as one that looks like a named effect",
+        "1 - rho, rho the correlation, below which two effects are one in all readings",
+    )
+    confusable_within: float = _criterion(
+        0.1, SHARE, "plan", "1 - rho below which a candidate is listed as one that looks like a named effect"
     )
     undetermined_rise: float = _criterion(
         2.0, CHI2, "exclusion", "a parameter that may be at its null for no more than this is not determined"
@@ -112,6 +117,7 @@ class Criteria:
         "search",
         "after which a search of no load step begins no further fit, more where there are more: of the 36 slowest of "
         "600 benches one is cut, an unknown that stays one; the next takes 0.82 of it",
+        fits=True,
     )
     sets_fitted: int = _criterion(
         4, COUNT, "search", "sets of one size that are fitted of those that compete"
@@ -137,13 +143,21 @@ class Criteria:
         300.0, FACTOR, "search", "the least chi-square of the roots, beyond which a root is left out unseen"
     )
     plain_probe: float = _criterion(
-        100.0, SIGMA, "search", "of all readings together, from which no stronger probe of an effect is tried"
+        100.0,
+        SIGMA,
+        "search",
+        "of all readings together, from which no stronger probe of an effect is tried",
+        fits=True,
     )
     hidden_share: float = _criterion(
-        1e-3, SHARE, "search", "of the largest column that must be left of another one to be seen beside it"
+        1e-3,
+        SHARE,
+        "search",
+        "of the largest column that must be left of another one to be seen beside it",
+        fits=True,
     )
     screened_steps: int = _criterion(
-        200, COUNT, "search", "load steps that a screening of smooth effects needs"
+        200, COUNT, "search", "load steps that a screening of smooth effects needs", fits=True
     )
     few_steps: int = _criterion(
         20, COUNT, "search", "load steps up to which sets are grown by everything, side by side"
@@ -154,6 +168,7 @@ class Criteria:
         COUNT,
         "search",
         "readings up to which a set has no parameters that they do not see: two of the largest effects take them all",
+        fits=True,
     )
     # What a set no longer needs.
     needless: float = _criterion(
@@ -210,8 +225,11 @@ class Criteria:
     )
     zero_chance: float = _criterion(1e-3, CHANCE, "sensors", "noise leaves so much beside a sensor's zero")
     zero_large: float = _criterion(20.0, SIGMA, "sensors", "from which a misfit is large")
-    zero_most: float = _criterion(
-        0.99, SHARE, "sensors", "of a large misfit, from which a zero alone is settled before anything else"
+    zero_left: float = _criterion(
+        0.01,
+        SHARE,
+        "sensors",
+        "of a large misfit that a zero alone may leave to be settled before anything else",
     )
     zero_sets: int = _criterion(12, COUNT, "sensors", "sets of least cost beside which a zero is looked for")
     zero_alone: float = _criterion(
@@ -246,10 +264,17 @@ class Criteria:
         """Probability of each of six checks that noise fails it: truth is refused as seldom as a name is false."""
         return self.false_alarm / 6
 
+    def times(self, name: str, factor: float) -> Criteria:
+        """With one threshold so many times as large; a count is at least one."""
+        value = getattr(self, name) * factor
+        return replace(
+            self, **{name: max(1, round(value)) if isinstance(getattr(self, name), int) else value}
+        )
+
     def of(self) -> Iterator[Criterion]:
         """All of them, in their order."""
         for each in fields(self):
-            yield Criterion(each.name, getattr(self, each.name), **each.metadata)
+            yield Criterion(each.name, getattr(self, each.name), **each.metadata["told"])
 
     def apart(self, more: int) -> float:
         """Chi-square by which a rival has to be worse to be excluded by an explanation that has so many parameters
@@ -262,6 +287,13 @@ class Criteria:
         """Fall of chi-square below which an effect of so many parameters is not let in, the best of so many looks:
         Bonferroni's bound."""
         return _isf(self.false_alarm / looks, parameters)
+
+
+def refits(one: Criteria, other: Criteria) -> bool:
+    """Whether fits made under one of them have to be made again under the other."""
+    return any(
+        each.metadata["fits"] and getattr(one, each.name) != getattr(other, each.name) for each in fields(one)
+    )
 
 
 @cache
