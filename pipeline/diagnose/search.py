@@ -19,7 +19,7 @@ from pipeline.diagnose.merit import cost, is_noise, root_of
 from pipeline.diagnose.pruning import pruned
 from pipeline.diagnose.rivals import Found, with_rivals
 from pipeline.diagnose.shelf import Names, Shelf
-from pipeline.inference.fit import allowance
+from pipeline.inference.solvers import allowance
 from vjm.work import TooMuch, spent
 
 

@@ -10,13 +10,14 @@ import numpy as np
 
 from pipeline.diagnose.picture import Picture, picture
 from pipeline.diagnose.signatures import Look, Probe, Say, hidden, look, probed, probes, signatures
-from pipeline.inference.fit import WORK, Fit, allowance, fit, unfitted
+from pipeline.inference.fit import Fit, fit, unfitted
 from pipeline.inference.model import Model, Term
 from pipeline.inference.parts import at_rows
 from pipeline.inference.prediction import Prediction, predict
 from pipeline.inference.program import Program
 from pipeline.inference.residual import residual
 from pipeline.inference.sent import fits_at_once
+from pipeline.inference.solvers import WORK, allowance
 from pipeline.inference.starts import best_fit, height
 from pipeline.inference.stops import sided
 from pipeline.parameter_names import parted, path_of

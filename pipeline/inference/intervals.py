@@ -18,13 +18,14 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.stats import norm
 
-from pipeline.inference.fit import WORK, Fit, allowance
+from pipeline.inference.fit import Fit
 from pipeline.inference.landscape import BLIND, CLOSE, NEARLY, RISE, STEPS, Landscape, Range
 from pipeline.inference.model import Free
 from pipeline.inference.objective import Objective
 from pipeline.inference.parts import at_rows
 from pipeline.inference.prediction import Prediction
 from pipeline.inference.program import Program
+from pipeline.inference.solvers import WORK, allowance
 from pipeline.inference.stops import sided
 from pipeline.processors import at_once
 from vjm.work import at_most

@@ -10,13 +10,14 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import lsq_linear
 
-from pipeline.inference.fit import Fit, far, fit
+from pipeline.inference.fit import Fit, fit
 from pipeline.inference.model import Free, Model
 from pipeline.inference.objective import Objective
 from pipeline.inference.parts import at_rows
 from pipeline.inference.prediction import Prediction
 from pipeline.inference.program import Program
 from pipeline.inference.sent import fits_at_once
+from pipeline.inference.solvers import far
 from pipeline.inference.thinning import thinned
 from vjm.effects.base import Effect
 

@@ -5,7 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from pipeline.inference.fit import DRAGGING, LATE, drags
+from pipeline.inference.levenberg_marquardt import LATE, drags
+from pipeline.inference.solvers import DRAGGING
 
 ROWS = 100
 

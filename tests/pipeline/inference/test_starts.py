@@ -11,9 +11,10 @@ import pytest
 from scipy.stats import chi2, norm
 
 from pipeline.coverage.trial import campaign
-from pipeline.inference.fit import Fit, _descend, fit
+from pipeline.inference.fit import Fit, fit
 from pipeline.inference.intervals import intervals, landscape
 from pipeline.inference.landscape import NEARLY
+from pipeline.inference.levenberg_marquardt import levenberg_marquardt
 from pipeline.inference.model import Model
 from pipeline.inference.objective import Evaluation, Objective
 from pipeline.inference.prediction import predict
@@ -134,7 +135,9 @@ def test_no_step_of_a_fit_goes_most_of_the_way_to_where_an_effect_is_strongest(
 
     monkeypatch.setattr(Objective, "at", seen)
     aim = Objective(model.at(np.array(tried)), yielding(0.00215).by_role[0][1])
-    assert _descend(aim, None, None, np.inf, 1.0).there.values[0] == pytest.approx(0.00215, rel=0.01)
+    assert levenberg_marquardt(aim, None, None, np.inf, 1.0).there.values[0] == pytest.approx(
+        0.00215, rel=0.01
+    )
     low = model.free[0].bounds[0]
     assert all(value >= low + 0.499 * (before - low) for before, value in pairwise(tried))
     assert min(tried) < low + 0.501 * (max(tried) - low), "the first step would have gone farther"

@@ -1,0 +1,133 @@
+"""What a solver of the free parameters is given and returns, and scipy's solver, by which the own one is checked."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.optimize import least_squares
+
+from pipeline.inference.objective import Evaluation, Objective
+from pipeline.inference.prediction import Prediction
+from pipeline.inference.program import Program
+from vjm.work import spent
+
+Array = NDArray[np.float64]
+Watch = Callable[[str], None]
+FAR = 2.0
+"""A model that leaves so many times what noise does is far from it: no verdict hangs on how much it leaves."""
+DRAGGING = 0.01
+"""Of what is left beyond noise: less than this is nothing there."""
+WORK, ROWS = 1000.0, 20
+"""Work (`vjm.work`) after which a fit of no row ends where it is, and the rows for which it takes as many again. The
+longest fits of eleven of the slowest benches take three quarters of that; where rows have no equilibrium each
+evaluation takes a hundred times as long."""
+TOLERANCE = 1e-10
+"""Of scipy's solver, for chi-square, the parameters and the gradient, each relative."""
+LARGEST = 1e9
+"""Typical sizes that a bound of scipy's solver may be away."""
+
+
+@dataclass(frozen=True, eq=False)
+class Pulled:
+    """An objective with a pull towards null, and its derivatives by typical sizes.
+
+    scale, null: (P,). pull: (P, P), by typical sizes from null.
+    """
+
+    aim: Objective
+    scale: Array
+    null: Array
+    pull: Array
+
+    @classmethod
+    def of(cls, aim: Objective, plausible: float) -> Pulled:
+        free = aim.model.free
+        scale = np.array([abs(each.parameter.typical) for each in free])
+        null = np.array([each.parameter.null for each in free])
+        return cls(aim, scale, null, np.eye(len(free)) / plausible)
+
+    def residuals(self, there: Evaluation) -> Array:
+        """(N + 1 + P,)"""
+        return np.concatenate([there.residuals, self.pull @ ((there.values - self.null) / self.scale)])
+
+    def jacobian(self, there: Evaluation) -> Array:
+        """(N + 1 + P, P)"""
+        return np.vstack([there.jacobian * self.scale, self.pull])
+
+
+@dataclass(frozen=True, eq=False)
+class End:
+    """Where a descent ends. evaluations: of the campaign. ended: whether its work ran out before."""
+
+    there: Evaluation
+    evaluations: int
+    ended: bool
+
+
+class Solver(Protocol):
+    """Finds the least chi-square near the model's own values.
+
+    start: a prediction of a like model, from which equilibria are found sooner. plausible: see `fit`. share: of the
+    work that a fit may take.
+    """
+
+    def __call__(
+        self, aim: Objective, start: Prediction | None, watch: Watch | None, plausible: float, share: float
+    ) -> End: ...
+
+
+def trust_region(
+    aim: Objective, start: Prediction | None, watch: Watch | None, plausible: float, share: float
+) -> End:
+    """The trust region reflective method of scipy (M. A. Branch, T. F. Coleman, Y. Li, SIAM J. Sci. Comput. 21, 1999).
+
+    Every evaluation settles the true inputs, which takes longer than the own solver; it may be cut by its work only
+    where it ends.
+    """
+    bounds = np.array([each.bounds for each in aim.model.free]).T
+    pulled = Pulled.of(aim, plausible)
+    wide = np.clip((bounds - pulled.null) / pulled.scale, -LARGEST, LARGEST)
+    ends = spent() + share * WORK * allowance(aim.program)
+    here = aim.at(np.clip(aim.model.values, *bounds), start)
+    count = here.rounds
+
+    def there(x: Array) -> Evaluation:
+        nonlocal here, count
+        values = np.clip(pulled.null + pulled.scale * x, *bounds)
+        if not np.array_equal(values, here.values):
+            here = aim.at(values, here.prediction)
+            count += here.rounds
+            if watch is not None:
+                watch(f"{count} evaluations, chi-square {float(here.residuals @ here.residuals):.5g}")
+        return here
+
+    inside = 1e-9 * np.minimum(wide[1] - wide[0], 1.0)
+    found = least_squares(
+        lambda x: pulled.residuals(there(x)),
+        np.clip((here.values - pulled.null) / pulled.scale, wide[0] + inside, wide[1] - inside),
+        lambda x: pulled.jacobian(there(x).with_slopes),
+        bounds=wide,
+        ftol=TOLERANCE,
+        xtol=TOLERANCE,
+        gtol=TOLERANCE,
+    )
+    return End(there(found.x).with_slopes, count, spent() > ends)
+
+
+def far(total: float, count: int) -> bool:
+    """Whether a sum of so many squares is far above noise."""
+    return total > FAR * count
+
+
+def nothing(gain: float, total: float, count: int) -> bool:
+    """Whether a sum of so many squares is far above noise, and what it fell by is nothing."""
+    return far(total, count) and gain < DRAGGING * (total - count)
+
+
+def allowance(program: Program) -> float:
+    """Work that a campaign may take, as a multiple of that without any rows."""
+    return 1.0 + float(program.fitted.sum()) / ROWS
