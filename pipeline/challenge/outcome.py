@@ -28,6 +28,7 @@ from pipeline.record import Record
 from pipeline.virtual.bench import read_out, true_readings
 from pipeline.virtual.plan import GAUGES
 from vjm.effects import catalogue
+from vjm.work import TooMuch
 
 Array = NDArray[np.float64]
 Score = Literal["right", "in set", "part", "missed", "undecided", "wrong", "false alarm", "failed"]
@@ -212,7 +213,12 @@ def _inside(answer: Diagnosis, it: Case) -> dict[str, bool]:
     """Of sizes, whether the 95 % interval holds what was hidden."""
     out = {}
     land = landscape(answer.fit, answer.shelf.whole)
-    for free, found in zip(answer.model.free, intervals(land), strict=True):
+    try:
+        ends = intervals(land)
+    except TooMuch:
+        # Then an answer has no intervals either.
+        return {}
+    for free, found in zip(answer.model.free, ends, strict=True):
         if is_size(free.effect, free.parameter.name):
             value = it.hidden[free.name]
             out[free.name] = (found.low is None or found.low <= value) and (

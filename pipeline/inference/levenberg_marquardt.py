@@ -30,6 +30,8 @@ ROUGH = 0.1
 """Of what a step promises, by which chi-square at its end may be off."""
 SHORTEST = 0.03
 """Of a step not taken, at least, that the next one takes: else as much as a parabola through both its ends wants."""
+SLOWLY = 3.0
+"""By which the least damping falls after each step that is taken, once one was not."""
 WEAK = 1e-10
 """Damping that a step is first shortened by: along what the data hardly see the least shortens most."""
 HELD = 0.1
@@ -81,7 +83,7 @@ def levenberg_marquardt(
             there = tried.with_slopes
             here, slopes = pulled.residuals(there), pulled.jacobian(there)
             damping = max(_less(damping), least)
-            least /= 10.0
+            least /= SLOWLY
         elif not there.settled and tried.lost == there.lost:
             # Where inputs are not settled a sum of squares is too small, which makes the step look worse.
             there, count = _settled(there, count)
@@ -91,7 +93,8 @@ def levenberg_marquardt(
             losing = tried.lost > there.lost
             part = max(1.0 / (2.0 - float(gain / promise)), SHORTEST)
             damping = max(10.0 * damping, LOSING) if losing else _shorter(slopes, here, room, damping, part)
-            least, losses = (damping, losses + 1) if losing else (least, losses)
+            # Along a curved ridge the next step would be as much too long again: it grows by and by.
+            least, losses = (damping, losses + 1) if losing else (damping / SLOWLY, losses)
         past.append(float(here @ here))
         vain = gain <= 0.0 and promise < VAIN * unit
         if vain or damping > 1e6 or losses == LOSSES or spent() > ends or drags(past, here.size):
