@@ -14,6 +14,7 @@ from pipeline.diagnose.shelf import Names, Shelf
 from pipeline.diagnose.signatures import Signature
 from pipeline.inference.fit import Fit
 from pipeline.inference.model import Model
+from pipeline.selection.criteria import CRITERIA
 from vjm.effects import catalogue
 
 NAMES = ("modulus_error", "mounting_tilt")
@@ -29,9 +30,12 @@ def shelf(misfit: np.ndarray) -> Shelf:
         for name, shape in zip(NAMES, shapes, strict=True)
     }
     fit = cast(Fit, SimpleNamespace(chi_square=float(misfit @ misfit), model=Model()))
-    about = Picture(fit, signatures, misfit, np.zeros((EVERY.size, 0)), EVERY, 1.0)
+    about = Picture(fit, signatures, misfit, np.zeros((EVERY.size, 0)), EVERY, 1.0, CRITERIA.plausible)
     pictures = {frozenset[str](): about}
-    return cast(Shelf, SimpleNamespace(pictures=pictures, candidates={n: effects[n] for n in NAMES}))
+    return cast(
+        Shelf,
+        SimpleNamespace(pictures=pictures, candidates={n: effects[n] for n in NAMES}, criteria=CRITERIA),
+    )
 
 
 @pytest.mark.parametrize(
