@@ -36,6 +36,39 @@ class Value(Record):
     at_bound: bool = False
 
 
+class SetAside(Record):
+    """A single reading that was left out, and by how many of its sigmas it is off."""
+
+    test: str
+    step: int
+    column: str
+    sigma: float
+
+
+class Certain(Record):
+    """An effect that is there whatever else is, with its parameters by name: the best set without it leaves far more,
+    whatever faults of sensors are allowed beside."""
+
+    effect: str
+    parameters: dict[str, float]
+
+
+class NominalValue(Record):
+    """What was written about the rig, beside which everything was fitted. nominal, tolerance: as written, and one
+    standard deviation of that. value, std: as it fits best. pull: standard deviations from nominal to value. seen:
+    whether these tests say more of it than was written."""
+
+    name: str
+    nominal: float
+    tolerance: float
+    value: float
+    std: float
+    pull: float
+    unit: str
+    meaning: str
+    seen: bool
+
+
 class UnknownZero(Record):
     """A sensor that was not zeroed, as it seems: the constant that a column reads too much in some tests, its standard
     error, and the chi-square that it takes off."""
@@ -115,7 +148,9 @@ class Answer(Record):
     error: of the models on the way, the last is the answer's. undetermined: sets of parameters about which the data
     say nothing, or of which they see only combinations. confusable: effects whose parameters go together. at_bound:
     numbers that end at a bound of what they may be. out_by_plausibility: sets that fit as well, out only because their
-    sizes would be implausible. zeros: of sensors that seem not to be zeroed. not_done: optional parts that failed.
+    sizes would be implausible. zeros: of sensors that seem not to be zeroed. nominals: what was written about the rig,
+    none where that is exact. set_aside: single bad readings that were left out. certain: effects that are
+    there whatever the verdict. not_done: optional parts that failed.
     """
 
     campaign: str
@@ -133,6 +168,9 @@ class Answer(Record):
     at_bound: tuple[str, ...] = ()
     out_by_plausibility: tuple[tuple[str, ...], ...] = ()
     zeros: tuple[UnknownZero, ...] = ()
+    nominals: tuple[NominalValue, ...] = ()
+    set_aside: tuple[SetAside, ...] = ()
+    certain: tuple[Certain, ...] = ()
     not_done: tuple[str, ...] = ()
     next_test: dict[str, Any] | None = None
     sentences: tuple[str, ...] = ()

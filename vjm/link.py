@@ -53,7 +53,11 @@ class Link:
 
     def stiffened(self, scale: float) -> Link:
         """The bar with its stiffness scaled."""
-        return replace(self, stiffness=scale * self.stiffness)
+        return self.with_stiffness(scale * self.stiffness)
+
+    def with_stiffness(self, stiffness: Array) -> Link:
+        """The bar with another 6x6 of its own."""
+        return replace(self, stiffness=stiffness)
 
     @cached_property
     def by_value(self) -> ByValue:

@@ -16,6 +16,17 @@ class ModulusError:
 
 
 @dataclass(frozen=True)
+class BarSectionError:
+    """The section of all bars: axial stiffness, bending about y and about z, torsion, each times its own factor; what
+    shears goes with the bending of its plane."""
+
+    ea: float = 1.0
+    eiy: float = 1.0
+    eiz: float = 1.0
+    gj: float = 1.0
+
+
+@dataclass(frozen=True)
 class BarStiffnessAsymmetry:
     """The stiffness of bar 2 times `ratio`; parallelogram only."""
 
@@ -152,6 +163,7 @@ class Errors:
     """All effects of a bench, by their canonical names; the geometric nonlinearity of bars is always there."""
 
     modulus_error: ModulusError = field(default_factory=ModulusError)
+    bar_section_error: BarSectionError = field(default_factory=BarSectionError)
     bar_stiffness_asymmetry: BarStiffnessAsymmetry = field(default_factory=BarStiffnessAsymmetry)
     bar_length_mismatch: BarLengthMismatch = field(default_factory=BarLengthMismatch)
     dimension_error: DimensionError = field(default_factory=DimensionError)
@@ -201,6 +213,7 @@ class Errors:
 
 _OPEN = {
     "modulus_error.scale",
+    *(f"bar_section_error.{p.name}" for p in fields(BarSectionError)),
     "bar_stiffness_asymmetry.ratio",
     "joint_friction.presliding_rad",
     "material_yield.strain",

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from fem.frame.chain import SLOTS
-from fem.frame.errors import Errors
+from fem.frame.errors import BarSectionError, Errors
 from fem.frame.fibres import Fibres, grid
 from fem.frame.joints import Joints
 from fem.frame.model import Gauges, Model
@@ -97,6 +97,8 @@ def _known_weights(rig: Rig) -> Floats:
 def _sections(setup: Setup) -> list[Section]:
     scale = setup.errors.modulus_error.scale
     first = setup.rig.section if scale == 1.0 else setup.rig.section.scaled(scale)
+    each = setup.errors.bar_section_error
+    first = first if each == BarSectionError() else first.scaled_each(each.ea, each.eiy, each.eiz, each.gj)
     ratio = setup.errors.bar_stiffness_asymmetry.ratio
     second = first if ratio == 1.0 else first.scaled(ratio)
     return [first, second][: setup.rig.bars]

@@ -41,12 +41,16 @@ class Section:
 
     def scaled(self, factor: float) -> "Section":
         """Every rigidity times a factor."""
+        return self.scaled_each(factor, factor, factor, factor)
+
+    def scaled_each(self, axial: float, about_y: float, about_z: float, torsion: float) -> "Section":
+        """Each rigidity times its own factor, shear with the bending of its plane."""
         y, z = self.about_y, self.about_z
         return Section(
-            self.EA * factor,
-            self.GJ * factor,
-            Plane(y.EI * factor, y.GA * factor, y.base, y.tip),
-            Plane(z.EI * factor, z.GA * factor, z.base, z.tip),
+            self.EA * axial,
+            self.GJ * torsion,
+            Plane(y.EI * about_y, y.GA * about_y, y.base, y.tip),
+            Plane(z.EI * about_z, z.GA * about_z, z.base, z.tip),
         )
 
 

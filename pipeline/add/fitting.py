@@ -9,7 +9,7 @@ from time import perf_counter
 import numpy as np
 
 from pipeline.add.sentences import sentences
-from pipeline.add.summary import changes, confusable, error_of, undetermined, values_of
+from pipeline.add.summary import changes, confusable, error_of, nominals_of, undetermined, values_of
 from pipeline.adequacy.judgement import judge
 from pipeline.adequacy.untested import in_units, untested
 from pipeline.answer import Answer, Correlation
@@ -28,6 +28,7 @@ from pipeline.inference.sigmas import completed
 from pipeline.inference.starts import best_fit
 from pipeline.inference.suitable import check_suitable, scale_for, sized_model
 from pipeline.provenance import commit, versions
+from pipeline.selection.criteria import CRITERIA
 from vjm.effects.base import Effect
 from vjm.effects.sized import sized
 
@@ -158,6 +159,7 @@ def _compared(
         undetermined=undetermined(values, [[names[k] for k in group] for group in together]),
         confusable=confusable(names, pairs),
         at_bound=at_bound(after.model),
+        nominals=attempts.get("what was written about the rig", lambda: nominals_of(after, CRITERIA), ()),
         not_done=tuple(attempts.failed),
         evaluations=1 + after.evaluations + land.evaluations,
         seconds=round(perf_counter() - start, 3),

@@ -6,7 +6,8 @@ from collections.abc import Iterator
 
 from pipeline.answer import LEVEL, Answer, ModelError
 from pipeline.parameter_names import parted
-from reports.quantities import short, sigma
+from pipeline.selection.criteria import CRITERIA
+from reports.quantities import Estimate, short, sigma, value_text
 
 CLEARLY = 1.0 - LEVEL
 
@@ -75,6 +76,7 @@ def _details(answer: Answer) -> Iterator[str]:
     for name in _absent(answer):
         yield f"{name} is not larger than zero by these tests: its interval begins where the effect is absent."
     yield from limits(answer)
+    yield from written(answer, CRITERIA.nominal_moved)
     for group in answer.undetermined:
         if len(group) == 1:
             yield f"{group[0]} is not determined by these tests: they say nothing about it."
@@ -90,6 +92,22 @@ def limits(answer: Answer) -> Iterator[str]:
         yield f"{name} ends at its bound: what the effect explains there, it explains with a size that is not allowed."
     for names in answer.out_by_plausibility:
         yield f"{' + '.join(names)} would fit as well, but only with an implausible size."
+
+
+def written(answer: Answer, moved: float) -> Iterator[str]:
+    """What was written about the rig and fits best farther from that than `moved` tolerances, and what is not seen."""
+    far = sorted((it for it in answer.nominals if abs(it.pull) > moved), key=lambda it: -abs(it.pull))
+    if far:
+        said = "; ".join(
+            f"{it.name} = {value_text(Estimate(it.value, it.std))}{'' if it.unit == '1' else f' {it.unit}'}, written "
+            f"{it.nominal:g} ± {it.tolerance:g} ({it.pull:+.1f} of that)"
+            for it in far
+        )
+        yield f"Of what is written about the rig some fits best elsewhere: {said}."
+    seen = [it.name for it in answer.nominals if it.seen]
+    if answer.nominals:
+        told = f"more of {_list(tuple(seen))} than is written" if seen else "no more than is written"
+        yield f"These tests say {told} about the rig{'; the rest stays as it was' if seen else ''}."
 
 
 def _absent(answer: Answer) -> Iterator[str]:
@@ -108,4 +126,5 @@ def _lost(answer: Answer) -> Iterator[str]:
 
 
 def _list(names: tuple[str, ...]) -> str:
-    return f"{', '.join(names[:-1])} and {names[-1]}"
+    *others, last = names
+    return f"{', '.join(others)} and {last}" if others else last

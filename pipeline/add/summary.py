@@ -7,14 +7,16 @@ from collections.abc import Sequence
 import numpy as np
 
 from pipeline.adequacy.judgement import Judgement
-from pipeline.answer import ModelError, TestChange, TestNoise, Value
+from pipeline.answer import ModelError, NominalValue, TestChange, TestNoise, Value
 from pipeline.compare.error import Discrepancy
 from pipeline.inference.fit import Fit
 from pipeline.inference.intervals import Interval
 from pipeline.inference.model import Model, at_bound
+from pipeline.inference.nominals import nominals
 from pipeline.inference.program import Program
 from pipeline.noise import chi_square, lag_one
 from pipeline.parameter_names import parted, path_of
+from pipeline.selection.criteria import Criteria
 
 
 def values_of(model: Model, intervals: Sequence[Interval]) -> dict[str, Value]:
@@ -36,6 +38,28 @@ def values_of(model: Model, intervals: Sequence[Interval]) -> dict[str, Value]:
                 at_bound=name in bounded,
             )
     return out
+
+
+def nominals_of(found: Fit, criteria: Criteria) -> tuple[NominalValue, ...]:
+    """What was written about the rig as it fits best, in the units of the table of tolerances."""
+    numbers = nominals(found.residual.program.campaign)
+    if not found.residual.departure.size:
+        return ()
+    stds = np.sqrt(np.diag(found.nominal_covariance))
+    return tuple(
+        NominalValue(
+            name=it.name,
+            nominal=it.parameter.null,
+            tolerance=it.deviation,
+            value=it.parameter.null + float(u) * it.deviation,
+            std=float(std) * it.deviation,
+            pull=float(u),
+            unit=it.parameter.unit,
+            meaning=it.parameter.meaning,
+            seen=bool(std < criteria.nominal_seen),
+        )
+        for it, u, std in zip(numbers, found.residual.estimate, stds, strict=True)
+    )
 
 
 def error_of(found: Fit, cases: Program, parameters: int, judged: Judgement | None = None) -> ModelError:

@@ -34,7 +34,7 @@ def largest_departure(found: Fit) -> Departure | None:
     best: tuple[float, float, str, str] | None = None
     looks = 0
     for where, rows in _parts(found):
-        columns = np.where(rows[:, None], found.jacobian, 0.0)
+        columns = it.weakened(np.where(rows[:, None], it.without_zeros(it.slopes), 0.0))
         left = columns - taken @ (taken.T @ columns)
         sizes, whole = np.linalg.norm(left, axis=0), np.linalg.norm(columns, axis=0)
         for k in np.flatnonzero(sizes > FLAT * np.maximum(whole, 1e-300)):

@@ -18,7 +18,7 @@ from pipeline.selection.criteria import CRITERIA, Criteria
 from reports.quantities import percent, short, sigma
 
 Array = NDArray[np.float64]
-HELD_OUT, SIZE = "held out", "size"
+HELD_OUT, SIZE, ORDER = "held out", "size", "order"
 
 
 @dataclass(frozen=True)
@@ -95,9 +95,9 @@ def _order(found: Fit, level: float) -> Check:
     try:
         check = lag_one(list(_paths(found).values()))
     except ValueError as error:
-        return Check("order", 1.0, f"order along the load paths cannot be judged: {error}", level)
+        return Check(ORDER, 1.0, f"order along the load paths cannot be judged: {error}", level)
     words = f"neighbours along the load paths correlate by {check.statistic:.2f}"
-    return Check("order", check.p_value, words, level)
+    return Check(ORDER, check.p_value, words, level)
 
 
 def _paths(found: Fit) -> dict[tuple[int, int], Array]:
@@ -150,25 +150,34 @@ def _held_out(found: Fit, scatter: float, level: float) -> Check | None:
     used = whole.predicted & ~whole.fitted[:, None]
     if not used.any():
         return None
-    residual = found.residual.values[used]
+    residual = found.residual.left[used]
     # Unknown zeros of tests held out are theirs to fit.
     zeros = found.residual.offsets[used]
-    slopes = found.residual.slopes[used]
-    covariance = np.where(np.isfinite(found.covariance), found.covariance, 0.0)
+    wide = _uncertain(found, used)
     if zeros.any():
         left, sizes, _ = np.linalg.svd(zeros, full_matrices=False)
         basis = left[:, sizes > 1e-9 * sizes.max()]
-        residual, slopes = residual - basis @ (basis.T @ residual), slopes - basis @ (basis.T @ slopes)
+        residual, wide = residual - basis @ (basis.T @ residual), wide - basis @ (basis.T @ wide)
     total = float(residual @ residual)
-    if slopes.shape[1]:
-        root = _root(covariance)
-        wide = slopes @ root
+    if wide.shape[1]:
         inner = np.eye(wide.shape[1]) + wide.T @ wide
         pull = wide.T @ residual
         total -= float(pull @ np.linalg.solve(inner, pull))
     p = float(chi2.sf(total / scatter**2, residual.size))
     rms = float(np.sqrt(np.mean(residual**2)))
     return Check(HELD_OUT, p, f"tests that were held out are off by {sigma(rms)} sigma", level)
+
+
+def _uncertain(found: Fit, used: NDArray[np.bool_]) -> Array:
+    """(N, k) what an error of each number of the fit, and of what was written about the rig, does to readings: columns
+    of one standard deviation that are independent of each other."""
+    it = found.residual
+    root, slopes, nominal = _root(found.finite_covariance), it.slopes[used], it.nominal[used]
+    if it.marginal is None:
+        return slopes @ root
+    # What was written follows the numbers of the fit, and has an error of its own beside.
+    both = slopes + nominal @ found.nominal_slopes
+    return np.hstack([both @ root, nominal @ _root(it.marginal.covariance)])
 
 
 def _held_out_anew(found: Fit, scatter: float, linear: Check) -> Check:

@@ -6,7 +6,7 @@ the mechanism. What is left after a fit must not follow any of them; they descri
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 
@@ -37,28 +37,53 @@ class Pattern:
     amplitude: float
 
 
-def scores(found: Fit, criteria: Criteria) -> list[Pattern]:
-    """How well the residual of the fitted tests follows each pattern, after the fit took its part; largest first."""
+@dataclass(frozen=True, eq=False)
+class Shape:
+    """What a fault of a sensor does to the residual of a fit, free of what the fit can move. words: of the fault.
+
+    column: (N,) whitened. size: its length. largest: largest error of the reading, of a fault of size 1.
+    """
+
+    channel: int
+    words: str
+    column: Array
+    size: float
+    largest: float
+
+
+def shapes(found: Fit, criteria: Criteria) -> Iterator[Shape]:
+    """Every pattern of every sensor that the fit does not take up."""
     whole = found.residual.program
-    used = whole.predicted & whole.fitted[:, None]
-    weights = whitening(whole, found.prediction)
-    taken = basis(np.hstack([found.jacobian, found.residual.flat(found.residual.offsets)]))
-    residual, readings = found.whitened, _expected(found, criteria.chosen_side)
-    out = []
+    readings = _expected(found, criteria.chosen_side)
     for channel in range(whole.measured.shape[1]):
         named = list(_errors(whole, readings, channel))
         if not named:
             continue
         errors = np.stack([error for _, error in named], axis=-1)
-        columns = weights.apply(acting(found, channel, errors))[used]
-        left = columns - taken @ (taken.T @ columns)
-        sizes, whole_sizes = np.linalg.norm(left, axis=0), np.linalg.norm(columns, axis=0)
-        seen = sizes > FLAT * np.maximum(whole_sizes, 1e-300)
-        for k in np.flatnonzero(seen):
-            score = steady(left[:, k], residual)
-            largest = float(np.abs(errors[..., k]).max())
-            words = f"{column_name(channel, whole.campaign.gauges)} {named[k][0]}"
-            out.append(Pattern(channel, words, score, score / float(sizes[k]) * largest))
+        yield from left_of(found, channel, [words for words, _ in named], errors)
+
+
+def left_of(found: Fit, channel: int, words: Sequence[str], errors: Array) -> Iterator[Shape]:
+    """The shapes of errors (R, K) of a channel's readings, those of which the fit leaves any."""
+    whole = found.residual.program
+    used = whole.predicted & whole.fitted[:, None]
+    weights = whitening(whole, found.prediction)
+    taken = basis(np.hstack([found.jacobian, found.residual.flat(found.residual.offsets)]))
+    columns = found.residual.weakened(weights.apply(acting(found, channel, errors))[used])
+    left = columns - taken @ (taken.T @ columns)
+    sizes, whole_sizes = np.linalg.norm(left, axis=0), np.linalg.norm(columns, axis=0)
+    name = column_name(channel, whole.campaign.gauges)
+    for k in np.flatnonzero(sizes > FLAT * np.maximum(whole_sizes, 1e-300)).tolist():
+        largest = float(np.abs(errors[..., k]).max())
+        yield Shape(channel, f"{name} {words[k]}", left[:, k], float(sizes[k]), largest)
+
+
+def scores(found: Fit, criteria: Criteria) -> list[Pattern]:
+    """How well the residual of the fitted tests follows each pattern, after the fit took its part; largest first."""
+    out = []
+    for it in shapes(found, criteria):
+        score = steady(it.column, found.whitened)
+        out.append(Pattern(it.channel, it.words, score, score / it.size * it.largest))
     return sorted(out, key=lambda it: -abs(it.score))
 
 

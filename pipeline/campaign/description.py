@@ -22,6 +22,7 @@ from pipeline.campaign.names import (
 from pipeline.campaign.rig_table import RigTable
 from pipeline.campaign.rigs import KINDS
 from pipeline.campaign.tables import GaugeTable, TestTable, Top
+from pipeline.campaign.tolerance import tolerance
 from pipeline.errors import InputError
 from pipeline.toml.complaints import Complaints, shown
 from pipeline.toml.fields import Sigma, sentences
@@ -42,12 +43,13 @@ def describe(text: str, complaints: Complaints, folder: FilePath | None = None) 
     rig = reader.rig(top.rig)
     gauges = reader.gauges(top.gauges, rig)
     noise = reader.noise(top.noise)
+    known = reader.tolerance(top.tolerance, rig)
     heads = reader.heads(top.tests, top.rig, rig)
     sources = Sources(reader.raw, reader.gauge_names, reader.checked, reader.say).found()
     names = tuple(reader.gauge_names)
     if rig is None or complaints.found:
         return Draft(None, names, sources)
-    return Draft(Description(top.name, rig, noise, gauges, heads, sources), names, sources)
+    return Draft(Description(top.name, rig, noise, gauges, heads, sources, known), names, sources)
 
 
 class _Reader:
@@ -136,6 +138,11 @@ class _Reader:
                 for _, said in sentences(error, Top):
                     self.say(path, said, f"noise.{column}")
         return noise
+
+    def tolerance(self, raw: Raw | None, rig: Rig | None) -> dict[str, float] | None:
+        if raw is None or rig is None:
+            return None
+        return tolerance(raw, rig.written, lambda path, said: self.say(("tolerance", *path), said))
 
     def heads(self, raw: list[Raw], base: Raw, rig: Rig | None) -> tuple[Head, ...]:
         heads: list[Head] = []

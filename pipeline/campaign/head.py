@@ -21,7 +21,8 @@ class Head:
 
 @dataclass(frozen=True)
 class Description:
-    """What campaign.toml says; `noise` is one sigma a column.
+    """What campaign.toml says; `noise` is one sigma a column, `tolerance` one standard deviation a key, None where
+    nothing is said.
 
     sources: of files that are read as they are declared; none where measurements.csv is as the contract has it.
     """
@@ -32,6 +33,7 @@ class Description:
     gauges: tuple[Gauge, ...]
     heads: tuple[Head, ...]
     sources: tuple[Source, ...] = ()
+    tolerance: dict[str, float] | None = None
 
 
 @dataclass(frozen=True)

@@ -5,7 +5,8 @@ unloaded pose, x y z rx ry rz; a wrench Fx Fy Fz Mx My Mz is what the load cell 
 the platform point; both in the base frame. NaN: not measured, or not known.
 """
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Literal
 
@@ -96,7 +97,8 @@ class Campaign:
     """A measurement campaign.
 
     remarks: sentences on what was accepted but may deserve a look. digests: (name, SHA-256) of each file it was read
-    from.
+    from. tolerance: standard deviations of what is written about the rig, by key (`vjm.tolerances`); what has none is
+    exact.
     """
 
     name: str
@@ -107,3 +109,4 @@ class Campaign:
     folder: Path | None = None
     remarks: tuple[str, ...] = ()
     digests: tuple[tuple[str, str], ...] = ()
+    tolerance: Mapping[str, float] = field(default_factory=dict)

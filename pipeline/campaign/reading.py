@@ -24,6 +24,7 @@ from pipeline.campaign.plausible import judge
 from pipeline.campaign.posture_rows import parted
 from pipeline.campaign.rows import data_by_test, measured_of
 from pipeline.campaign.sheet import sheet
+from pipeline.campaign.tolerance import usual
 from pipeline.toml.complaints import BadCampaign, Complaints, shown
 
 DESCRIPTION, MEASUREMENTS = "campaign.toml", "measurements.csv"
@@ -65,15 +66,44 @@ def read(folder: Path) -> Campaign:
         Test(head.id, head.q_deg, head.role, head.control, head.zero, head.rig, data[head.id])
         for head in description.heads
     )
-    remarks = [*_sigma_remarks(description, tests), *remarks]
+    known, said = _tolerance(description)
+    remarks = [*_sigma_remarks(description, tests), *said, *remarks]
     shorter = [thinned(test, noise, description.gauges) for test in tests]
     tests = tuple(test for test, _ in shorter)
     remarks += [said for _, said in shorter if said]
     files = [folder / DESCRIPTION, *files]
     digests = tuple((_named(path, folder), sha256(path.read_bytes()).hexdigest()) for path in files)
     return Campaign(
-        description.name, description.rig, noise, description.gauges, tests, folder, tuple(remarks), digests
+        description.name,
+        description.rig,
+        noise,
+        description.gauges,
+        tests,
+        folder,
+        tuple(remarks),
+        digests,
+        known,
     )
+
+
+def _tolerance(description: Description) -> tuple[dict[str, float], list[str]]:
+    """What is written about the rig, by how much it may be off, and the remark where nobody said it."""
+    if description.tolerance is not None:
+        return description.tolerance, []
+    written = description.rig.written
+    known = usual(written)
+    if not known:
+        return known, []
+    said = ", ".join(f"{key} {_deviation(key, value)}" for key, value in known.items())
+    return known, [
+        f"{DESCRIPTION}, tolerance: is missing, so what is written about the rig counts as known to one standard "
+        f'deviation of {said}; write [tolerance] with your own, or all = "exact"'
+    ]
+
+
+def _deviation(key: str, value: float) -> str:
+    unit = key.rpartition("_")[2] if "_" in key else ""
+    return f"{value:g} {unit}" if unit else f"{100.0 * value:g} %"
 
 
 def _named(path: Path, folder: Path) -> str:

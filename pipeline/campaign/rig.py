@@ -77,6 +77,11 @@ class Rig(ABC):
         return None
 
     @property
+    def written(self) -> tuple[str, ...]:
+        """Keys of the tolerances (`vjm.tolerances`) of what its table says."""
+        return ()
+
+    @property
     def point(self) -> Vector | None:
         """Where the unloaded platform stands in a test, mm, where that is said by a point."""
         return None

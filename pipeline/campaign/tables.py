@@ -25,6 +25,7 @@ class Top(Table):
     name: Text
     rig: dict[str, Any]
     noise: dict[str, Any] = Field(default_factory=dict)
+    tolerance: dict[str, Any] | None = None
     gauges: list[dict[str, Any]] = Field(default_factory=list)
     file: dict[str, Any] = Field(default_factory=dict)
     columns: dict[str, dict[str, Any]] = Field(default_factory=dict)

@@ -19,6 +19,7 @@ from pipeline.campaign.names import (
     gauge_column,
 )
 from pipeline.campaign.reading import DESCRIPTION, MEASUREMENTS, read
+from pipeline.campaign.tolerance import table as tolerance_table
 from pipeline.errors import InputError
 from pipeline.toml.complaints import BadCampaign
 
@@ -53,6 +54,10 @@ def description_text(campaign: Campaign) -> str:
     """campaign.toml."""
     document: dict[str, Any] = {"schema": 1, "name": campaign.name, "rig": rig_table(campaign.rig)}
     document["noise"] = noise_table(campaign)
+    known = tolerance_table(campaign.tolerance, campaign.rig.written)
+    document["tolerance"] = {
+        key: inline(value) if isinstance(value, dict) else value for key, value in known.items()
+    }
     if campaign.gauges:
         document["gauges"] = [gauge_table(gauge) for gauge in campaign.gauges]
     base = rig_table(campaign.rig)

@@ -18,10 +18,11 @@ from pipeline.compare.failure import findings, groups, too_short
 from pipeline.compare.headline import headline
 from pipeline.compare.record import Comparison, ModelError
 from pipeline.inference.claims import trusted
-from pipeline.inference.fit import Fit
+from pipeline.inference.fit import Fit, unfitted
 from pipeline.inference.frame_prediction import predict_frame
 from pipeline.inference.linear_prediction import predict_linear
 from pipeline.inference.model import Model
+from pipeline.inference.nominals import nominals
 from pipeline.inference.objective import Objective
 from pipeline.inference.prediction import Prediction, moved_along, predict
 from pipeline.inference.program import Program, program
@@ -40,6 +41,8 @@ TITLES = {
     "saved": "VJM with",
     "fea": "FEA, frame elements as drawn",
 }
+FITTABLE = ("vjm", "saved")
+"""Models whose derivative by what was written about the rig is known."""
 SETTLED = 3.0
 """Whitened RMS below which a misfit moves the inputs by no more than their noise."""
 Say = Callable[[str], None]
@@ -121,14 +124,19 @@ def _error(key: str, model: Model, cases: Program, solve: Solve) -> ModelError:
         with np.errstate(all="ignore"):
             prediction = _settled(cases, solve)
             discrepancy = Discrepancy(cases, prediction, len(model.free))
-            found = _judged(key, title, names, discrepancy)
+            found = _judged(key, title, model, discrepancy)
     except (ValueError, ArithmeticError, RuntimeError) as error:
         return ModelError(model=key, title=title, effects=names, failed=plain(error))
     return found.model_copy(update={"seconds": round(perf_counter() - start, 3)})
 
 
-def _judged(key: str, title: str, names: tuple[str, ...], discrepancy: Discrepancy) -> ModelError:
-    cases = discrepancy.program
+def _tolerated(model: Model, cases: Program) -> bool:
+    """Whether a model is within the noise with what was written about the rig where it fits best."""
+    return bool(nominals(cases.campaign)) and judge(unfitted(model, cases)).noise
+
+
+def _judged(key: str, title: str, model: Model, discrepancy: Discrepancy) -> ModelError:
+    cases, names = discrepancy.program, model.names
     size, order = discrepancy.size(), discrepancy.order()
     flat = discrepancy.whitened[cases.fitted][cases.predicted[cases.fitted]]
     fit = float(np.sqrt(flat @ flat / discrepancy.degrees)) if discrepancy.degrees > 0 else None
@@ -138,6 +146,7 @@ def _judged(key: str, title: str, names: tuple[str, ...], discrepancy: Discrepan
     nothing = untested(as_it_is, discrepancy.parameters)
     checks = () if nothing else judge(as_it_is).checks
     failed = tuple(check.words for check in checks if not check.passed)
+    tolerated = bool(failed) and key in FITTABLE and _tolerated(model, cases)
     return ModelError(
         model=key,
         title=title,
@@ -147,7 +156,8 @@ def _judged(key: str, title: str, names: tuple[str, ...], discrepancy: Discrepan
         degrees=max(discrepancy.degrees, 0),
         chi_square_p=None if size is None else size.p_value,
         lag_one_p=None if order is None else order.p_value,
-        within_noise=not nothing and not failed,
+        within_noise=not nothing and (tolerated or not failed),
+        tolerated=tolerated,
         lost=discrepancy.lost(),
         tests=discrepancy.tests(),
         channels=discrepancy.channels(cases.fitted),
@@ -158,7 +168,7 @@ def _judged(key: str, title: str, names: tuple[str, ...], discrepancy: Discrepan
         untested=nothing or "",
         in_units=in_units(as_it_is),
         too_short=too_short(discrepancy),
-        not_noise=failed,
+        not_noise=() if tolerated else failed,
     )
 
 

@@ -69,7 +69,8 @@ class ModelError(Record):
     how often noise is as large, or as smooth along the load, of the tests that may be fitted; `degrees` of freedom.
     looks: how many numbers were looked at for the findings. failed: why the model has no prediction at all. headline:
     the mean misfit of the worst channel. untested: why nothing can be tested. in_units: of channels without a sigma.
-    too_short: series whose shape cannot be judged. not_noise: what speaks against noise.
+    too_short: series whose shape cannot be judged. not_noise: what speaks against noise. tolerated: whether what is
+    left is noise only with what is written about the rig where it fits best within its tolerances.
     """
 
     model: str
@@ -82,6 +83,7 @@ class ModelError(Record):
     chi_square_p: float | None = None
     lag_one_p: float | None = None
     within_noise: bool = False
+    tolerated: bool = False
     lost: tuple[Lost, ...] = ()
     tests: tuple[TestError, ...] = ()
     channels: dict[str, ChannelError] = Field(default_factory=dict)

@@ -62,6 +62,7 @@ def sentence(result: Comparison) -> str:
     if shown.untested:
         return f"{result.campaign}: {shown.untested}"
     said = "within the noise" if shown.within_noise else "not within the noise"
+    said += ", what is written about the rig being within its tolerances" if shown.tolerated else ""
     said += f"; {shown.headline}" if shown.headline else ""
     held = "" if shown.holdout is None else f", held-out tests {sigma(shown.holdout)}"
     return f"{result.campaign}: {shown.title}: {sigma(shown.fit)} sigma{held}: {said}"

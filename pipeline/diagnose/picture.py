@@ -17,6 +17,7 @@ from scipy.optimize import lsq_linear
 
 from pipeline.diagnose.signatures import Look, Signature
 from pipeline.inference.fit import Fit
+from pipeline.inference.marginal import Marginal
 from pipeline.inference.span import RANK, basis
 
 Array = NDArray[np.float64]
@@ -34,7 +35,8 @@ class Gain:
 class Picture:
     """A fit and what could be added to it.
 
-    residual: (N,) whitened, of the rows that are looked at. base: (N, P) what the fit can move. tests: (N,) numbers.
+    residual: (N,) whitened, of the rows that are looked at, where what was written about the rig is true. base: (N, P)
+    what the fit can move. nominal: (N, K) what a standard deviation of what was written does. tests: (N,) numbers.
     share: of the fitted readings that are looked at. rescues: chi-square with an effect at its typical size, where
     that was looked at. plausible: typical sizes of a number that count as one sigma.
     """
@@ -43,6 +45,7 @@ class Picture:
     signatures: dict[str, Signature]
     residual: Array
     base: Array
+    nominal: Array
     tests: NDArray[np.int_]
     share: float
     plausible: float
@@ -54,14 +57,32 @@ class Picture:
         some = {
             name: replace(s, columns=tuple(c[kept] for c in s.columns)) for name, s in self.signatures.items()
         }
-        return Picture(
-            self.fit, some, self.residual[kept], self.base[kept], self.tests[kept], self.share, self.plausible
+        return replace(
+            self,
+            signatures=some,
+            residual=self.residual[kept],
+            base=self.base[kept],
+            nominal=self.nominal[kept],
+            tests=self.tests[kept],
+            rescues={},
         )
+
+    @cached_property
+    def _marginal(self) -> tuple[Array, Array, Array]:
+        """Residual, base and columns of all candidates, what was written about the rig eliminated."""
+        parts = self.residual, self.base, self._flat
+        if not self.nominal.shape[1]:
+            return parts
+        # What is looked at stands for more readings than it has; what was written does not.
+        marginal = Marginal.of(self.nominal / np.sqrt(self.share))
+        residual, base, flat = (marginal.weakened(each) for each in parts)
+        return residual, base, flat
 
     @cached_property
     def _small(self) -> tuple[Array, dict[str, list[Array]]]:
         """Residual and columns, free of what the fit can move, in an orthonormal basis of all columns."""
-        return self._split(*_free_of(self.base, self.residual, self._flat))
+        residual, base, flat = self._marginal
+        return self._split(*_free_of(base, residual, flat))
 
     @cached_property
     def _weighed(self) -> tuple[Array, dict[str, list[Array]]]:
@@ -74,10 +95,11 @@ class Picture:
         # What is looked at stands for more readings than it has; numbers do not.
         fitted = np.sqrt(self.share) * np.hstack([np.diag(1.0 / scale), np.zeros((len(free), zeros))])
         added = np.sqrt(self.share) * np.diag(np.array(own) / self.plausible)
-        base = np.vstack([self.base, fitted, np.zeros((len(own), self.base.shape[1]))])
-        residual = np.concatenate([self.residual, -np.sqrt(self.share) * away, np.zeros(len(own))])
+        residual, base, flat = self._marginal
+        base = np.vstack([base, fitted, np.zeros((len(own), base.shape[1]))])
+        residual = np.concatenate([residual, -np.sqrt(self.share) * away, np.zeros(len(own))])
         return self._split(
-            *_free_of(base, residual, np.vstack([self._flat, np.zeros((len(free), len(own))), added]))
+            *_free_of(base, residual, np.vstack([flat, np.zeros((len(free), len(own))), added]))
         )
 
     @property
@@ -137,8 +159,9 @@ def picture(
     return Picture(
         found,
         {s.effect.name: s for s in every},
-        it.values[rows][mask],
+        it.as_written[rows][mask],
         base,
+        it.nominal[rows][mask],
         tests,
         share,
         plausible,

@@ -50,10 +50,14 @@ def _by_test(found: Fit, name: str) -> Array:
     null = np.array([each.parameter.null for each in found.model.free])
     used = whole.predicted
     alone = it.slopes[used][:, mine] @ (found.model.values - null)[mine]
-    others = np.hstack([it.slopes[used][:, ~mine], it.offsets[used]])
+    nominal = it.nominal[used]
+    others = np.hstack([it.slopes[used][:, ~mine], it.offsets[used], nominal])
     fitted = np.broadcast_to(whole.fitted[:, None], used.shape)[used]
     sizes = np.maximum(np.linalg.norm(others, axis=0), 1e-300)
-    taken = np.linalg.lstsq(others[fitted] / sizes, alone[fitted], rcond=1e-9)[0]
+    # What was written is known to one standard deviation: a reading more of each.
+    known = np.eye(others.shape[1])[others.shape[1] - nominal.shape[1] :]
+    right = np.concatenate([alone[fitted], np.zeros(len(known))])
+    taken = np.linalg.lstsq(np.vstack([others[fitted], known]) / sizes, right, rcond=1e-9)[0]
     left = alone - (others / sizes) @ taken
     tests = np.broadcast_to(whole.test[:, None], used.shape)[used]
     squares = np.bincount(tests, left**2, minlength=len(whole.campaign.tests))

@@ -229,8 +229,11 @@ class Shelf:
         for effect in self.candidates.values():
             if effect.parameters and effect.name not in found.model.names:
                 self.say(f"{effect.name} at its typical size")
-                model = Model((*found.model.terms, Term(effect, effect.typicals)), found.model.fixed)
+                model = replace(found.model, terms=(*found.model.terms, Term(effect, effect.typicals)))
                 there = predict(model, self.whole, slopes=False, start=found.prediction)
+                there = replace(
+                    there, nominal=found.prediction.nominal, by_nominal=found.prediction.by_nominal
+                )
                 out[effect.name] = Fit(model, there, residual(self.whole, there), 1).chi_square
         return out
 

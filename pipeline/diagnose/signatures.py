@@ -144,7 +144,7 @@ def probes(base: Model, effects: Sequence[Effect], whole: Program, plain: float,
 
     An effect that cannot be without another is compared with that one: the difference is its own.
     """
-    bare = Model(tuple(t for t in base.terms if t.effect.parameters), base.fixed)
+    bare = replace(base, terms=tuple(t for t in base.terms if t.effect.parameters))
     out: list[Probe] = []
     rows, own = whole.by_role[0]
     without: dict[tuple[str, ...], Prediction] = {}

@@ -6,17 +6,18 @@ from collections.abc import Callable, Iterator
 
 import numpy as np
 
-from pipeline.add.sentences import limits
+from pipeline.add.sentences import limits, written
 from pipeline.adequacy.judgement import SIZE, judge
 from pipeline.adequacy.untested import in_units
 from pipeline.answer import Answer
 from pipeline.attempt import Attempts
 from pipeline.campaign.names import COORDINATES
 from pipeline.diagnose.description import descriptions
-from pipeline.diagnose.diagnosis import Diagnosis, answer_of, in_words
+from pipeline.diagnose.diagnosis import Diagnosis
 from pipeline.diagnose.exclusion import needed, worse
 from pipeline.diagnose.menu import Choice, menu
 from pipeline.diagnose.merit import badness
+from pipeline.diagnose.record import answer_of, in_words
 from pipeline.diagnose.seen_at import only_place
 from pipeline.inference.driving import column_name
 from pipeline.inference.fit import Fit
@@ -42,12 +43,14 @@ def sentences(it: Diagnosis, answer: Answer | None = None) -> tuple[str, ...]:
     """
     attempts = Attempts()
     record = answer or answer_of(it)
-    first = attempts.get("the verdict in words", lambda: tuple(_verdict(it)), (f"{it.verdict}.",))
+    first = attempts.get("the verdict in words", lambda: tuple(_verdict(it, record)), (f"{it.verdict}.",))
     parts: dict[str, Callable[[], tuple[str, ...]]] = {"what is known in units": lambda: in_units(it.fit)}
     if it.verdict != "nothing_tested":
         parts |= {
             "the evidence in words": lambda: tuple(_evidence(it, record)),
+            "what was set aside, in words": lambda: tuple(_aside(it)),
             "the limits in words": lambda: tuple(limits(record)),
+            "what was written, in words": lambda: tuple(written(record, it.shelf.criteria.nominal_moved)),
             "what is left in words": lambda: tuple(_left(it)),
             "the rivals in words": lambda: tuple(_rivals(it)),
             "the next test in words": lambda: tuple(_next(it)),
@@ -57,12 +60,13 @@ def sentences(it: Diagnosis, answer: Answer | None = None) -> tuple[str, ...]:
     return (*first, *told, *failed, *(f"{r}." for r in it.campaign.remarks))
 
 
-def _verdict(it: Diagnosis) -> Iterator[str]:
+def _verdict(it: Diagnosis, answer: Answer) -> Iterator[str]:
     if it.untested:
         yield it.untested
         return
     zero = it.ruling.zero
     asked = f"{zero.words} " if zero else ""
+    asked += _surely(it, answer)
     if it.verdict == "nothing_tested":
         yield f"nothing_tested: {asked}With that zero unknown no reading is left to test a model by."
         return
@@ -85,6 +89,19 @@ def _verdict(it: Diagnosis) -> Iterator[str]:
         yield f"unknown: {asked}Nothing is named before that is settled; the misfit is {sigma(rms)} sigma."
     else:
         yield f"unknown: the misfit of {sigma(rms)} sigma is no noise, and nothing known explains it."
+
+
+def _surely(it: Diagnosis, answer: Answer) -> str:
+    """What is certain beside a verdict that leaves something open."""
+    if not it.certain:
+        return ""
+    told = [f"{name}{_values(answer, it.shelf.candidates[name], ' (', ')')}" for name in it.certain]
+    return f"{_listed(told)} {'are' if len(told) > 1 else 'is'} certain; "
+
+
+def _listed(words: list[str]) -> str:
+    *others, last = words
+    return f"{', '.join(others)} and {last}" if others else last
 
 
 def _evidence(it: Diagnosis, answer: Answer) -> Iterator[str]:
@@ -116,14 +133,29 @@ def _where(it: Diagnosis, name: str) -> str:
     )
 
 
-def _values(answer: Answer, effect: Effect) -> str:
+def _values(answer: Answer, effect: Effect, before: str = " Fitted: ", after: str = ".") -> str:
+    """The fitted parameters of an effect between these words; nothing where there are none."""
     mine = {p.name: answer.parameters.get(path_of(effect.name, p.name)) for p in effect.parameters}
     said = [
         phrase(name, estimate(value.model_dump()), value.unit)
         for name, value in mine.items()
         if value is not None and value.interval != "fixed"
     ]
-    return f" Fitted: {', '.join(said)}." if said else ""
+    return f"{before}{', '.join(said)}{after}" if said else ""
+
+
+def _aside(it: Diagnosis) -> Iterator[str]:
+    """Readings that were left out, and the verdict with them."""
+    if not it.set_aside:
+        return
+    told = ", ".join(
+        f"{b.column} at step {b.step} of {b.test} ({sigma(b.sigmas)} sigma)" for b in it.set_aside
+    )
+    many = len(it.set_aside) > 1
+    yield (
+        f"Set aside, for {'they are' if many else 'it is'} off alone, their neighbours are not: {told}. "
+        f"With {'them' if many else 'it'} the verdict would be {it.with_all}."
+    )
 
 
 def _left(it: Diagnosis) -> Iterator[str]:

@@ -66,7 +66,7 @@ def zeros(found: Fit, criteria: Criteria) -> list[Zero]:
         own = [tests for other, tests in named if other == channel]
         errors = np.stack([np.isin(whole.test, tests).astype(float) for tests in own], axis=-1)
         errors[found.prediction.lost] = 0.0
-        columns = weights.apply(acting(found, channel, errors))[used]
+        columns = found.residual.weakened(weights.apply(acting(found, channel, errors))[used])
         left = columns - taken @ (taken.T @ columns)
         sizes = np.linalg.norm(left, axis=0)
         seen = sizes > FLAT * np.maximum(np.linalg.norm(columns, axis=0), 1e-300)
@@ -102,7 +102,7 @@ def _zero(
     criteria: Criteria,
 ) -> Zero:
     """estimate: the constant and its standard error."""
-    whole, expected = found.residual.program, found.prediction.values
+    whole, expected = found.residual.program, found.prediction.as_written
     value, std = estimate
     ids = tuple(whole.campaign.tests[k].id for k in tests)
     unit = unit_of(channel).replace("Nmm", "N·mm")

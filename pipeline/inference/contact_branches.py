@@ -50,7 +50,8 @@ def on_best_sides(model: Model, cases: Program, start: Prediction | None = None)
 
     Where it begins the readings say, never the start: from whose states equilibria are only found sooner.
     """
-    held = remembering(model)
+    # A row chooses its side where the model is, not along a line from there.
+    cases, held = cases.plain, remembering(model)
     if held:
         start = predict(model, cases, slopes=False, start=start, order=0)
     here = _crossed(model, cases, _reached(model, cases, start, held))

@@ -9,7 +9,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pipeline.inference.levenberg_marquardt import levenberg_marquardt
+from pipeline.inference.lines import along_its_own_line, with_line
 from pipeline.inference.model import Model
+from pipeline.inference.nominals import nominals
 from pipeline.inference.objective import Objective
 from pipeline.inference.parts import at_rows, joined
 from pipeline.inference.prediction import Prediction
@@ -35,17 +37,18 @@ class Fit:
 
     @cached_property
     def whitened(self) -> Array:
-        """(N,) residuals of the fitted tests, unknown zeros projected out."""
-        return self.residual.free(self.residual.values)
+        """(N,) residuals of the fitted tests, free of unknown zeros and of what was written about the rig."""
+        return self.residual.whitened
 
     @cached_property
     def jacobian(self) -> Array:
-        """(N, P) whitened derivative of the predictions, unknown zeros projected out."""
+        """(N, P) whitened derivative of the predictions, free of the same."""
         return self.residual.free(self.residual.slopes)
 
     @property
     def chi_square(self) -> float:
-        """Sum of squares of the whitened residuals, and what rows beside their stops are charged."""
+        """Sum of squares of the whitened residuals, with that of the departures from what was written, and what rows
+        beside their stops are charged."""
         return float(self.whitened @ self.whitened) + self.residual.charged
 
     @cached_property
@@ -84,6 +87,27 @@ class Fit:
         inverse[hidden, hidden] = np.inf
         return np.asarray(inverse * scale[:, None] * scale)
 
+    @cached_property
+    def finite_covariance(self) -> Array:
+        """(P, P) with zeros for numbers about which the data say nothing."""
+        return np.where(np.isfinite(self.covariance), self.covariance, 0.0)
+
+    @cached_property
+    def nominal_slopes(self) -> Array:
+        """(K, P) by which what was written about the rig, as it fits best, follows the free numbers."""
+        it = self.residual
+        if it.marginal is None:
+            return np.zeros((0, len(self.model.free)))
+        return np.asarray(-it.marginal.pull @ it.without_zeros(it.slopes))
+
+    @cached_property
+    def nominal_covariance(self) -> Array:
+        """(K, K) of what was written, in standard deviations of it, the free numbers fitted."""
+        if self.residual.marginal is None:
+            return np.zeros((0, 0))
+        follows = self.nominal_slopes
+        return self.residual.marginal.covariance + follows @ self.finite_covariance @ follows.T
+
     @property
     def std(self) -> Array:
         """(P,) standard errors."""
@@ -107,25 +131,32 @@ def fit(
     """
     (rows, own), *others = program.by_role
     begin = start if start is None or not others else at_rows(start, program, own, rows)
-    aim = Objective(model, own)
-    if model.free:
-        end = solver(aim, begin, watch, plausible, share)
-    else:
-        there = aim.at(model.values, begin)
-        end = End(there, there.rounds, ended=False)
-    values, there = end.there.values, end.there.with_slopes
+
+    def solve(aim: Objective, begin: Prediction | None) -> End:
+        if aim.model.free:
+            return solver(aim, begin, watch, plausible, share)
+        there = aim.at(aim.model.values, begin)
+        return End(there, there.rounds, ended=False)
+
+    end = along_its_own_line(model, own, begin, solve)
+    values, there, model = end.there.values, end.there.with_slopes, end.there.objective.model
     if not others:
         return Fit(model.at(values), there.prediction, there.residual, end.evaluations, end.ended)
     pieces = [(rows, own, there.prediction)]
     for rest, apart in others:
         near = None if start is None else at_rows(start, program, apart, rest)
-        pieces.append((rest, apart, Objective(model, apart).at(values, near).with_slopes.prediction))
+        # Tests that are held out say nothing of what was written: it is where the others leave it.
+        found = Objective(model, apart.plain).at(values, near).with_slopes.prediction
+        pieces.append((rest, apart, with_line(model.at(values), apart, found)))
     whole = joined(program, pieces)
     return Fit(model.at(values), whole, residual(program, whole), end.evaluations, end.ended)
 
 
 def unfitted(model: Model, cases: Program) -> Fit:
-    """A model as it is: nothing is fitted but the inputs, which were measured as well."""
+    """A model as it is: nothing is fitted but the inputs, which were measured as well, and what was written about the
+    rig."""
     fixed = replace(model, fixed=frozenset(each.name for each in model.free) | model.fixed)
+    if nominals(cases.campaign):
+        return fit(fixed, cases)
     there = Objective(fixed, cases).at(fixed.values)
     return Fit(fixed, there.prediction, there.residual, there.rounds)

@@ -10,7 +10,7 @@ Regression Analysis, Wiley 1988, ch. 6.
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 from typing import Literal, TypeVar
 
@@ -73,6 +73,8 @@ def landscape(best: Fit, program: Program) -> Landscape:
     ranges = [_range(each, doubt if each.effect in kinks else 0.0) for each in best.model.free]
     rows, own = program.by_role[0]
     near = at_rows(best.prediction, program, own, rows)
+    if near.nominal.size:
+        own = replace(own, by_nominal=near.by_nominal)
     return Landscape(
         _Near(Objective(best.model, own), near),
         best.model.values,

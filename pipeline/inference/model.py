@@ -13,6 +13,7 @@ from pipeline.campaign.rig import Solvable
 from pipeline.parameter_names import path_of
 from vjm.effects import shipped
 from vjm.effects.base import Effect, Parameter
+from vjm.tolerances.angle import POSTURE
 
 Array = NDArray[np.float64]
 START = 3e-3
@@ -58,16 +59,23 @@ class Term:
 class Model:
     """The plain virtual-joint model of a rig with these effects, applied in turn.
 
-    fixed: names effect.parameter that a fit leaves alone.
+    fixed: names effect.parameter that a fit leaves alone. nominals: what was written down about the rig, at the values
+    at which it is predicted (`pipeline.inference.nominals`); none where all of it is exact.
     """
 
     terms: tuple[Term, ...] = ()
     fixed: frozenset[str] = field(default_factory=frozenset)
+    nominals: tuple[Term, ...] = ()
 
     @property
     def names(self) -> tuple[str, ...]:
         """Names of the effects, in order."""
         return tuple(term.effect.name for term in self.terms)
+
+    @property
+    def turn(self) -> float:
+        """rad by which the unloaded bars stand beside the angle that a test names."""
+        return 1e-3 * sum(term.values.get(POSTURE, 0.0) for term in self.nominals)
 
     @property
     def free(self) -> tuple[Free, ...]:
@@ -113,7 +121,7 @@ class Model:
 
     def mechanism(self, rig: Rig, gauges: tuple[Gauge, ...]) -> Solvable:
         """The mechanism of a rig. ValueError for an effect that this rig cannot have."""
-        return self._built(self.terms, rig.mechanism(gauges))
+        return self._built((*self.nominals, *self.terms), rig.mechanism(gauges))
 
     def reads_alone(self, free: Free, value: float, rig: Rig, gauges: tuple[Gauge, ...]) -> bool:
         """Whether another value of this number changes what sensors read, and nothing else.
@@ -124,7 +132,7 @@ class Model:
         number = self.names.index(free.effect)
         if not all(shipped(term.effect) for term in self.terms[number + 1 :]):
             return False
-        before = self._built(self.terms[:number], rig.mechanism(gauges))
+        before = self._built((*self.nominals, *self.terms[:number]), rig.mechanism(gauges))
         own = self.terms[number]
         other = replace(own, values={**own.values, free.parameter.name: value})
         return _in_sensors_alone(*(self._built((term,), before) for term in (own, other)))

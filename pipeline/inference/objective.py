@@ -4,6 +4,7 @@ At given parameters the true inputs of every row are those that fit best (`pipel
 Gauss-Newton steps row by row until they settle. The same parameters give the same sum of squares wherever an
 evaluation begins: where it begins saves iterations, no more. At the inputs that fit best the derivatives that the
 weights have by the parameters cancel (envelope theorem), so the gradient of chi-square is that of the residual alone.
+What was written about the rig is eliminated along the line that the program has of it (`pipeline.inference.marginal`).
 """
 
 from __future__ import annotations
@@ -16,6 +17,7 @@ from numpy.typing import NDArray
 
 from pipeline.inference.contact_branches import begun, kinked, on_best_sides
 from pipeline.inference.model import Model
+from pipeline.inference.nominals import departures, nominals
 from pipeline.inference.prediction import Prediction, predict
 from pipeline.inference.program import Program
 from pipeline.inference.residual import Residual, residual
@@ -69,6 +71,7 @@ class Evaluation:
         there = predict(
             it.model.at(self.values), it.program, start=self.prediction, shift=self.prediction.shift
         )
+        there = it.about(there)
         return replace(self, prediction=there, residual=residual(it.program, there))
 
     def settle(self, within: float = 0.0) -> Evaluation:
@@ -81,7 +84,7 @@ class Evaluation:
             settled = off.max(initial=0.0) <= NEAR or same <= SAME * max(1.0, total / found.aimed.size)
             if settled or rounds >= self.rounds + ROUNDS or float(np.sum(off**2)) <= within:
                 return Evaluation(it, self.values, here, found, bool(settled), rounds)
-            here = predict(model, it.program, slopes, start=here, shift=found.shift)
+            here = it.about(predict(model, it.program, slopes, start=here, shift=found.shift))
             found = residual(it.program, here)
             before, total, rounds = total, float(found.aimed @ found.aimed), rounds + 1
             same = abs(total - before)
@@ -107,8 +110,20 @@ class Objective:
         else:
             shift = begun(model, self.program, near)
             here = predict(model, self.program, slopes, start=near, shift=shift)
+        here = self.about(here)
         found = residual(self.program, here)
         return Evaluation(self, values, here, found, settled=False, rounds=1).settle(within)
+
+    def about(self, here: Prediction) -> Prediction:
+        """The prediction with what was written about the rig, along the line of the program."""
+        if self.program.by_nominal is None:
+            return here
+        return replace(here, nominal=self.departure, by_nominal=self.program.by_nominal)
+
+    @cached_property
+    def departure(self) -> Array:
+        """(K,) standard deviations from what was written at which the model is."""
+        return departures(self.model, nominals(self.program.campaign))
 
 
 def _off(here: Prediction, found: Residual) -> Array:

@@ -25,6 +25,8 @@ ARRAYS = ("values", "by_inputs", "by_free", "shift", "stops", "slides", "lost")
 def at_rows(found: Prediction, cases: Program, part: Program, rows: Rows) -> Prediction:
     """The prediction of all cases at these rows, laid out as in the program of these rows alone."""
     arrays = {name: getattr(found, name)[rows] for name in ARRAYS}
+    if found.nominal.size:
+        arrays["by_nominal"] = found.by_nominal[rows]
     reasons = {k: found.reasons[int(row)] for k, row in enumerate(rows) if int(row) in found.reasons}
     return replace(found, states=states_at(found, cases, part, rows), reasons=reasons, **arrays)
 
@@ -75,6 +77,12 @@ def joined(cases: Program, pieces: Sequence[tuple[Rows, Program, Prediction]]) -
         arrays[name] = np.zeros((len(cases.test), *first.shape[1:]), dtype=first.dtype)
         for rows, _, found in pieces:
             arrays[name][rows] = getattr(found, name)
+    first = pieces[0][2]
+    if first.nominal.size:
+        arrays["nominal"] = first.nominal
+        arrays["by_nominal"] = np.zeros((len(cases.test), *first.by_nominal.shape[1:]))
+        for rows, _, found in pieces:
+            arrays["by_nominal"][rows] = found.by_nominal
     for rows, _, found in pieces:
         reasons |= {int(rows[k]): said for k, said in found.reasons.items()}
     states = tuple(_joined_states(cases, number, pieces) for number in range(len(cases.groups)))

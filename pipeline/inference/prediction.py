@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import cache
 from typing import Any
 
@@ -62,7 +62,8 @@ class Prediction:
     slides: (R, K, 9) strain of each play, mm, half its width, and derivatives of the strain by the inputs; the width is
     infinite where there is no play.
     lost: (R,) rows without a stable equilibrium. reasons: of the lost rows, as in `vjm.reasons`. states: of
-    each group, to start from again.
+    each group, to start from again. nominal: (K,) standard deviations from what was written about the rig, at which the
+    prediction is; by_nominal: (R, C, K) its derivative by them. Empty where all is exact.
     """
 
     values: Array
@@ -74,6 +75,13 @@ class Prediction:
     lost: np.ndarray
     reasons: dict[int, str]
     states: tuple[Equilibrium, ...]
+    nominal: Array = field(default_factory=lambda: np.zeros(0))
+    by_nominal: Array = field(default_factory=lambda: np.zeros((0, 0, 0)))
+
+    @property
+    def as_written(self) -> Array:
+        """(R, C) readings where what was written about the rig is true, along the line of the prediction."""
+        return self.values - self.by_nominal @ self.nominal if self.nominal.size else self.values
 
 
 @dataclass(frozen=True, eq=False)
@@ -123,7 +131,8 @@ def predict(
     for number, group in enumerate(program.groups):
         begin = None if start is None else start.states[number]
         place, real = program.rows_of(group), group.real
-        part = _group(model, program, _shifted(group, out.shift[place]), slopes, begin, order, held, bent)
+        stood = _shifted(group.turned(model.turn), out.shift[place])
+        part = _group(model, program, stood, slopes, begin, order, held, bent)
         out.values[place], out.by_inputs[place] = part.values, part.by_inputs
         out.by_free[place] = part.by_free
         count = part.stops.shape[-2]

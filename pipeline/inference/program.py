@@ -42,6 +42,14 @@ class Group:
         """(T, 1, 6) pose from which displacements count."""
         return self.rig.nominal_pose(self.q)[:, None, :]
 
+    def turned(self, angle: float) -> Group:
+        """The tests with the unloaded linkage turned to further angles, rad, from where displacements count."""
+        if not angle:
+            return self
+        there = replace(self, q=self.q + angle)
+        moved = np.where((self.channels < 6)[:, None], there.nominal - self.nominal, 0.0)
+        return replace(there, targets=self.targets + moved)
+
     @cached_property
     def real(self) -> np.ndarray:
         """(T, S) steps that are not filling."""
@@ -76,6 +84,8 @@ class Program:
     measured: (R, C), NaN where not measured. predicted: (R, C) mask of what a model predicts and the campaign
     measured, with a sigma. channels: (R, 6) channel that each coordinate's control prescribes. input_sigma: (R, 7)
     noise of what is prescribed, and of the temperature, K. sigma: (C,) noise of every sensor. test: (R,) its number.
+    by_nominal: (R, C, K) derivative of the predictions by what was written about the rig, in its standard deviations,
+    near the models that are fitted; None where all is exact, or not looked at yet.
     """
 
     campaign: Campaign
@@ -86,6 +96,7 @@ class Program:
     input_sigma: Array
     sigma: Array
     test: np.ndarray
+    by_nominal: Array | None = None
 
     @cached_property
     def first(self) -> np.ndarray:
@@ -138,7 +149,13 @@ class Program:
     def only(self, rows: NDArray[np.int64]) -> Program:
         """The program of these rows (N,) alone, in order; tests without any are left out."""
         tests = [_rows_of(test, rows[self.test[rows] == k] - self.first[k]) for k, test in self._tests(rows)]
-        return program(replace(self.campaign, tests=tuple(tests)))
+        part = program(replace(self.campaign, tests=tuple(tests)))
+        return part if self.by_nominal is None else replace(part, by_nominal=self.by_nominal[rows])
+
+    @property
+    def plain(self) -> Program:
+        """As if what was written were exact."""
+        return self if self.by_nominal is None else replace(self, by_nominal=None)
 
     def _tests(self, rows: NDArray[np.int64]) -> list[tuple[int, Test]]:
         return [(int(k), self.campaign.tests[k]) for k in np.unique(self.test[rows])]

@@ -16,12 +16,13 @@ W. A. Fuller, "Measurement Error Models", Wiley 1987, chapter 3; H. I. Britt, R.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
 
+from pipeline.inference.marginal import Marginal
 from pipeline.inference.prediction import Prediction
 from pipeline.inference.program import LOST, Program
 from pipeline.inference.span import basis
@@ -86,7 +87,9 @@ def _through(program: Program, prediction: Prediction) -> Array:
 class Residual:
     """e whitened: (R, C), zero where nothing is compared.
 
-    slopes: (R, C, P) of the prediction, whitened. offsets: (R, C, O) whitened columns of unknown zeros.
+    slopes: (R, C, P) of the prediction, whitened. offsets: (R, C, O) whitened columns of unknown zeros. nominal: (R, C,
+    K) whitened derivative of the prediction by what was written about the rig, in standard deviations; departure: (K,)
+    those at which it is predicted.
     shift: (R, 7) of the inputs that fit best, from the measured ones, as far as noise may move them. across, charge,
     undecided: as in `pipeline.inference.stops.Sides`.
     """
@@ -95,6 +98,8 @@ class Residual:
     values: Array
     slopes: Array
     offsets: Array
+    nominal: Array
+    departure: Array
     shift: Array
     across: Array
     charge: Array
@@ -125,9 +130,42 @@ class Residual:
         return np.asarray(array[self.rows[:, 0], self.rows[:, 1]])
 
     def free(self, array: Array) -> Array:
+        """(N, ...) of the tests that may be fitted, unknown zeros projected out and what was written eliminated."""
+        return self.weakened(self.without_zeros(array))
+
+    def without_zeros(self, array: Array) -> Array:
         """(N, ...) of the tests that may be fitted, unknown zeros projected out."""
         zeros, values = self.zeros, self.flat(array)
         return np.asarray(values - zeros @ (zeros.T @ values)) if zeros.shape[1] else values
+
+    def weakened(self, columns: Array) -> Array:
+        """Columns (N, ...), what was written about the rig eliminated from them."""
+        return columns if self.marginal is None else self.marginal.weakened(columns)
+
+    @cached_property
+    def marginal(self) -> Marginal | None:
+        """What was written about the rig beside the residuals of the tests that may be fitted; None where all of it is
+        exact."""
+        return Marginal.of(self.without_zeros(self.nominal)) if self.departure.size else None
+
+    @cached_property
+    def as_written(self) -> Array:
+        """(R, C) residuals where what was written is true, along the line of the prediction."""
+        return self.values + self.nominal @ self.departure if self.departure.size else self.values
+
+    @cached_property
+    def estimate(self) -> Array:
+        """(K,) what was written, in standard deviations from it, as it fits best."""
+        if self.marginal is None:
+            return self.departure
+        return np.asarray(self.marginal.pull @ self.without_zeros(self.as_written))
+
+    @cached_property
+    def left(self) -> Array:
+        """(R, C) residuals where what was written is as it fits best."""
+        if self.marginal is None:
+            return self.values
+        return np.asarray(self.values - self.nominal @ (self.estimate - self.departure))
 
     @cached_property
     def zeros(self) -> Array:
@@ -139,9 +177,15 @@ class Residual:
         return basis(self.flat(self.offsets))
 
     @cached_property
+    def whitened(self) -> Array:
+        """(N,) residuals of the tests that may be fitted, of unit covariance: zeros projected out, what was written
+        eliminated. Their sum of squares is that of the residuals and of the departures from what was written."""
+        return self.free(self.as_written)
+
+    @cached_property
     def aimed(self) -> Array:
         """(N + 1,) what a fit makes least: the residuals and, at the end, what rows beside their stops are charged."""
-        return np.append(self.free(self.values), np.sqrt(self.charged))
+        return np.append(self.whitened, np.sqrt(self.charged))
 
     @cached_property
     def aimed_by(self) -> Array:
@@ -158,13 +202,22 @@ def residual(program: Program, prediction: Prediction) -> Residual:
     values = weights.apply(difference)
     slopes, offsets = weights.apply(prediction.by_free), weights.apply(_unknown_zeros(program, prediction))
     gain = np.einsum("rij,rjk->rik", weights.factors, through)
-    shift = program.input_sigma**2 * np.einsum("rik,ri->rk", gain, values)
-    sides = on_their_sides(prediction, shift, program.input_sigma, gain)
-    shift, across = (_near(each, program.input_sigma) for each in (sides.shift, sides.across))
     values[prediction.lost] = np.where(program.predicted[prediction.lost], LOST, 0.0)
     slopes[prediction.lost] = 0.0
     offsets[prediction.lost] = 0.0
-    return Residual(program, values, slopes, offsets, shift, across, sides.charge, sides.undecided)
+    nominal = np.zeros((*values.shape, 0))
+    if prediction.nominal.size:
+        nominal = weights.apply(prediction.by_nominal)
+        nominal[prediction.lost] = 0.0
+    none, nothing = np.zeros_like(prediction.shift), np.zeros(len(values))
+    it = Residual(
+        program, values, slopes, offsets, nominal, prediction.nominal, none, none, nothing, nothing > 0.0
+    )
+    # True inputs are those that fit best with what was written as it fits best.
+    shift = program.input_sigma**2 * np.einsum("rik,ri->rk", gain, it.left)
+    sides = on_their_sides(prediction, shift, program.input_sigma, gain)
+    shift, across = (_near(each, program.input_sigma) for each in (sides.shift, sides.across))
+    return replace(it, shift=shift, across=across, charge=sides.charge, undecided=sides.undecided)
 
 
 def _near(shift: Array, sigma: Array) -> Array:

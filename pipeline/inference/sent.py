@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pipeline.inference.fit import Fit
-from pipeline.inference.model import Model
+from pipeline.inference.model import Model, Term
 from pipeline.inference.prediction import Prediction
 from pipeline.inference.program import Group, Program
 from pipeline.inference.residual import residual
@@ -19,7 +19,7 @@ from vjm.equilibrium import Equilibrium
 
 Bare = list[np.ndarray]
 """A state without its mechanism: what laws of a user's own are made of may not be sent."""
-Numbers = tuple[NDArray[np.float64], Prediction, list[Bare], int, bool]
+Numbers = tuple[NDArray[np.float64], tuple[Term, ...], Prediction, list[Bare], int, bool]
 
 
 def fits_at_once(calls: Sequence[tuple[Model, Callable[[], Fit]]], program: Program) -> list[Fit]:
@@ -31,12 +31,13 @@ def fits_at_once(calls: Sequence[tuple[Model, Callable[[], Fit]]], program: Prog
 def _numbers(call: Callable[[], Fit]) -> Numbers:
     found = call()
     bare = [state.arrays for state in found.prediction.states]
-    return found.model.values, replace(found.prediction, states=()), bare, found.evaluations, found.ended
+    whole = replace(found.prediction, states=())
+    return found.model.values, found.model.nominals, whole, bare, found.evaluations, found.ended
 
 
 def _fit(model: Model, numbers: Numbers, program: Program) -> Fit:
-    values, prediction, bare, evaluations, ended = numbers
-    model = model.at(values)
+    values, nominals, prediction, bare, evaluations, ended = numbers
+    model = replace(model.at(values), nominals=nominals)
     states = tuple(_state(model, program, *each) for each in zip(program.groups, bare, strict=True))
     prediction = replace(prediction, states=states)
     return Fit(model, prediction, residual(program, prediction), evaluations, ended)

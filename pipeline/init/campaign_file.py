@@ -45,13 +45,19 @@ NOISE = """
 # z_mm = 0.001
 # fz_N = 0.5
 """
+TOLERANCE = """
+[tolerance]                  # one standard deviation of what is written above; what is left out has its usual one
+# all = "exact"              # nothing is off
+# bar = 0.02                 # share of its stiffness; or { EA = 0.02, EIy = 0.02, EIz = 0.02, GJ = 0.02, ends = 0.005 }
+# length_mm = 0.05           # of the drawing; width_mm and q_mrad = 0.5 (the angle that was set up) of a parallelogram
+"""
 
 
 def campaign_text(
     name: str, kind: str, file: str = "", found: Found | None = None, bar: KnownBar | None = None
 ) -> str:
     """campaign.toml. file: beside it, of which `found` was found; without it measurements.csv is to be written."""
-    more = KINDS[kind].further + NOISE + (GAUGES if KINDS[kind].has_gauges else "")
+    more = KINDS[kind].further + NOISE + TOLERANCE + (GAUGES if KINDS[kind].has_gauges else "")
     head = f"schema = 1\nname = {_quoted(name)}\n\n[rig]\n{_rig(kind, bar)}{more}"
     tables = "" if found is None else _file(file, found) + _columns(found) + CELL
     names = ("test-1",) if found is None or not found.tests else found.tests

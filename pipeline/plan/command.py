@@ -11,7 +11,8 @@ from pipeline.adequacy.untested import untested
 from pipeline.attempt import Attempts
 from pipeline.campaign import Campaign, read
 from pipeline.command import usable
-from pipeline.diagnose.diagnosis import in_words, suitable
+from pipeline.diagnose.diagnosis import suitable
+from pipeline.diagnose.record import in_words
 from pipeline.diagnose.signatures import Say
 from pipeline.inference.fit import unfitted
 from pipeline.inference.model import Model

@@ -99,6 +99,61 @@ class Criteria:
     undetermined_rise: float = _criterion(
         2.0, CHI2, "exclusion", "a parameter that may be at its null for no more than this is not determined"
     )
+    nominal_moved: float = _criterion(
+        1.0,
+        "tolerances",
+        "nominals",
+        "a number that was written and fits best farther away than this is told",
+    )
+    nominal_seen: float = _criterion(
+        0.9,
+        SHARE,
+        "nominals",
+        "of its tolerance, below which the tests say more of a number than was written",
+    )
+    certain_sigmas: float = _criterion(
+        10.0,
+        SIGMA,
+        "certain",
+        "times what is left by the best set: an effect is certain where the best set without it is worse by this",
+    )
+    certain_patterns: int = _criterion(
+        8,
+        COUNT,
+        "certain",
+        "faults of sensors, at most, that the rest of the best set may need to look like noise",
+    )
+    certain_more: int = _criterion(2, COUNT, "certain", "faults of sensors that a rival may have more")
+    certain_rivals: int = _criterion(
+        2, COUNT, "certain", "sets without an effect, at each of two places, that are looked at instead of it"
+    )
+    sigma_factor: float = _criterion(
+        1.5,
+        FACTOR,
+        "noise",
+        "by which the scatter has to differ from a declared sigma to count instead of it",
+    )
+    sigma_errors: float = _criterion(
+        5.0, SIGMA, "noise", "standard errors of the scatter by which it has to differ from a declared sigma"
+    )
+    bad_neighbours: float = _criterion(
+        3.5,
+        SIGMA,
+        "bad readings",
+        "a single bad reading has neighbours in its channel that are off by less",
+    )
+    bad_rest: float = _criterion(
+        0.2,
+        SHARE,
+        "bad readings",
+        "of a single bad reading, below which all others of its row have to be once it is explained",
+    )
+    bad_share: float = _criterion(
+        0.02, SHARE, "bad readings", "of all readings, at most, that are set aside as single bad ones"
+    )
+    bad_rounds: int = _criterion(
+        3, COUNT, "bad readings", "searches after which the readings that are set aside stay as they are"
+    )
     # How far the search goes.
     far: float = _criterion(
         2.0, SIGMA, "search", "root mean square from which a set is far from an explanation"

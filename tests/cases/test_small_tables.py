@@ -7,6 +7,7 @@ bench of two dials and one load cell (n_...), and from tables drawn at random th
 from __future__ import annotations
 
 import json
+from dataclasses import replace
 from functools import cache
 from pathlib import Path
 
@@ -33,9 +34,12 @@ LAPACK = ("SVD", "ingular matrix", "positive definite", "LinAlgError", "illegal 
 
 
 @cache
-def answer(name: str) -> Answer:
+def answer(name: str, exact: bool = False) -> Answer:
+    """exact: as if what is written about the rig were known exactly, instead of as well as usual."""
     folder = DATA / name
     campaign = read(folder)
+    if exact:
+        campaign = replace(campaign, tolerance={})
     model, known = starting_model(campaign, folder, None, known_effects(()))
     return answered(diagnose(campaign, model, known.effects))
 
@@ -47,9 +51,10 @@ def plan(name: str) -> Plan:
     return plan_of(campaign, model, known.effects)
 
 
-def compared(name: str) -> str:
+def compared(name: str, exact: bool = False) -> str:
     """The first line of compare."""
-    return sentence(compare_models(read(DATA / name)))
+    campaign = read(DATA / name)
+    return sentence(compare_models(replace(campaign, tolerance={}) if exact else campaign))
 
 
 def sets(found: Answer) -> set[frozenset[str]]:
@@ -60,7 +65,7 @@ VERDICTS = {
     "c18_supercritical_column": "identified",
     "c03_textbook_table": "within_noise",
     "c04_dial_softer": "ambiguous",
-    "c04_dial_softer/parallelogram_same_crash": "ambiguous",
+    "c04_dial_softer/parallelogram_same_crash": "within_noise",
     "c05_one_point": "ambiguous",
     "c11/unload_only": "ambiguous",
     "n_B_s4": "ambiguous",
@@ -72,7 +77,7 @@ VERDICTS = {
     "t08_offset_identified_as_dimension": "nothing_tested",
     "t09_identified_undetermined": "ambiguous",
     "t10_add_unsolvable": "unknown",
-    "t18_angle_refused_by_fea": "ambiguous",
+    "t18_angle_refused_by_fea": "within_noise",
     "t19_no_sigma_refused": "nothing_tested",
 }
 
@@ -135,9 +140,12 @@ def test_without_a_sigma_what_can_be_said_is_said_in_units() -> None:
     ],
 )
 def test_a_constant_of_one_channel_is_first_a_zero(name: str, first: str) -> None:
-    found = answer(name)
+    found = answer(name, exact=True)
     assert first in found.sentences[0] and found.verdict != "identified"
     assert found.zeros and found.zeros[0].column == first.split()[0]
+    usual = answer(name)
+    column, *_ = first.split()
+    assert f"{column} starts at" in usual.sentences[0] and usual.verdict == found.verdict
 
 
 def test_a_dial_that_was_not_zeroed_names_no_effect() -> None:
@@ -188,15 +196,22 @@ def test_a_column_beyond_its_critical_load_is_followed_bent() -> None:
 
 
 def test_three_readings_far_off_are_not_called_noise() -> None:
-    first = compared("t14_compare_nothing_beyond_noise")
+    first = compared("t14_compare_nothing_beyond_noise", exact=True)
     assert "not within the noise; x is -0.00237 mm off on average" in first
+    # A bar that is drawn to 0.05 mm may be longer by that; the misfit is told all the same.
+    usual = compared("t14_compare_nothing_beyond_noise")
+    assert "being within its tolerances; x is -0.00237 mm off on average" in usual
 
 
 def test_a_sigma_far_too_large_is_a_claim_that_the_scatter_refutes() -> None:
-    result = compare_models(read(DATA / "t15_sigma_far_too_large"))
+    campaign = read(DATA / "t15_sigma_far_too_large")
+    result = compare_models(replace(campaign, tolerance={}))
     assert any("a sigma of 2.22 is given, but the readings scatter far less" in r for r in result.remarks)
     assert not result.model_of("vjm").within_noise
-    assert answer("t15_sigma_far_too_large").verdict not in ("within_noise", "identified")
+    assert answer("t15_sigma_far_too_large", exact=True).verdict not in ("within_noise", "identified")
+    # 3 µm that a bar drawn to 0.05 mm may be shorter by: one function says so for both.
+    assert compare_models(campaign).model_of("vjm").tolerated
+    assert answer("t15_sigma_far_too_large").verdict == "within_noise"
 
 
 def test_a_further_effect_never_leaves_more() -> None:

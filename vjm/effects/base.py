@@ -80,7 +80,8 @@ class Effect(ABC):
     kinds: of rig that can have it. hinge: the one it needs of a single bar, "" for none; a parallelogram has all.
     smooth: False where the response has a kink or a dead zone in the parameters, so that a fit needs several
     starts and a derivative at null says little. probes: values of the first parameter at which to look for such an
-    effect. history: whether the order of load steps matters. includes: effects that it cannot be without.
+    effect. history: whether the order of load steps matters. includes: effects that it cannot be without. nominal:
+    names of tolerances of which it is the excess; with none of them it is not looked for.
     """
 
     name: ClassVar[str]
@@ -97,6 +98,7 @@ class Effect(ABC):
     probes: ClassVar[tuple[float, ...]] = ()
     history: ClassVar[bool] = False
     includes: ClassVar[tuple[str, ...]] = ()
+    nominal: ClassVar[tuple[str, ...]] = ()
 
     @abstractmethod
     def change(self, rig: Rig, values: Values) -> Rig:

@@ -63,6 +63,10 @@ class RigOfBars(Rig):
         return uniform_stiffness(self.length, b.EA, b.EIy, b.EIz, b.GJ)
 
     @property
+    def written(self) -> tuple[str, ...]:
+        return ("EA", "EIy", "EIz", "GJ", "ends", "length_mm")
+
+    @property
     def ends(self) -> tuple[Base, Tip]:
         """Supports of a bar; those of a linkage are its hinges."""
         return "clamped", "free"

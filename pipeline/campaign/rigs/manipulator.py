@@ -40,6 +40,10 @@ class ManipulatorRig(Rig):
     at: Vector | None = None
 
     @property
+    def written(self) -> tuple[str, ...]:
+        return ("bars",) if linkages(self.manipulator) else ()
+
+    @property
     def point(self) -> Vector | None:
         return self.at
 

@@ -40,6 +40,10 @@ class ParallelogramRig(RigOfBars):
     width: float
 
     @property
+    def written(self) -> tuple[str, ...]:
+        return (*super().written, "width_mm", "q_mrad")
+
+    @property
     def spread(self) -> float:
         return self.width
 

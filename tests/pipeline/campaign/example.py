@@ -44,6 +44,9 @@ role = "holdout"
 control = { x = "force", y = "mid", z = "displacement", rx = "force", ry = "force", rz = "force" }
 zero = "first_row"
 rig = { length_mm = 250.0 }
+
+[tolerance]
+all = "exact"
 """
 
 CSV = """test,step,x_mm,y_mm,z_mm,rz_rad,fx_N,fy_N,mid_mm,temperature_C
@@ -73,6 +76,8 @@ tip = "guided"
 id = "push"
 role = "fit"
 control = { x = "force", y = "displacement", z = "force" }
+[tolerance]
+all = "exact"
 """
 BAR_CSV = "test,step,x_mm,y_mm,fx_N,fy_N\npush,0,,0,0,0\npush,1,,1.5,-10,18.5\n"
 

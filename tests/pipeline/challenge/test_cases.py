@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from pipeline.challenge.benches import drawn_rig, scaled
-from pipeline.challenge.cases import ALWAYS, ROUND, Case, case
+from pipeline.challenge.cases import ALWAYS, HIDDEN, ROUND, Case, case
 from pipeline.challenge.faults import FAULTS
 from pipeline.challenge.outcome import judged
 from pipeline.simulate import bench_rig
@@ -28,7 +28,9 @@ def test_of_six_hundred_a_quarter_is_clean_and_all_kinds_are_there() -> None:
     assert kinds.count("clean") >= 150
     assert set(kinds) == set(ROUND)
     hidden = {name for it in every if it.kind in ("single", "pair") for name in it.effects}
-    assert hidden == set(catalogue()) - {ALWAYS}
+    assert hidden == set(HIDDEN)
+    # All that may be missing but what only exceeds a tolerance.
+    assert hidden == {name for name, it in catalogue().items() if not it.nominal} - {ALWAYS}
     assert {it.fault[0] for it in every if it.fault} == set(FAULTS)
     lengths = {it.bench.rig.length for it in every}
     assert len(lengths) > 100 and max(lengths) > 2.0 * min(lengths)

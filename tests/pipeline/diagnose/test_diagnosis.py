@@ -11,7 +11,8 @@ from typer.testing import CliRunner
 
 from pipeline.campaign import Campaign, write
 from pipeline.cli import app
-from pipeline.diagnose.diagnosis import Diagnosis, answer_of, diagnose
+from pipeline.diagnose.diagnosis import Diagnosis, diagnose
+from pipeline.diagnose.record import answer_of
 from pipeline.diagnose.words import answered, sentences
 from pipeline.inference.model import Model
 from tests.pipeline.diagnose.bench import AXIAL, bench, growing_gain, with_fault

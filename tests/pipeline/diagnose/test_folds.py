@@ -30,7 +30,8 @@ def shelf(misfit: np.ndarray) -> Shelf:
         for name, shape in zip(NAMES, shapes, strict=True)
     }
     fit = cast(Fit, SimpleNamespace(chi_square=float(misfit @ misfit), model=Model()))
-    about = Picture(fit, signatures, misfit, np.zeros((EVERY.size, 0)), EVERY, 1.0, CRITERIA.plausible)
+    none = np.zeros((EVERY.size, 0))
+    about = Picture(fit, signatures, misfit, none, none, EVERY, 1.0, CRITERIA.plausible)
     pictures = {frozenset[str](): about}
     return cast(
         Shelf,

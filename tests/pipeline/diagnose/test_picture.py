@@ -69,8 +69,16 @@ def test_what_takes_implausible_numbers_off_another_is_worth_that(share: float) 
     column = np.full((6, 1), 1e3)
     other = Signature(EFFECTS["joint_torsional_stiffness"], (column,), np.array([-np.inf]))
     fit = cast(Fit, SimpleNamespace(model=model, chi_square=0.0))
+    tests = np.zeros(6, dtype=int)
     about = Picture(
-        fit, {"other": other}, np.zeros(6), column / size, np.zeros(6, dtype=int), share, CRITERIA.plausible
+        fit,
+        {"other": other},
+        np.zeros(6),
+        column / size,
+        np.zeros((6, 0)),
+        tests,
+        share,
+        CRITERIA.plausible,
     )
     assert about.gain(["other"]).value == pytest.approx(2.0, rel=1e-4)
 

@@ -8,7 +8,8 @@ import numpy as np
 import pytest
 
 from pipeline.campaign import Data
-from pipeline.diagnose.diagnosis import answer_of, diagnose
+from pipeline.diagnose.diagnosis import diagnose
+from pipeline.diagnose.record import answer_of
 from pipeline.diagnose.words import sentences
 from pipeline.improve.steps import certain
 from pipeline.inference.model import Model

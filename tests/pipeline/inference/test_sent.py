@@ -12,7 +12,8 @@ import pytest
 from pipeline.answer import Answer
 from pipeline.coverage.cases import BASE, typical
 from pipeline.coverage.trial import campaign
-from pipeline.diagnose.diagnosis import answer_of, diagnose
+from pipeline.diagnose.diagnosis import diagnose
+from pipeline.diagnose.record import answer_of
 from pipeline.inference import sent
 from pipeline.inference.fit import Fit, fit
 from pipeline.inference.intervals import intervals, landscape

@@ -33,6 +33,7 @@ UNITS = {
 CANONICAL = {
     "bar_geometric_nonlinearity": (),
     "modulus_error": ("scale",),
+    "bar_section_error": ("ea", "eiy", "eiz", "gj"),
     "bar_stiffness_asymmetry": ("ratio",),
     "bar_length_mismatch": ("mismatch_mm",),
     "dimension_error": ("length_mm", "width_mm"),
@@ -70,7 +71,7 @@ def test_an_effect_explains_itself(name: str) -> None:
 
 def test_the_catalogue_has_the_names_of_the_contract() -> None:
     found = catalogue()
-    assert len(found) == 18
+    assert len(found) == 19
     for name, parameters in CANONICAL.items():
         assert set(parameters) <= {p.name for p in found[name].parameters}
 

@@ -1,0 +1,196 @@
+"""Single bad readings: a display misread, a dial that was knocked. Each is off alone, and its neighbours are not.
+
+A reading (y, or x of what was prescribed) that is off by d moves the whitened residual r of a fit by d times a column
+c. What the fit can move taken out of the column, c', the mean shift is d = c'·r / c'·c', and
+
+    t = c'·r / abs(c')
+
+is standard normal where nothing is wrong (R. D. Cook, S. Weisberg, Residuals and Influence in Regression, Chapman and
+Hall 1982, section 2.2.2). The largest t is looked at first, in units of the median of all (1.4826 MAD), and beyond
+Bonferroni's bound over all readings it is a bad one if its neighbours in the same channel are not off as well: a play
+or a step of a sensor comes in runs; and if nothing else of its row is: a state that is another one moves several
+sensors. Its column joins what the fit can move, and the next one is looked at.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.stats import norm
+
+from pipeline.adequacy.reading_errors import ReadingErrors
+from pipeline.campaign import Campaign, Test
+from pipeline.campaign.names import DISPLACEMENTS, WRENCHES, gauge_column
+from pipeline.inference.driving import control_channels
+from pipeline.inference.fit import Fit
+from pipeline.inference.residual import Residual
+from pipeline.inference.span import basis
+from pipeline.selection.criteria import Criteria
+
+Array = NDArray[np.float64]
+Mask = NDArray[np.bool_]
+FLAT = 0.1
+"""Part of a column that must be left when what the fit can move is taken out: less, and the fit follows the reading
+wherever it is."""
+MEDIAN = float(norm.ppf(0.75))
+
+
+@dataclass(frozen=True)
+class BadReading:
+    """One reading by the id of its test, its step and its column. sigmas: by how many of its own it is off."""
+
+    test: str
+    step: int
+    column: str
+    sigmas: float
+
+    @property
+    def cell(self) -> tuple[str, int, str]:
+        """Where it stands."""
+        return self.test, self.step, self.column
+
+
+@dataclass(frozen=True, eq=False)
+class _Shifts:
+    """Mean shifts of all readings about a residual r (N,) that is free of a basis (N, k)."""
+
+    it: Residual
+    of: ReadingErrors
+    residual: Array
+    taken: Array
+
+    def scores(self) -> Array:
+        """(R, M) t, zero where there is no reading or nothing of its column is left."""
+        it, columns = self.it, self.of.columns
+        pull = self._inner(it.weakened(self.residual)[:, None])[..., 0]
+        sizes = np.sum(columns**2, axis=1)
+        left = sizes - np.sum(self._inner(it.zeros) ** 2, axis=-1)
+        if it.marginal is not None:
+            share = it.marginal.sizes**2 / (1.0 + it.marginal.sizes**2)
+            left -= np.sum(share * self._inner(it.marginal.left) ** 2, axis=-1)
+        left -= np.sum(self._inner(it.weakened(self.taken)) ** 2, axis=-1)
+        seen = self.of.there & (left > FLAT**2 * sizes) & (sizes > 0.0)
+        return np.where(seen, pull / np.sqrt(np.where(seen, left, 1.0)), 0.0)
+
+    def without(self, row: int, number: int) -> _Shifts:
+        """The same with the shift of one reading taken out."""
+        whole = np.zeros(self.of.columns.shape[:2])
+        whole[row] = self.of.columns[row, :, number]
+        column = self.it.free(whole)
+        for _ in range(2):
+            column = column - self.taken @ (self.taken.T @ column)
+        column = column / np.linalg.norm(column)
+        residual = self.residual - column * (column @ self.residual)
+        return replace(self, residual=residual, taken=np.column_stack([self.taken, column]))
+
+    def _inner(self, array: Array) -> Array:
+        """(R, M, k) products of every reading's column with those of an array (N, k)."""
+        whole = np.zeros((*self.of.columns.shape[:2], array.shape[1]))
+        whole[self.it.rows[:, 0], self.it.rows[:, 1]] = array
+        return np.einsum("rcm,rck->rmk", self.of.columns, whole)
+
+
+def bad_readings(found: Fit, criteria: Criteria) -> tuple[BadReading, ...]:
+    """The single bad readings of the fitted tests, the worst first."""
+    it = found.residual
+    whole, taken = it.program, basis(found.jacobian)
+    residual = found.whitened - taken @ (taken.T @ found.whitened)
+    shifts = _Shifts(it, ReadingErrors.of(found), residual, taken)
+    there = shifts.of.there.copy()
+    count = int(there.sum())
+    if count < criteria.few_readings:
+        return ()
+    limit = float(norm.isf(0.5 * criteria.false_alarm / count))
+    out: list[BadReading] = []
+    scores = shifts.scores()
+    while len(out) < max(1.0, criteria.bad_share * count):
+        scale = float(np.median(np.abs(scores[shifts.of.there]))) / MEDIAN
+        sizes = np.where(there, np.abs(scores), 0.0)
+        row = int(np.argmax(sizes.max(axis=1)))
+        if not sizes[row].max() > limit * max(scale, np.finfo(float).tiny):
+            break
+        number = _simplest(sizes[row] / scale, whole.measured.shape[1], criteria.exclusion)
+        there[row] = False
+        less = shifts.without(row, number)
+        left = less.scores()
+        beside = _beside(shifts, row, number, left) / (criteria.bad_neighbours * scale)
+        rest = np.abs(left[row]).max() / max(
+            criteria.bad_neighbours * scale, criteria.bad_rest * sizes[row].max()
+        )
+        if np.all(np.abs(beside) < 1.0) and rest < 1.0:
+            out.append(_named(found, row, int(shifts.of.channels[row, number]), float(scores[row, number])))
+            shifts, scores = less, left
+    return tuple(out)
+
+
+def _simplest(sizes: Array, channels: int, exclusion: float) -> int:
+    """Of the readings of a row (M,) the one that explains most; one that is only read before one that was prescribed
+    where the data do not exclude it."""
+    read = sizes[:channels]
+    near = float(read.max()) ** 2 > float(sizes.max()) ** 2 - exclusion
+    return int(np.argmax(read if near else sizes))
+
+
+def _beside(shifts: _Shifts, row: int, number: int, scores: Array) -> Array:
+    """Scores of the same channel in the rows before and after, of the same test."""
+    whole = shifts.it.program
+    channel = shifts.of.channels[row, number]
+    rows = [k for k in (row - 1, row + 1) if 0 <= k < len(whole.test) and whole.test[k] == whole.test[row]]
+    return np.concatenate([scores[k][shifts.of.channels[k] == channel] for k in rows] or [np.zeros(0)])
+
+
+def _named(found: Fit, row: int, channel: int, score: float) -> BadReading:
+    whole = found.residual.program
+    test = whole.campaign.tests[whole.test[row]]
+    step = int(test.data.steps[row - whole.first[whole.test[row]]])
+    return BadReading(test.id, step, _column_names(whole.campaign)[channel], score)
+
+
+def _column_names(campaign: Campaign) -> list[str]:
+    return [*DISPLACEMENTS, *WRENCHES, *(gauge_column(gauge.name) for gauge in campaign.gauges)]
+
+
+def set_aside(campaign: Campaign, bad: tuple[BadReading, ...]) -> Campaign:
+    """The campaign without these readings; without the row where one of them was prescribed: what was done there is
+    not known."""
+    if not bad:
+        return campaign
+    names = _column_names(campaign)
+    return replace(
+        campaign,
+        tests=tuple(_test_without(campaign, test, set(_of(test, bad, names))) for test in campaign.tests),
+    )
+
+
+def _of(test: Test, bad: tuple[BadReading, ...], names: list[str]) -> Iterator[tuple[int, int]]:
+    """Row in the test and channel of each."""
+    for each in bad:
+        if each.test == test.id:
+            yield int(np.flatnonzero(test.data.steps == each.step)[0]), names.index(each.column)
+
+
+def _test_without(campaign: Campaign, test: Test, cells: set[tuple[int, int]]) -> Test:
+    if not cells:
+        return test
+    data = test.data
+    readings = np.hstack([data.displacement, data.wrench, data.gauges])
+    controls = control_channels(test, campaign.gauges)
+    for row, channel in cells:
+        readings[row, channel] = np.nan if channel not in controls else readings[row, channel]
+    kept = np.ones(data.steps.size, dtype=bool)
+    kept[[row for row, channel in cells if channel in controls]] = False
+    return replace(
+        test,
+        data=replace(
+            data,
+            steps=data.steps[kept],
+            displacement=readings[kept, :6],
+            wrench=readings[kept, 6:12],
+            gauges=readings[kept, 12:],
+            temperature=None if data.temperature is None else data.temperature[kept],
+            lines=data.lines[kept],
+        ),
+    )

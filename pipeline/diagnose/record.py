@@ -1,0 +1,177 @@
+"""A diagnosis as a record: what answers, pages and sentences are made from."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from pipeline.add.summary import changes, confusable, error_of, nominals_of, undetermined, values_of
+from pipeline.answer import Answer, Candidate, Certain, Correlation, SetAside, UnknownZero
+from pipeline.attempt import Attempts
+from pipeline.campaign.names import COORDINATES
+from pipeline.diagnose.diagnosis import Diagnosis
+from pipeline.diagnose.folds import crossvalidated, crossvalidated_with
+from pipeline.diagnose.menu import Choice
+from pipeline.diagnose.merit import taken
+from pipeline.diagnose.next_test import NextTest
+from pipeline.diagnose.shelf import Names, Shelf
+from pipeline.diagnose.zeros import Zero
+from pipeline.inference.fit import Fit
+from pipeline.inference.intervals import correlations, intervals, landscape, only_together, straight
+from pipeline.inference.model import Model
+from pipeline.provenance import commit, versions
+
+
+def answer_of(it: Diagnosis, sentences: tuple[str, ...] = (), found: Fit | None = None) -> Answer:
+    """The diagnosis as a record. found: whose numbers it has, default those of the first set."""
+    shelf, whole, found = it.shelf, it.shelf.whole, found or it.fit
+    before, attempts = shelf.fit(frozenset()), Attempts()
+    land = landscape(found, whole)
+    surely = it.judgement.noise and not it.untested
+    ends = attempts.get("intervals", lambda: intervals(land) if surely else straight(land), None) or straight(
+        land
+    )
+    values = values_of(found.model, ends)
+    pairs = attempts.get("correlations of the numbers", lambda: correlations(land), [])
+    together = attempts.get("what is seen only together", lambda: only_together(land), [])
+    names = [each.name for each in found.model.free]
+    steps = [before, *_steps(it)]
+    return Answer(
+        campaign=it.campaign.name,
+        verdict=it.verdict,
+        effects=it.model.names,
+        added=it.sets[0],
+        alternatives=tuple((*shelf.base.names, *names) for names in it.possible[1:]),
+        parameters=values,
+        error=tuple(
+            error_of(each, whole, len(each.model.free), it.judgement if each is steps[-1] else None)
+            for each in steps
+        ),
+        tests=changes(before, it.fit, whole),
+        # Where nothing is tested no candidate promises anything.
+        candidates=()
+        if it.untested
+        else attempts.get("the table of candidates", lambda: candidates_of(it), ()),
+        correlations=tuple(Correlation(first=names[i], second=names[j], value=r) for i, j, r in pairs),
+        undetermined=undetermined(values, [[names[k] for k in group] for group in together]),
+        confusable=confusable(names, pairs) + _alike(it),
+        next_test=next_test_record(it.next_test, it.sets),
+        at_bound=it.ruling.at_bound,
+        out_by_plausibility=tuple((*shelf.base.names, *shelf.order(n)) for n in it.ruling.out),
+        set_aside=tuple(
+            SetAside(test=b.test, step=b.step, column=b.column, sigma=b.sigmas) for b in it.set_aside
+        ),
+        certain=tuple(Certain(effect=name, parameters=_values(found.model, name)) for name in it.certain),
+        zeros=()
+        if it.ruling.zero is None or it.ruling.zero.zero is None
+        else (zero_record(it.ruling.zero.zero),),
+        nominals=attempts.get(
+            "what was written about the rig", lambda: nominals_of(found, shelf.criteria), ()
+        ),
+        not_done=(*it.failed, *attempts.failed),
+        sentences=sentences,
+        evaluations=shelf.evaluations + land.evaluations,
+        seconds=it.seconds,
+        commit=commit(),
+        versions=versions(),
+        data=dict(it.campaign.digests),
+    )
+
+
+def _values(model: Model, name: str) -> dict[str, float]:
+    """Of an effect of a model, by the names of its parameters."""
+    term = next((each for each in model.terms if each.effect.name == name), None)
+    return {} if term is None else {key: float(value) for key, value in term.values.items()}
+
+
+def zero_record(it: Zero) -> UnknownZero:
+    """As a record."""
+    return UnknownZero(
+        column=it.column, tests=it.tests, value=it.value, std=it.std, unit=it.unit, chi_square=it.gain
+    )
+
+
+def _steps(it: Diagnosis) -> list[Fit]:
+    """Fits on the way to the first set, the effect that explains most first; those that were made."""
+    shelf, goal = it.shelf, frozenset(it.sets[0])
+    here: Names = frozenset()
+    out = []
+    while here != goal:
+        ahead = [here | {name} for name in goal - here if here | {name} in shelf.fits]
+        if not ahead:
+            out.append(shelf.fit(goal))
+            break
+        here = min(ahead, key=lambda names: shelf.fit(names).chi_square)
+        out.append(shelf.fit(here))
+    return out
+
+
+def _alike(it: Diagnosis) -> tuple[tuple[str, ...], ...]:
+    return tuple(
+        dict.fromkeys(
+            (a.effect, a.rival) for a in it.alike if 1.0 - a.correlation < it.shelf.criteria.confusable_within
+        )
+    )
+
+
+def candidates_of(it: Diagnosis) -> tuple[Candidate, ...]:
+    """Every effect that was tried: what it promised, what it did, how it does in tests it did not see."""
+    shelf, best = it.shelf, it.found.best
+    root = frozenset(name for name in best if not shelf.candidates[name].parameters)
+    # After a search that took too long there is no time for what was not looked at.
+    about = shelf.pictures.get(root) if it.found.ended else shelf.picture(root)
+    least = _bic(shelf, best)
+    out = []
+    for name in shelf.candidates:
+        mine = [names for names in shelf.fits if name in names]
+        top = min(mine, key=lambda names: _bic(shelf, names), default=None)
+        screen = cross = None
+        if about is not None and name in about.signatures:
+            left = about.fit.chi_square - about.gain([name]).value
+            screen = float(np.sqrt(max(left, 0.0) / max(about.fit.degrees, 1)))
+            cross = crossvalidated_with(about, name)
+        fitted = None if top is None else shelf.fit(top)
+        out.append(
+            Candidate(
+                effect=name,
+                screen=screen,
+                fit=None if fitted is None else fitted.rms,
+                crossvalidated=cross if fitted is None else crossvalidated(fitted),
+                evidence=None if top is None else _bic(shelf, top) - least,
+            )
+        )
+    return tuple(sorted(out, key=lambda c: (c.evidence is None, c.evidence or 0.0, c.screen or np.inf)))
+
+
+def _bic(shelf: Shelf, names: Names) -> float:
+    found = shelf.fit(names)
+    return found.chi_square + taken(shelf, names) * float(np.log(max(found.whitened.size, 2)))
+
+
+def next_test_record(it: NextTest | None, sets: tuple[tuple[str, ...], ...]) -> dict[str, object] | None:
+    """The next test as JSON, what it would tell apart, and a second one where only both together tell."""
+    if it is None or not it.apart:
+        return None
+    first, *others = [_test_record(choice) for choice in it.choices]
+    return {
+        **first,
+        "tells_apart": [[list(sets[a]), list(sets[b])] for a, b in it.apart],
+        "expected_chi_square": [it.parted[pair] for pair in it.apart],
+        "together_with": others,
+    }
+
+
+def _test_record(choice: Choice) -> dict[str, object]:
+    return {
+        "q_deg": choice.test.q_deg,
+        "control": dict(zip(COORDINATES, choice.test.control, strict=True)),
+        "driven": COORDINATES[choice.shape.coordinate],
+        "largest": choice.limit,
+        "why": in_words(choice),
+    }
+
+
+def in_words(choice: Choice) -> str:
+    """A test of the menu."""
+    unit = ("N", "mm", "mm", "rad", "rad", "rad")[choice.shape.coordinate]
+    warm = ", 10 K warmer" if choice.warmer else ""
+    return f"q = {choice.test.q_deg:g}°, {choice.shape.words}, there and back to ±{choice.limit:.3g} {unit}{warm}"
