@@ -45,6 +45,16 @@ class SetAside(Record):
     sigma: float
 
 
+class FoundNoise(Record):
+    """A sensor that scatters otherwise than was declared; sigmas in the unit of its column. relative_error: standard
+    error of what was found, of itself."""
+
+    column: str
+    declared: float
+    found: float
+    relative_error: float
+
+
 class Certain(Record):
     """An effect that is there whatever else is, with its parameters by name: the best set without it leaves far more,
     whatever faults of sensors are allowed beside."""
@@ -149,8 +159,10 @@ class Answer(Record):
     say nothing, or of which they see only combinations. confusable: effects whose parameters go together. at_bound:
     numbers that end at a bound of what they may be. out_by_plausibility: sets that fit as well, out only because their
     sizes would be implausible. zeros: of sensors that seem not to be zeroed. nominals: what was written about the rig,
-    none where that is exact. set_aside: single bad readings that were left out. certain: effects that are
-    there whatever the verdict. not_done: optional parts that failed.
+    none where that is exact. set_aside: single bad readings that were left out. noise: sensors whose scatter
+    counts in the place of their declared sigma. tails: degrees of freedom of Student's law, where noise has long tails.
+    as_declared: the verdict with all readings and sigmas as they were declared, where something was found of them.
+    certain: effects that are there whatever the verdict. not_done: optional parts that failed.
     """
 
     campaign: str
@@ -170,6 +182,9 @@ class Answer(Record):
     zeros: tuple[UnknownZero, ...] = ()
     nominals: tuple[NominalValue, ...] = ()
     set_aside: tuple[SetAside, ...] = ()
+    noise: tuple[FoundNoise, ...] = ()
+    tails: float | None = None
+    as_declared: Verdict | None = None
     certain: tuple[Certain, ...] = ()
     not_done: tuple[str, ...] = ()
     next_test: dict[str, Any] | None = None

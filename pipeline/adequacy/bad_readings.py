@@ -6,7 +6,8 @@ c. What the fit can move taken out of the column, c', the mean shift is d = c'·
     t = c'·r / abs(c')
 
 is standard normal where nothing is wrong (R. D. Cook, S. Weisberg, Residuals and Influence in Regression, Chapman and
-Hall 1982, section 2.2.2). The largest t is looked at first, in units of the median of all (1.4826 MAD), and beyond
+Hall 1982, section 2.2.2). The largest t is looked at first, in units of the median of its sensor's (1.4826 MAD) where
+that is more than was declared, and beyond
 Bonferroni's bound over all readings it is a bad one if its neighbours in the same channel are not off as well: a play
 or a step of a sensor comes in runs; and if nothing else of its row is: a state that is another one moves several
 sensors. Its column joins what the fit can move, and the next one is looked at.
@@ -100,6 +101,7 @@ def bad_readings(found: Fit, criteria: Criteria) -> tuple[BadReading, ...]:
     residual = found.whitened - taken @ (taken.T @ found.whitened)
     shifts = _Shifts(it, ReadingErrors.of(found), residual, taken)
     there = shifts.of.there.copy()
+    scale = _scales(shifts)
     count = int(there.sum())
     if count < criteria.few_readings:
         return ()
@@ -107,23 +109,33 @@ def bad_readings(found: Fit, criteria: Criteria) -> tuple[BadReading, ...]:
     out: list[BadReading] = []
     scores = shifts.scores()
     while len(out) < max(1.0, criteria.bad_share * count):
-        scale = float(np.median(np.abs(scores[shifts.of.there]))) / MEDIAN
         sizes = np.where(there, np.abs(scores), 0.0)
-        row = int(np.argmax(sizes.max(axis=1)))
-        if not sizes[row].max() > limit * max(scale, np.finfo(float).tiny):
+        row = int(np.argmax((sizes / scale).max(axis=1)))
+        if not (sizes[row] / scale[row]).max() > limit:
             break
-        number = _simplest(sizes[row] / scale, whole.measured.shape[1], criteria.exclusion)
+        number = _simplest(sizes[row], whole.measured.shape[1], criteria.exclusion)
+        # One of a row: what was off twice was another state.
         there[row] = False
         less = shifts.without(row, number)
         left = less.scores()
-        beside = _beside(shifts, row, number, left) / (criteria.bad_neighbours * scale)
-        rest = np.abs(left[row]).max() / max(
-            criteria.bad_neighbours * scale, criteria.bad_rest * sizes[row].max()
+        beside = _beside(shifts, row, number, left / scale)
+        rest = np.abs(left[row]) / np.maximum(
+            criteria.bad_neighbours * scale[row], criteria.bad_rest * sizes[row].max()
         )
-        if np.all(np.abs(beside) < 1.0) and rest < 1.0:
+        if np.all(np.abs(beside) < criteria.bad_neighbours) and rest.max() < 1.0:
             out.append(_named(found, row, int(shifts.of.channels[row, number]), float(scores[row, number])))
             shifts, scores = less, left
     return tuple(out)
+
+
+def _scales(shifts: _Shifts) -> Array:
+    """(R, M) what the scores of a reading's sensor are like, at least 1."""
+    scores, of = np.abs(shifts.scores()), shifts.of
+    out = np.ones(scores.shape)
+    for channel in np.unique(of.channels[of.there]):
+        own = of.there & (of.channels == channel)
+        out[own] = max(1.0, float(np.median(scores[own])) / MEDIAN)
+    return out
 
 
 def _simplest(sizes: Array, channels: int, exclusion: float) -> int:
@@ -146,10 +158,11 @@ def _named(found: Fit, row: int, channel: int, score: float) -> BadReading:
     whole = found.residual.program
     test = whole.campaign.tests[whole.test[row]]
     step = int(test.data.steps[row - whole.first[whole.test[row]]])
-    return BadReading(test.id, step, _column_names(whole.campaign)[channel], score)
+    return BadReading(test.id, step, column_names(whole.campaign)[channel], score)
 
 
-def _column_names(campaign: Campaign) -> list[str]:
+def column_names(campaign: Campaign) -> list[str]:
+    """Of the channels of a campaign, as measurements.csv has them."""
     return [*DISPLACEMENTS, *WRENCHES, *(gauge_column(gauge.name) for gauge in campaign.gauges)]
 
 
@@ -158,7 +171,7 @@ def set_aside(campaign: Campaign, bad: tuple[BadReading, ...]) -> Campaign:
     not known."""
     if not bad:
         return campaign
-    names = _column_names(campaign)
+    names = column_names(campaign)
     return replace(
         campaign,
         tests=tuple(_test_without(campaign, test, set(_of(test, bad, names))) for test in campaign.tests),

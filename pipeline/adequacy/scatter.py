@@ -42,10 +42,13 @@ class Scatter:
     factor: float
     error: float
 
-    def differs(self, criteria: Criteria) -> bool:
-        """Whether it counts instead of what was declared."""
+    def differs(self, criteria: Criteria, unexplained: bool) -> bool:
+        """Whether it counts instead of what was declared. unexplained: whether, with what was declared, more is left
+        than noise leaves."""
         off = abs(np.log(self.factor))
-        return bool(off > np.log(criteria.sigma_factor) and off > criteria.sigma_errors * self.error)
+        errors = criteria.sigma_errors_unexplained if unexplained else criteria.sigma_errors
+        known = self.error < criteria.sigma_known
+        return bool(known and off > np.log(criteria.sigma_factor) and off > errors * self.error)
 
 
 def scatters(found: Fit) -> tuple[Scatter, ...]:

@@ -7,8 +7,7 @@ from dataclasses import dataclass, replace
 from functools import partial
 from time import perf_counter
 
-from pipeline.adequacy.bad_readings import BadReading, bad_readings, set_aside
-from pipeline.adequacy.judgement import ORDER, Judgement, judge
+from pipeline.adequacy.judgement import Judgement, judge
 from pipeline.adequacy.untested import untested
 from pipeline.answer import Verdict
 from pipeline.attempt import Attempts
@@ -18,6 +17,7 @@ from pipeline.diagnose.beyond import with_what_held_out_tests_need
 from pipeline.diagnose.certain import certain
 from pipeline.diagnose.folds import agreement
 from pipeline.diagnose.next_test import NextTest, best_next_test
+from pipeline.diagnose.readings import AS_DECLARED, Readings
 from pipeline.diagnose.rivals import Found
 from pipeline.diagnose.ruling import Ruling, ruled
 from pipeline.diagnose.search import search, search_one_by_one
@@ -28,7 +28,7 @@ from pipeline.errors import InputError
 from pipeline.inference.claims import trusted
 from pipeline.inference.fit import Fit, unfitted
 from pipeline.inference.model import Model
-from pipeline.inference.program import Program, program
+from pipeline.inference.program import program
 from pipeline.inference.sigmas import completed
 from pipeline.inference.suitable import check_suitable, scale_for, sized_model
 from pipeline.selection.criteria import CRITERIA, Criteria
@@ -41,8 +41,8 @@ class Diagnosis:
     """What was found. ruling: the verdict and what it rests on. untested: why nothing can be tested, or "".
 
     refused: effects that the rig or the campaign cannot have, and why. failed: optional parts that failed, and why.
-    set_aside: single bad readings that were left out; with_all: the verdict with them. certain: effects that are there
-    whatever the verdict.
+    readings: what they are about the first set; given: the campaign with all of them as they were declared; with_all:
+    the verdict by those. certain: effects that are there whatever the verdict.
     """
 
     campaign: Campaign
@@ -55,7 +55,8 @@ class Diagnosis:
     untested: str = ""
     failed: tuple[str, ...] = ()
     seconds: float = 0.0
-    set_aside: tuple[BadReading, ...] = ()
+    readings: Readings = AS_DECLARED
+    given: Campaign | None = None
     with_all: Verdict = "unknown"
     certain: tuple[str, ...] = ()
 
@@ -113,15 +114,17 @@ def diagnose(
     shelf, refused = _prepared(campaign, model, known, say, criteria)
     attempts = Attempts()
     it = chosen(shelf, attempts)
-    all_rows, with_all = shelf.whole, it.ruling.verdict
-    bad: tuple[BadReading, ...] = ()
-    for _ in range(0 if it.untested else criteria.bad_rounds):
-        new = attempts.get("single bad readings", partial(_bad, it, bad, all_rows), bad)
-        if {each.cell for each in new} == {each.cell for each in bad}:
+    given, with_all = shelf.whole, it.ruling.verdict
+    readings = AS_DECLARED
+    for _ in range(0 if it.untested else criteria.reading_rounds):
+        new = attempts.get(
+            "what the readings are", partial(readings.again, it.ruling.fit, given, criteria), readings
+        )
+        if new.same(readings):
             break
-        say(f"without {len(new)} single bad readings")
-        bad, attempts = new, Attempts()
-        shelf, refused = _prepared(set_aside(campaign, bad), model, known, say, criteria)
+        say("with the readings as they are")
+        readings, attempts = new, Attempts()
+        shelf, refused = _prepared(readings.applied(given.campaign), model, known, say, criteria)
         it = chosen(shelf, attempts)
     whole = shelf.whole.campaign
     if it.untested:
@@ -149,22 +152,11 @@ def diagnose(
         "",
         tuple(attempts.failed),
         _since(begin),
-        bad,
+        readings,
+        given.campaign,
         with_all,
         sure,
     )
-
-
-def _bad(it: Chosen, aside: tuple[BadReading, ...], all_rows: Program) -> tuple[BadReading, ...]:
-    """Single bad readings about the first set: none where what is left has an order, for then a shape is missing.
-
-    aside: those that are not among its readings now; they come back where they are no longer off.
-    """
-    found = it.ruling.fit
-    criteria = it.found.shelf.criteria
-    if not all(check.passed for check in judge(found, criteria).checks if check.name == ORDER):
-        return aside
-    return bad_readings(unfitted(found.model, all_rows) if aside else found, criteria)
 
 
 def fit_cache(campaign: Campaign, model: Model, known: Mapping[str, Effect]) -> Shelf:

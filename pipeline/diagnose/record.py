@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 import numpy as np
 
 from pipeline.add.summary import changes, confusable, error_of, nominals_of, undetermined, values_of
-from pipeline.answer import Answer, Candidate, Certain, Correlation, SetAside, UnknownZero
+from pipeline.adequacy.bad_readings import column_names
+from pipeline.answer import Answer, Candidate, Certain, Correlation, FoundNoise, SetAside, UnknownZero
 from pipeline.attempt import Attempts
 from pipeline.campaign.names import COORDINATES
 from pipeline.diagnose.diagnosis import Diagnosis
@@ -58,8 +61,11 @@ def answer_of(it: Diagnosis, sentences: tuple[str, ...] = (), found: Fit | None 
         at_bound=it.ruling.at_bound,
         out_by_plausibility=tuple((*shelf.base.names, *shelf.order(n)) for n in it.ruling.out),
         set_aside=tuple(
-            SetAside(test=b.test, step=b.step, column=b.column, sigma=b.sigmas) for b in it.set_aside
+            SetAside(test=b.test, step=b.step, column=b.column, sigma=b.sigmas) for b in it.readings.bad
         ),
+        noise=tuple(found_noise(it)),
+        tails=None if it.readings.tails is None else it.readings.tails.degrees,
+        as_declared=None if it.readings.plain else it.with_all,
         certain=tuple(Certain(effect=name, parameters=_values(found.model, name)) for name in it.certain),
         zeros=()
         if it.ruling.zero is None or it.ruling.zero.zero is None
@@ -75,6 +81,22 @@ def answer_of(it: Diagnosis, sentences: tuple[str, ...] = (), found: Fit | None 
         versions=versions(),
         data=dict(it.campaign.digests),
     )
+
+
+def found_noise(it: Diagnosis) -> Iterator[FoundNoise]:
+    """Sensors that scatter otherwise than was declared."""
+    if it.given is None:
+        return
+    noise = it.given.noise
+    sigmas = np.concatenate([noise.displacement, noise.wrench, noise.gauges])
+    for each in it.readings.scatter:
+        declared = float(sigmas[each.channel])
+        yield FoundNoise(
+            column=column_names(it.given)[each.channel],
+            declared=declared,
+            found=declared * each.factor,
+            relative_error=each.error,
+        )
 
 
 def _values(model: Model, name: str) -> dict[str, float]:

@@ -48,7 +48,7 @@ def sentences(it: Diagnosis, answer: Answer | None = None) -> tuple[str, ...]:
     if it.verdict != "nothing_tested":
         parts |= {
             "the evidence in words": lambda: tuple(_evidence(it, record)),
-            "what was set aside, in words": lambda: tuple(_aside(it)),
+            "what the readings are, in words": lambda: tuple(_aside(record)),
             "the limits in words": lambda: tuple(limits(record)),
             "what was written, in words": lambda: tuple(written(record, it.shelf.criteria.nominal_moved)),
             "what is left in words": lambda: tuple(_left(it)),
@@ -144,18 +144,26 @@ def _values(answer: Answer, effect: Effect, before: str = " Fitted: ", after: st
     return f"{before}{', '.join(said)}{after}" if said else ""
 
 
-def _aside(it: Diagnosis) -> Iterator[str]:
-    """Readings that were left out, and the verdict with them."""
-    if not it.set_aside:
-        return
-    told = ", ".join(
-        f"{b.column} at step {b.step} of {b.test} ({sigma(b.sigmas)} sigma)" for b in it.set_aside
-    )
-    many = len(it.set_aside) > 1
-    yield (
-        f"Set aside, for {'they are' if many else 'it is'} off alone, their neighbours are not: {told}. "
-        f"With {'them' if many else 'it'} the verdict would be {it.with_all}."
-    )
+def _aside(answer: Answer) -> Iterator[str]:
+    """What was found of the readings themselves, and the verdict with all of them as they were declared."""
+    if answer.set_aside:
+        told = ", ".join(
+            f"{b.column} at step {b.step} of {b.test} ({sigma(b.sigma)} sigma)" for b in answer.set_aside
+        )
+        each = "they are" if len(answer.set_aside) > 1 else "it is"
+        yield f"Set aside, for {each} off alone and what is beside is not: {told}."
+    if answer.tails is not None:
+        yield (
+            f"The noise has long tails (Student's law of {answer.tails:.1f} degrees of freedom): readings far out "
+            "count less, none is set aside."
+        )
+    for it in answer.noise:
+        yield (
+            f"{it.column} scatters by {short(it.found)} (± {percent(it.relative_error)}), not by the "
+            f"{short(it.declared)} that is declared: what it does counts."
+        )
+    if answer.as_declared is not None:
+        yield f"With all readings and sigmas as they are declared the verdict would be {answer.as_declared}."
 
 
 def _left(it: Diagnosis) -> Iterator[str]:

@@ -6,6 +6,8 @@
     fixed = ["joint_friction.presliding_rad"]  # what a fit leaves alone
     [from]                                   # information
     campaign = "bench-07"
+    [nominals.section]                        # what was written about the rig, where it fitted best
+    ea = 1.004
     [[effects]]                              # in the order in which they are applied
     name = "joint_friction"
     [effects.values]
@@ -93,12 +95,25 @@ def model_text(it: ModelFile, folder: Path) -> str:
         if "versions" in source:
             source["versions"] = _inline(source["versions"])
         document["from"] = source
+    if it.model.nominals:
+        document["nominals"] = _nominals(it.model.nominals)
     if it.model.terms:
         effects = tomlkit.aot()
         for term in it.model.terms:
             effects.append(_effect_table(term, it.uncertainty))
         document["effects"] = effects
     return tomlkit.dumps(document)
+
+
+def _nominals(terms: tuple[Term, ...]) -> Table:
+    tables = tomlkit.table(is_super_table=True)
+    for term in terms:
+        values = tomlkit.table()
+        for p in term.effect.parameters:
+            values.add(p.name, float(term.values[p.name]))
+            values[p.name].comment(_line(f"{p.unit}, {p.meaning}"))
+        tables.add(term.effect.name, values)
+    return tables
 
 
 def _effect_table(term: Term, uncertainty: Mapping[str, Uncertainty]) -> Table:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 import tomllib
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
@@ -22,6 +22,7 @@ from pipeline.toml.fields import Table, sentences
 from pipeline.toml.lines import TomlLines
 from pipeline.toml.spelling import unknown_name
 from vjm.effects.base import Effect, Parameter
+from vjm.tolerances import tolerances
 
 Number = Annotated[float, Field(strict=True)]
 
@@ -50,6 +51,7 @@ class _Top(Table):
     effects_from: list[str] = Field(default_factory=list)
     fixed: list[str] = Field(default_factory=list)
     source: Annotated[_Source, Field(alias="from")] = _Source()
+    nominals: dict[str, dict[str, Any]] = Field(default_factory=dict)
     effects: list[dict[str, Any]] = Field(default_factory=list)
 
 
@@ -108,8 +110,9 @@ class _Reader:
             for name, it in table.errors.items():
                 uncertainty[path_of(effect.name, name)] = Uncertainty(it.std, it.low95, it.high95)
         fixed = self.fixed(top.fixed, terms)
+        nominals = tuple(self.nominals(top.nominals))
         self.complaints.check()
-        model, source = Model(tuple(terms), fixed), top.source
+        model, source = Model(tuple(terms), fixed, nominals), top.source
         files = known.files_of(model.names)
         return ModelFile(model, uncertainty, files, source.campaign, source.commit, source.versions)
 
@@ -154,7 +157,7 @@ class _Reader:
             self.say(("effects", k, "name"), place, f"is missing, allowed is a number in {p.unit}")
             return p.null
         found = table.values[p.name]
-        if isinstance(found, bool) or not isinstance(found, int | float) or not np.isfinite(found):
+        if not _is_number(found):
             said = f"is {shown(found)}, allowed is a number in {p.unit}"
         elif not p.low <= found <= p.high:
             said = f"is {found:g} {p.unit}, allowed is {p.low:g} to {p.high:g}"
@@ -171,6 +174,28 @@ class _Reader:
                 if name not in names:
                     said = f"is no parameter of {effect.name}, {unknown_name(name, names)}"
                     self.complaints.add(f"effect {effect.name}, {part}.{name}", said, self.line(k, name))
+
+    def nominals(self, tables: Mapping[str, Mapping[str, Any]]) -> Iterator[Term]:
+        """What was written about the rig, where it fitted best."""
+        known = {it.name: it for it in tolerances()}
+        for name, table in tables.items():
+            if name not in known:
+                said = f"is unknown, {unknown_name(name, known)}"
+                self.say(("nominals", name), f"nominals.{name}", said)
+                continue
+            values = known[name].nulls
+            for key, found in table.items():
+                p = next((p for p in known[name].parameters if p.name == key), None)
+                said = ""
+                if p is None:
+                    said = f"is unknown, {unknown_name(key, values)}"
+                elif not _is_number(found) or not p.low <= found <= p.high:
+                    said = f"is {shown(found)}, allowed is {p.low:g} to {p.high:g} {p.unit}"
+                if said:
+                    self.say(("nominals", name, key), f"nominals.{name}, {key}", said)
+                else:
+                    values[key] = float(found)
+            yield Term(known[name], values)
 
     def fixed(self, found: list[str], terms: list[Term]) -> frozenset[str]:
         names = [path_of(term.effect.name, p.name) for term in terms for p in term.effect.parameters]
@@ -190,6 +215,10 @@ class _Reader:
         key = re.compile(rf"\s*{re.escape(name)}\s*=")
         below = self.text.split("\n")[start or 0 :]
         return next((n for n, line in enumerate(below, (start or 0) + 1) if key.match(line)), start)
+
+
+def _is_number(found: object) -> bool:
+    return isinstance(found, int | float) and not isinstance(found, bool) and bool(np.isfinite(found))
 
 
 def _place(entry: dict[str, Any], k: int) -> str:

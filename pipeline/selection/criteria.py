@@ -136,6 +136,28 @@ class Criteria:
     sigma_errors: float = _criterion(
         5.0, SIGMA, "noise", "standard errors of the scatter by which it has to differ from a declared sigma"
     )
+    sigma_errors_unexplained: float = _criterion(
+        3.0,
+        SIGMA,
+        "noise",
+        "the same where more is left than the declared sigmas allow, so that one of them has to be another",
+    )
+    sigma_known: float = _criterion(
+        0.2,
+        SHARE,
+        "noise",
+        "standard error of a scatter, of itself, from which it is too little known to count",
+    )
+    tails: float = _criterion(
+        25.0,
+        CHI2,
+        "noise",
+        "by which twice the log likelihood grows from normal noise to Student's before tails are long: 108 to 194 on "
+        "long-tailed benches, 0 to 21 on others",
+    )
+    tails_no_less: float = _criterion(
+        -8.0, CHI2, "noise", "the same over normal noise with single bad readings, at least"
+    )
     bad_neighbours: float = _criterion(
         3.5,
         SIGMA,
@@ -151,8 +173,8 @@ class Criteria:
     bad_share: float = _criterion(
         0.02, SHARE, "bad readings", "of all readings, at most, that are set aside as single bad ones"
     )
-    bad_rounds: int = _criterion(
-        3, COUNT, "bad readings", "searches after which the readings that are set aside stay as they are"
+    reading_rounds: int = _criterion(
+        4, COUNT, "bad readings", "searches after which what is found of the readings stays as it is"
     )
     # How far the search goes.
     far: float = _criterion(

@@ -9,11 +9,13 @@ from __future__ import annotations
 
 import importlib
 import pkgutil
+from functools import cache
 
 from vjm.effects import defined_in
 from vjm.tolerances.base import Tolerance
 
 
+@cache
 def tolerances() -> tuple[Tolerance, ...]:
     """All of this package, in alphabetical order of their modules."""
     names = sorted(info.name for info in pkgutil.iter_modules(__path__))

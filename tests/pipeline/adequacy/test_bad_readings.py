@@ -87,7 +87,7 @@ def test_a_score_is_that_of_a_fit_with_the_shift_as_a_number() -> None:
 def test_what_was_prescribed_may_be_misread_as_well() -> None:
     cell = (IDS[0], 4, "fx_N")
     assert campaign().tests[0].control[0] == "force"
-    (bad,) = bad_readings(fitted(knocked(campaign(), {cell: 60.0})), CRITERIA)
+    (bad,) = bad_readings(fitted(knocked(campaign(), {cell: 120.0})), CRITERIA)
     # Along the bars the force and the displacement that it makes say the same, until both are in the same row.
     assert bad.cell in (cell, (IDS[0], 4, "x_mm"))
 

@@ -15,6 +15,7 @@ from pipeline.inference.model_file import ModelFile, Uncertainty, model_text, wr
 from pipeline.inference.model_reading import read_model, read_model_file
 from pipeline.inference.suitable import Known, known_effects
 from vjm.effects.base import Effect
+from vjm.tolerances import tolerances
 
 KNOWN = known_effects()
 USER = """
@@ -65,8 +66,10 @@ def model_files(draw: st.DrawFn) -> ModelFile:
     uncertainty = {
         name: Uncertainty(draw(perhaps), draw(perhaps), draw(perhaps)) for name in sorted(draw(some))
     }
+    written = draw(st.lists(st.sampled_from(tolerances()), unique=True, max_size=2))
+    nominals = tuple(draw(terms(it)) for it in written)
     return ModelFile(
-        Model(model.terms, frozenset(draw(some))),
+        Model(model.terms, frozenset(draw(some)), nominals),
         uncertainty,
         (),
         draw(st.text(st.characters(codec="utf-8"), max_size=20)),

@@ -1,0 +1,87 @@
+"""What the readings are about a model: single bad ones, sigmas as they are, tails.
+
+Asked of the best set only, and only where what it leaves has no order along the load paths: then a shape is missing
+and nothing of it is noise. What is found is asked again about all readings once the search was made with it, so that
+what is no longer outlying comes back.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from pipeline.adequacy.bad_readings import BadReading, bad_readings, set_aside
+from pipeline.adequacy.judgement import ORDER, SIZE, judge
+from pipeline.adequacy.scatter import Scatter, scatters
+from pipeline.adequacy.tails import Tails, tails_of, without_tails
+from pipeline.campaign import Campaign
+from pipeline.inference.fit import Fit, unfitted
+from pipeline.inference.program import Program, program
+from pipeline.selection.criteria import Criteria
+
+
+@dataclass(frozen=True, eq=False)
+class Readings:
+    """bad: single bad readings. scatter: of sensors whose declared sigma is another one. tails: long tails, and normal:
+    the campaign with its readings as normal noise of as much information; or None."""
+
+    bad: tuple[BadReading, ...] = ()
+    scatter: tuple[Scatter, ...] = ()
+    tails: Tails | None = None
+    normal: Campaign | None = None
+
+    def same(self, other: Readings) -> bool:
+        """Whether they say the same: the same readings and the same sensors set apart."""
+        return self._key == other._key
+
+    @property
+    def _key(self) -> tuple[object, ...]:
+        cells = frozenset(each.cell for each in self.bad)
+        return cells, frozenset(each.channel for each in self.scatter), self.tails is None
+
+    @property
+    def plain(self) -> bool:
+        """Whether they are as they were declared."""
+        return self.same(AS_DECLARED)
+
+    def again(self, found: Fit, given: Program, criteria: Criteria) -> Readings:
+        """What the readings are about another fit. given: all of them as they were declared."""
+        if found.degrees < criteria.few_readings or not _ordered(found, criteria):
+            return self
+        whole = found if self.plain else unfitted(found.model, given)
+        tails = tails_of(whole, criteria)
+        if tails is not None:
+            return Readings(tails=tails, normal=without_tails(whole, tails))
+        bad = bad_readings(whole, criteria)
+        rest = whole if not bad else unfitted(found.model, program(set_aside(given.campaign, bad)))
+        return Readings(bad, tuple(_other(rest, criteria)))
+
+    def applied(self, campaign: Campaign) -> Campaign:
+        """A campaign as these readings are."""
+        if self.normal is not None:
+            return self.normal
+        noise = campaign.noise
+        sigmas = np.concatenate([noise.displacement, noise.wrench, noise.gauges])
+        for each in self.scatter:
+            sigmas[each.channel] *= each.factor
+        count = 12 + len(campaign.gauges)
+        noise = replace(noise, displacement=sigmas[:6], wrench=sigmas[6:12], gauges=sigmas[12:count])
+        return set_aside(replace(campaign, noise=noise), self.bad)
+
+
+AS_DECLARED = Readings()
+
+
+def _ordered(found: Fit, criteria: Criteria) -> bool:
+    """Whether what is left has no order."""
+    return all(check.passed for check in judge(found, criteria).checks if check.name == ORDER)
+
+
+def _other(found: Fit, criteria: Criteria) -> Iterator[Scatter]:
+    """Sensors whose scatter counts in the place of what was declared."""
+    passed = all(check.passed for check in judge(found, criteria).checks if check.name == SIZE)
+    for each in scatters(found):
+        if each.differs(criteria, unexplained=not passed):
+            yield each

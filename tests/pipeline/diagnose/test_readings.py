@@ -1,0 +1,65 @@
+"""A diagnosis of readings that are not what was declared ends as it would without."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from functools import cache
+
+import numpy as np
+
+from pipeline.answer import Answer
+from pipeline.campaign import Campaign
+from pipeline.diagnose.diagnosis import diagnose
+from pipeline.diagnose.words import answered
+from pipeline.inference.model import Model
+from tests.pipeline.diagnose.bench import bench
+from vjm.effects import catalogue
+
+IDS = ("axial_held_q+0", "swing_q+0", "swing_q+30", "lateral_q+0")
+HIDDEN = ("modulus_error.scale", 0.97)
+
+
+@cache
+def plain() -> Campaign:
+    return bench(*HIDDEN, IDS)
+
+
+def answer(it: Campaign) -> Answer:
+    known = {n: catalogue()[n] for n in ("bar_geometric_nonlinearity", "modulus_error", "axis_flexibility")}
+    return answered(diagnose(it, Model(), known))
+
+
+def knocked(it: Campaign) -> Campaign:
+    test = it.tests[0]
+    wrench = test.data.wrench.copy()
+    wrench[3, 5] += 40.0 * it.noise.wrench[5]
+    return replace(it, tests=(replace(test, data=replace(test.data, wrench=wrench)), *it.tests[1:]))
+
+
+def test_nothing_is_said_of_readings_as_declared() -> None:
+    it = answer(plain())
+    assert it.verdict == "identified" and "modulus_error" in it.added
+    assert not it.set_aside and not it.noise and it.tails is None and it.as_declared is None
+
+
+def test_a_knocked_reading_is_set_aside_and_told() -> None:
+    it, before = answer(knocked(plain())), answer(plain())
+    (bad,) = it.set_aside
+    assert (bad.test, bad.step, bad.column) == (IDS[0], 3, "mz_Nmm")
+    assert (it.verdict, it.added) == (before.verdict, before.added)
+    assert it.as_declared == "unknown"
+    said = " ".join(it.sentences)
+    assert "Set aside" in said and "mz_Nmm at step 3" in said and "the verdict would be unknown" in said
+
+
+def test_a_sigma_that_is_wrong_by_two_does_not_decide() -> None:
+    it = plain()
+    wrench = it.noise.wrench.copy()
+    wrench[3:] *= 0.5
+    found = answer(replace(it, noise=replace(it.noise, wrench=wrench)))
+    assert (found.verdict, found.added) == ("identified", answer(it).added)
+    columns = {each.column for each in found.noise}
+    assert columns and columns <= {"mx_Nmm", "my_Nmm", "mz_Nmm"}
+    for each in found.noise:
+        assert abs(np.log(each.found / each.declared / 2.0)) < 4.0 * each.relative_error
+    assert any("scatters by" in said for said in found.sentences)
