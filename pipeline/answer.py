@@ -36,6 +36,17 @@ class Value(Record):
     at_bound: bool = False
 
 
+class DoctorFinding(Record):
+    """A mistake that the table seems to have, and the column it is in. chi_square_before, chi_square_after: what the
+    best single effect leaves without and with it mended. mend: what to do."""
+
+    hypothesis: str
+    column: str
+    chi_square_before: float
+    chi_square_after: float
+    mend: str
+
+
 class SetAside(Record):
     """A single reading that was left out, and by how many of its sigmas it is off."""
 
@@ -46,13 +57,16 @@ class SetAside(Record):
 
 
 class FoundNoise(Record):
-    """A sensor that scatters otherwise than was declared; sigmas in the unit of its column. relative_error: standard
-    error of what was found, of itself."""
+    """The noise of a sensor where it is not as declared; sigmas in the unit of its column. relative_error: standard
+    error of what was found, of itself. tails: degrees of freedom of Student's law, None where noise is normal.
+    correlation: of neighbours in a column, None where there is none."""
 
     column: str
     declared: float
     found: float
-    relative_error: float
+    relative_error: float | None = None
+    tails: float | None = None
+    correlation: float | None = None
 
 
 class Certain(Record):
@@ -158,11 +172,10 @@ class Answer(Record):
     error: of the models on the way, the last is the answer's. undetermined: sets of parameters about which the data
     say nothing, or of which they see only combinations. confusable: effects whose parameters go together. at_bound:
     numbers that end at a bound of what they may be. out_by_plausibility: sets that fit as well, out only because their
-    sizes would be implausible. zeros: of sensors that seem not to be zeroed. nominals: what was written about the rig,
-    none where that is exact. set_aside: single bad readings that were left out. noise: sensors whose scatter
-    counts in the place of their declared sigma. tails: degrees of freedom of Student's law, where noise has long tails.
-    as_declared: the verdict with all readings and sigmas as they were declared, where something was found of them.
-    certain: effects that are there whatever the verdict. not_done: optional parts that failed.
+    sizes would be implausible. doctor: mistakes of the table, one of which comes before all physics. zeros: of sensors that seem not to be zeroed. nominals: what was written about the rig,
+    none where that is exact. set_aside: single bad readings that were left out. noise: of sensors whose noise is not as
+    it was declared. as_declared: the verdict with all readings and sigmas as declared, where something was found of
+    them. certain: effects that are there whatever the verdict. not_done: optional parts that failed.
     """
 
     campaign: str
@@ -179,11 +192,11 @@ class Answer(Record):
     confusable: tuple[tuple[str, ...], ...] = ()
     at_bound: tuple[str, ...] = ()
     out_by_plausibility: tuple[tuple[str, ...], ...] = ()
+    doctor: tuple[DoctorFinding, ...] = ()
     zeros: tuple[UnknownZero, ...] = ()
     nominals: tuple[NominalValue, ...] = ()
     set_aside: tuple[SetAside, ...] = ()
     noise: tuple[FoundNoise, ...] = ()
-    tails: float | None = None
     as_declared: Verdict | None = None
     certain: tuple[Certain, ...] = ()
     not_done: tuple[str, ...] = ()

@@ -15,6 +15,7 @@ from pipeline.campaign import Campaign
 from pipeline.diagnose.apart import Likeness
 from pipeline.diagnose.beyond import with_what_held_out_tests_need
 from pipeline.diagnose.certain import certain
+from pipeline.diagnose.doctor import Suspicion, suspicions
 from pipeline.diagnose.folds import agreement
 from pipeline.diagnose.next_test import NextTest, best_next_test
 from pipeline.diagnose.readings import AS_DECLARED, Readings
@@ -41,7 +42,7 @@ class Diagnosis:
     """What was found. ruling: the verdict and what it rests on. untested: why nothing can be tested, or "".
 
     refused: effects that the rig or the campaign cannot have, and why. failed: optional parts that failed, and why.
-    readings: what they are about the first set; given: the campaign with all of them as they were declared; with_all:
+    doctor: mistakes of the table, one of which comes before all physics. readings: what they are about the first set; given: the campaign with all of them as they were declared; with_all:
     the verdict by those. certain: effects that are there whatever the verdict.
     """
 
@@ -55,6 +56,7 @@ class Diagnosis:
     untested: str = ""
     failed: tuple[str, ...] = ()
     seconds: float = 0.0
+    doctor: tuple[Suspicion, ...] = ()
     readings: Readings = AS_DECLARED
     given: Campaign | None = None
     with_all: Verdict = "unknown"
@@ -113,6 +115,9 @@ def diagnose(
     begin = perf_counter()
     shelf, refused = _prepared(campaign, model, known, say, criteria)
     attempts = Attempts()
+    doctor = attempts.get("the look for mistakes of the table", lambda: suspicions(shelf), ())
+    if doctor:
+        return _unsettled(shelf, doctor, refused, attempts, _since(begin))
     it = chosen(shelf, attempts)
     given, with_all = shelf.whole, it.ruling.verdict
     readings = AS_DECLARED
@@ -152,10 +157,26 @@ def diagnose(
         "",
         tuple(attempts.failed),
         _since(begin),
+        (),
         readings,
         given.campaign,
         with_all,
         sure,
+    )
+
+
+def _unsettled(
+    shelf: Shelf, doctor: tuple[Suspicion, ...], refused: dict[str, str], attempts: Attempts, seconds: float
+) -> Diagnosis:
+    """Of a table with a mistake: nothing is named before that is settled."""
+    nothing: Names = frozenset()
+    before = shelf.fit(nothing)
+    ruling = Ruling("unknown", (nothing,), before)
+    judgement = judge(before, shelf.criteria)
+    failed = tuple(attempts.failed)
+    found = Found(shelf, nothing, ())
+    return Diagnosis(
+        shelf.whole.campaign, found, ruling, judgement, {}, None, refused, "", failed, seconds, doctor
     )
 
 

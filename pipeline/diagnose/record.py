@@ -8,16 +8,27 @@ import numpy as np
 
 from pipeline.add.summary import changes, confusable, error_of, nominals_of, undetermined, values_of
 from pipeline.adequacy.bad_readings import column_names
-from pipeline.answer import Answer, Candidate, Certain, Correlation, FoundNoise, SetAside, UnknownZero
+from pipeline.answer import (
+    Answer,
+    Candidate,
+    Certain,
+    Correlation,
+    DoctorFinding,
+    FoundNoise,
+    SetAside,
+    UnknownZero,
+)
 from pipeline.attempt import Attempts
 from pipeline.campaign.names import COORDINATES
 from pipeline.diagnose.diagnosis import Diagnosis
+from pipeline.diagnose.doctor import Suspicion
 from pipeline.diagnose.folds import crossvalidated, crossvalidated_with
 from pipeline.diagnose.menu import Choice
 from pipeline.diagnose.merit import taken
 from pipeline.diagnose.next_test import NextTest
 from pipeline.diagnose.shelf import Names, Shelf
 from pipeline.diagnose.zeros import Zero
+from pipeline.doctor.mistakes.base import sigmas_of
 from pipeline.inference.fit import Fit
 from pipeline.inference.intervals import correlations, intervals, landscape, only_together, straight
 from pipeline.inference.model import Model
@@ -64,9 +75,9 @@ def answer_of(it: Diagnosis, sentences: tuple[str, ...] = (), found: Fit | None 
             SetAside(test=b.test, step=b.step, column=b.column, sigma=b.sigmas) for b in it.readings.bad
         ),
         noise=tuple(found_noise(it)),
-        tails=None if it.readings.tails is None else it.readings.tails.degrees,
         as_declared=None if it.readings.plain else it.with_all,
         certain=tuple(Certain(effect=name, parameters=_values(found.model, name)) for name in it.certain),
+        doctor=tuple(doctor_finding(each) for each in it.doctor),
         zeros=()
         if it.ruling.zero is None or it.ruling.zero.zero is None
         else (zero_record(it.ruling.zero.zero),),
@@ -83,20 +94,36 @@ def answer_of(it: Diagnosis, sentences: tuple[str, ...] = (), found: Fit | None 
     )
 
 
+def doctor_finding(it: Suspicion) -> DoctorFinding:
+    """As a record."""
+    return DoctorFinding(
+        hypothesis=it.mistake.words,
+        column=", ".join(it.mistake.columns),
+        chi_square_before=it.before,
+        chi_square_after=it.after,
+        mend=it.mistake.mend,
+    )
+
+
 def found_noise(it: Diagnosis) -> Iterator[FoundNoise]:
-    """Sensors that scatter otherwise than was declared."""
+    """Sensors whose noise is not as it was declared."""
     if it.given is None:
         return
-    noise = it.given.noise
-    sigmas = np.concatenate([noise.displacement, noise.wrench, noise.gauges])
+    sigmas, names = sigmas_of(it.given), column_names(it.given)
     for each in it.readings.scatter:
         declared = float(sigmas[each.channel])
         yield FoundNoise(
-            column=column_names(it.given)[each.channel],
+            column=names[each.channel],
             declared=declared,
             found=declared * each.factor,
             relative_error=each.error,
         )
+    law = it.readings.tails
+    if law is not None:
+        for channel in np.flatnonzero(it.shelf.whole.predicted.any(axis=0)):
+            declared = float(sigmas[channel])
+            found = declared * law.scale
+            yield FoundNoise(column=names[channel], declared=declared, found=found, tails=law.degrees)
 
 
 def _values(model: Model, name: str) -> dict[str, float]:

@@ -14,6 +14,7 @@ from pipeline.attempt import Attempts
 from pipeline.campaign.names import COORDINATES
 from pipeline.diagnose.description import descriptions
 from pipeline.diagnose.diagnosis import Diagnosis
+from pipeline.diagnose.doctor_words import doctor_sentence
 from pipeline.diagnose.exclusion import needed, worse
 from pipeline.diagnose.menu import Choice, menu
 from pipeline.diagnose.merit import badness
@@ -43,6 +44,8 @@ def sentences(it: Diagnosis, answer: Answer | None = None) -> tuple[str, ...]:
     """
     attempts = Attempts()
     record = answer or answer_of(it)
+    if record.doctor:
+        return (*doctored(record), *in_units(it.fit), *(f"{r}." for r in it.campaign.remarks))
     first = attempts.get("the verdict in words", lambda: tuple(_verdict(it, record)), (f"{it.verdict}.",))
     parts: dict[str, Callable[[], tuple[str, ...]]] = {"what is known in units": lambda: in_units(it.fit)}
     if it.verdict != "nothing_tested":
@@ -58,6 +61,13 @@ def sentences(it: Diagnosis, answer: Answer | None = None) -> tuple[str, ...]:
     told = [said for name, part in parts.items() for said in attempts.get(name, part, ())]
     failed = [f"{said}." for said in (*record.not_done, *attempts.failed)]
     return (*first, *told, *failed, *(f"{r}." for r in it.campaign.remarks))
+
+
+def doctored(answer: Answer) -> Iterator[str]:
+    """The mistakes of a table, and what mends each."""
+    yield f"{answer.verdict}: {doctor_sentence(answer.doctor)} Nothing is named before that is settled."
+    for it in answer.doctor:
+        yield f"If {it.hypothesis}: {it.mend}."
 
 
 def _verdict(it: Diagnosis, answer: Answer) -> Iterator[str]:
@@ -152,15 +162,17 @@ def _aside(answer: Answer) -> Iterator[str]:
         )
         each = "they are" if len(answer.set_aside) > 1 else "it is"
         yield f"Set aside, for {each} off alone and what is beside is not: {told}."
-    if answer.tails is not None:
+    law = next((it.tails for it in answer.noise if it.tails is not None), None)
+    if law is not None:
         yield (
-            f"The noise has long tails (Student's law of {answer.tails:.1f} degrees of freedom): readings far out "
+            f"The noise has long tails (Student's law of {law:.1f} degrees of freedom): readings far out "
             "count less, none is set aside."
         )
-    for it in answer.noise:
+    for it in (it for it in answer.noise if it.tails is None):
+        error = "" if it.relative_error is None else f" (± {percent(it.relative_error)})"
         yield (
-            f"{it.column} scatters by {short(it.found)} (± {percent(it.relative_error)}), not by the "
-            f"{short(it.declared)} that is declared: what it does counts."
+            f"{it.column} scatters by {short(it.found)}{error}, not by the {short(it.declared)} that is declared: "
+            "what it does counts."
         )
     if answer.as_declared is not None:
         yield f"With all readings and sigmas as they are declared the verdict would be {answer.as_declared}."

@@ -176,6 +176,37 @@ class Criteria:
     reading_rounds: int = _criterion(
         4, COUNT, "bad readings", "searches after which what is found of the readings stays as it is"
     )
+    doctor_factor: float = _criterion(
+        2.5,
+        FACTOR,
+        "doctor",
+        "by which what the best single effect leaves falls where a mistake of the table is mended: forces in kgf take "
+        "3.7 to 5.4, benches without a mistake 1.3",
+    )
+    doctor_explains: float = _criterion(
+        25.0, CHI2, "doctor", "that the model explains of the columns that are mended, at least"
+    )
+    doctor_tie: float = _criterion(
+        25.0,
+        CHI2,
+        "doctor",
+        "within which two mistakes are told together, of noise; of what is left where it is more",
+    )
+    doctor_look: float = _criterion(
+        1.8, FACTOR, "doctor", "by which what is left has to fall to first order for a mistake to be fitted"
+    )
+    doctor_sure: float = _criterion(
+        25.0, FACTOR, "doctor", "the same to first order, from which the table as it is need not be fitted"
+    )
+    doctor_fitted: int = _criterion(4, COUNT, "doctor", "mistakes that are fitted, those that promise most")
+    doctor_steps: int = _criterion(100, COUNT, "doctor", "load steps in which mistakes are looked for")
+    doctor_far: float = _criterion(
+        4.0,
+        FACTOR,
+        "doctor",
+        "what a mistake leaves, beyond which another one is to first order no tie of it",
+    )
+    doctor_effects: int = _criterion(2, COUNT, "doctor", "single effects that are fitted on either side")
     # How far the search goes.
     far: float = _criterion(
         2.0, SIGMA, "search", "root mean square from which a set is far from an explanation"

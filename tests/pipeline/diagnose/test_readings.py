@@ -39,7 +39,7 @@ def knocked(it: Campaign) -> Campaign:
 def test_nothing_is_said_of_readings_as_declared() -> None:
     it = answer(plain())
     assert it.verdict == "identified" and "modulus_error" in it.added
-    assert not it.set_aside and not it.noise and it.tails is None and it.as_declared is None
+    assert not it.set_aside and not it.noise and it.as_declared is None
 
 
 def test_a_knocked_reading_is_set_aside_and_told() -> None:
@@ -61,5 +61,5 @@ def test_a_sigma_that_is_wrong_by_two_does_not_decide() -> None:
     columns = {each.column for each in found.noise}
     assert columns and columns <= {"mx_Nmm", "my_Nmm", "mz_Nmm"}
     for each in found.noise:
-        assert abs(np.log(each.found / each.declared / 2.0)) < 4.0 * each.relative_error
+        assert abs(np.log(each.found / each.declared / 2.0)) < 4.0 * (each.relative_error or 0.0)
     assert any("scatters by" in said for said in found.sentences)

@@ -1,0 +1,208 @@
+"""Which discrete mistake of a table explains most of a misfit: asked before any physics.
+
+A mistake is told where, with the best single effect on both sides (its numbers as implausible as they are), what is
+left falls by a factor, and where the columns it is in are then explained by the model: a factor that only silences a
+column explains nothing. Of all mistakes a first-order look is taken, with the differences of what is prescribed through
+the constant stiffness; those that promise anything are fitted.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pipeline.diagnose.merit import badness
+from pipeline.diagnose.picture import picture
+from pipeline.diagnose.shelf import Names, Shelf
+from pipeline.diagnose.signatures import look
+from pipeline.doctor.mistakes import possible
+from pipeline.doctor.mistakes.base import Mistake, columns_of
+from pipeline.inference.fit import Fit
+from pipeline.inference.linear_prediction import predict_linear
+from pipeline.inference.prediction import Prediction
+from pipeline.inference.program import Program, program
+from pipeline.inference.residual import residual
+from pipeline.selection.criteria import Criteria
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Suspicion:
+    """A mistake that explains most. before, after: chi-square that is left with the best single effect, without and
+    with it mended."""
+
+    mistake: Mistake
+    before: float
+    after: float
+
+
+def suspicions(shelf: Shelf) -> tuple[Suspicion, ...]:
+    """The mistake of the table that explains most, with those that explain as much; none where none does."""
+    criteria, root = shelf.criteria, _root(shelf)
+    if any(_near(shelf.fit(names), criteria) for names in {frozenset(), root}):
+        return ()
+    shelf.say("whether the table has a mistake")
+    # A mistake that explains most is seen in few rows.
+    some = look(shelf.whole, criteria.doctor_steps).program
+    plain = {name: it for name, it in shelf.candidates.items() if it.smooth}
+    table = Table(Shelf(some, shelf.base, plain, shelf.say, criteria), root)
+    found, noise = _found(table), max(table.fit.degrees, 1)
+    least = min((it.after for it in found), default=0.0)
+    kept = [it for it in found if it.after < least + criteria.doctor_tie * max(1.0, least / noise)]
+    return tuple(sorted(kept, key=lambda it: (it.after, len(it.mistake.columns))))
+
+
+@dataclass(frozen=True, eq=False)
+class Table:
+    """Fits of a table, and the set beside which mistakes are looked for: what is there or not."""
+
+    shelf: Shelf
+    root: Names
+
+    @property
+    def fit(self) -> Fit:
+        """Without any further effect."""
+        return self.shelf.fit(self.root)
+
+    @property
+    def plain(self) -> Table:
+        """Beside nothing."""
+        return replace(self, root=frozenset())
+
+    @cached_property
+    def first_order(self) -> float:
+        """What the best single effect leaves, to first order."""
+        return self.first_order_of(self.fit)
+
+    def first_order_of(self, found: Fit) -> float:
+        """The same of a fit of a table that is like this one."""
+        known = self.shelf.picture(self.root)
+        if not known.signatures:
+            return found.chi_square
+        here = picture(
+            found, list(known.signatures.values()), self.shelf.at, {}, self.shelf.criteria.plausible
+        )
+        best = max(here.gain([name]).value for name in here.signatures)
+        return max(found.chi_square - best, 0.0)
+
+    @cached_property
+    def left(self) -> tuple[float, Names]:
+        """What the best single effect leaves, and the set; of those that promise most, fitted."""
+        shelf, root = self.shelf, self.root
+        there = shelf.picture(root)
+        known = root | set(shelf.base.names)
+        single = {
+            name: there.gain([name]).value
+            for name in there.signatures
+            if known >= set(shelf.candidates[name].includes)
+        }
+        leaders = sorted(single, key=lambda name: -single[name])[: shelf.criteria.doctor_effects]
+        sets = [root, *(root | {name} for name in leaders)]
+        shelf.fit_all({names: {} for names in sets[1:]})
+        best = min(sets, key=lambda names: badness(shelf, names))
+        return badness(shelf, best), best
+
+    def mended(self, mistake: Mistake) -> Table:
+        """The table without a mistake."""
+        shelf = self.shelf
+        cases = program(mistake.mended(shelf.whole.campaign))
+        return replace(self, shelf=Shelf(cases, shelf.base, shelf.candidates, shelf.say, shelf.criteria))
+
+
+def _found(table: Table) -> list[Suspicion]:
+    """Every mistake that is enough: to first order, then fitted. Fits far from an explanation are slow, so that they
+    are made of the table as it is and of what may be right alone."""
+    criteria, enough = table.shelf.criteria, []
+    for mistake in _promising(table):
+        table.shelf.say(f"whether {mistake.words}")
+        mended = table.mended(mistake)
+        if mended.first_order * criteria.doctor_factor < table.first_order:
+            enough.append((mistake, mended))
+    if not enough:
+        return []
+    before = min(table.first_order, table.plain.first_order)
+    least = min(mended.first_order for _, mended in enough)
+    if before < criteria.doctor_sure * least:
+        before = min(before, table.left[0])
+    out: list[Suspicion] = []
+    for mistake, mended in sorted(enough, key=lambda it: it[1].first_order):
+        far = out and mended.first_order > criteria.doctor_far * min(it.after for it in out)
+        if far or mended.left[0] * criteria.doctor_factor > before:
+            continue
+        if _explained(mended.shelf.fit(mended.left[1]), mistake, criteria):
+            out.append(Suspicion(mistake, before, mended.left[0]))
+    return out
+
+
+def _promising(table: Table) -> list[Mistake]:
+    """Those that a first-order look at them all does not exclude, the best first."""
+    criteria, whole, base = table.shelf.criteria, table.shelf.whole, table.fit
+    before = table.first_order
+    if min(before, table.plain.first_order) < criteria.doctor_factor * max(base.degrees, 1):
+        return []
+    linear = predict_linear(whole)
+    out: list[tuple[float, Mistake]] = []
+    for mistake in possible(whole.campaign):
+        mended = mistake.mended(whole.campaign)
+        cases = _like(whole, program(mended))
+        moved = _moved(whole, cases, linear)
+        there = replace(base.prediction, values=base.prediction.values + moved)
+        found = Fit(base.model, there, residual(cases, there), 0)
+        # What leaves more when it is mended is none.
+        left = table.first_order_of(found) if found.chi_square < base.chi_square else np.inf
+        if left * criteria.doctor_look < before:
+            out.append((left, mistake))
+    out.sort(key=lambda it: it[0])
+    return [mistake for _, mistake in out[: criteria.doctor_fitted]]
+
+
+def _moved(whole: Program, cases: Program, linear: Prediction) -> Array:
+    """(R, C) by which a constant stiffness predicts otherwise what is prescribed otherwise."""
+    one, other = whole.campaign, cases.campaign
+    if any(a.q_deg != b.q_deg for a, b in zip(one.tests, other.tests, strict=True)):
+        return np.asarray(predict_linear(cases).values - linear.values)
+    more = np.concatenate(
+        [b.inputs(other.gauges) - a.inputs(one.gauges) for a, b in zip(one.tests, other.tests, strict=True)]
+    )
+    return np.einsum("rci,ri->rc", linear.by_inputs[..., :6], np.nan_to_num(more))
+
+
+def _like(whole: Program, cases: Program) -> Program:
+    return cases if whole.by_nominal is None else replace(cases, by_nominal=whole.by_nominal)
+
+
+def _near(found: Fit, criteria: Criteria) -> bool:
+    """Whether nothing could take a factor off what is left but to fit noise."""
+    return found.chi_square < criteria.doctor_factor * max(found.degrees, 1)
+
+
+def _root(shelf: Shelf) -> Names:
+    """What is there or not, with no number to fit: a right table is better explained with it."""
+    return frozenset(name for name, it in shelf.candidates.items() if not it.parameters)
+
+
+def _explained(found: Fit, mistake: Mistake, criteria: Criteria) -> bool:
+    """Whether the model explains the columns of a mistake, where it predicts them."""
+    parts = list(_signals(found, mistake))
+    signal, left = sum(s for s, _ in parts), sum(x for _, x in parts)
+    return not parts or (signal - left > criteria.doctor_explains and left * criteria.doctor_factor < signal)
+
+
+def _signals(found: Fit, mistake: Mistake) -> Iterator[tuple[float, float]]:
+    """Of each predicted column: chi-square of its readings, and of what is left of them."""
+    cases = found.residual.program
+    names = columns_of(cases.campaign)
+    for column in mistake.columns:
+        if column not in names:
+            continue
+        channel = names.index(column)
+        rows = cases.predicted[:, channel] & cases.fitted & ~found.prediction.lost
+        if rows.any():
+            sigma, read = cases.sigma[channel], cases.measured[rows, channel]
+            off = read - found.prediction.values[rows, channel]
+            yield float(np.sum((read / sigma) ** 2)), float(np.sum((off / sigma) ** 2))

@@ -1,0 +1,119 @@
+"""One discrete mistake: what it is in words, what mends it, and the campaign without it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pipeline.campaign import Campaign, Test
+from pipeline.campaign.names import DISPLACEMENTS, WRENCHES, gauge_column
+from pipeline.sensor_noise import from_roughness
+
+Array = NDArray[np.float64]
+Change = Callable[[Campaign], Campaign]
+
+
+@dataclass(frozen=True, eq=False)
+class Mistake:
+    """kind: of mistake. columns: that have it. words: as a guess; mend: what to do in the table or the file. mended:
+    the campaign without it."""
+
+    kind: str
+    columns: tuple[str, ...]
+    words: str
+    mend: str
+    mended: Change
+
+
+def columns_of(campaign: Campaign) -> tuple[str, ...]:
+    """All columns of readings, in the order of the channels."""
+    return (*DISPLACEMENTS, *WRENCHES, *(gauge_column(gauge.name) for gauge in campaign.gauges))
+
+
+def readings(test: Test) -> Array:
+    """(N, C) of a test."""
+    return np.hstack([test.data.displacement, test.data.wrench, test.data.gauges])
+
+
+def read(campaign: Campaign) -> list[str]:
+    """Columns that have readings which are not all zero."""
+    there = np.zeros(len(columns_of(campaign)), dtype=bool)
+    for test in campaign.tests:
+        there |= np.any(np.nan_to_num(readings(test)) != 0.0, axis=0)
+    return [name for name, known in zip(columns_of(campaign), there, strict=True) if known]
+
+
+def with_readings(
+    campaign: Campaign, change: Callable[[Array], Array], sigmas: Array | None = None
+) -> Campaign:
+    """The campaign with the readings (N, C) of each test changed; sigmas: (C,) default as they are."""
+    tests = []
+    for test in campaign.tests:
+        new = change(readings(test))
+        data = replace(test.data, displacement=new[:, :6], wrench=new[:, 6:12], gauges=new[:, 12:])
+        tests.append(replace(test, data=data))
+    noise = campaign.noise
+    if sigmas is not None:
+        noise = replace(noise, displacement=sigmas[:6], wrench=sigmas[6:12], gauges=sigmas[12:])
+    return replace(campaign, tests=tuple(tests), noise=noise)
+
+
+def sigmas_of(campaign: Campaign) -> Array:
+    """(C,) of all channels."""
+    noise = campaign.noise
+    return np.concatenate([noise.displacement, noise.wrench, noise.gauges])
+
+
+def times(campaign: Campaign, columns: tuple[str, ...], factor: float) -> Campaign:
+    """Columns times a factor. A sigma goes with them where the readings scatter by it as they are, and stays where they
+    scatter by it once they are multiplied."""
+    every = columns_of(campaign)
+    factors = np.where(np.isin(every, columns), factor, 1.0)
+    sigmas = sigmas_of(campaign)
+    size = abs(factor)
+    for channel in np.flatnonzero(np.abs(factors) != 1.0):
+        scatter, sigma = _scatter(campaign, int(channel)), sigmas[channel]
+        if scatter is None:
+            sigmas[channel] = sigma * max(1.0, size)
+        elif abs(np.log(scatter / sigma)) < abs(np.log(size * scatter / sigma)):
+            sigmas[channel] = sigma * size
+    return with_readings(campaign, lambda values: values * factors, sigmas)
+
+
+def _scatter(campaign: Campaign, channel: int) -> float | None:
+    """Of the readings of a channel beyond a smooth path, in their unit; None where that cannot be told."""
+    paths = []
+    for test in campaign.tests:
+        values = readings(test)[:, channel]
+        values = values[np.isfinite(values)]
+        paths.append((np.arange(values.size, dtype=float), values))
+    return from_roughness(paths).value or None
+
+
+FORCES, MOMENTS, TRAVELS, TURNS = WRENCHES[:3], WRENCHES[3:], DISPLACEMENTS[:3], DISPLACEMENTS[3:]
+GROUPS = {
+    "all forces": FORCES,
+    "all moments": MOMENTS,
+    "all forces and moments": WRENCHES,
+    "all displacements": TRAVELS,
+    "all rotations": TURNS,
+}
+
+
+def groups(campaign: Campaign) -> dict[str, tuple[str, ...]]:
+    """Each column that was read, and groups of several, by what to call them."""
+    there = read(campaign)
+    out: dict[str, tuple[str, ...]] = {name: (name,) for name in there}
+    for words, names in GROUPS.items():
+        mine = tuple(name for name in names if name in there)
+        if len(mine) > 1 and mine not in out.values():
+            out[words] = mine
+    return out
+
+
+def verb(columns: tuple[str, ...], one: str, many: str) -> str:
+    """That agrees with how many columns there are."""
+    return one if len(columns) == 1 else many
