@@ -172,10 +172,11 @@ class Answer(Record):
     error: of the models on the way, the last is the answer's. undetermined: sets of parameters about which the data
     say nothing, or of which they see only combinations. confusable: effects whose parameters go together. at_bound:
     numbers that end at a bound of what they may be. out_by_plausibility: sets that fit as well, out only because their
-    sizes would be implausible. doctor: mistakes of the table, one of which comes before all physics. zeros: of sensors that seem not to be zeroed. nominals: what was written about the rig,
-    none where that is exact. set_aside: single bad readings that were left out. noise: of sensors whose noise is not as
-    it was declared. as_declared: the verdict with all readings and sigmas as declared, where something was found of
-    them. certain: effects that are there whatever the verdict. not_done: optional parts that failed.
+    sizes would be implausible. doctor: mistakes of the table, one of which comes before all physics. zeros: of sensors
+    that seem not to be zeroed. nominals: what was written about the rig, none where that is exact. set_aside: single
+    bad readings that were left out. noise: of sensors whose noise is not as it was declared. as_declared: the verdict
+    with all readings and sigmas as declared, where something was found of them. certain: effects that are there
+    whatever the verdict. not_done: optional parts that failed.
     """
 
     campaign: str

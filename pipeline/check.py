@@ -2,16 +2,22 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
 from rich.markup import escape
 from rich.table import Table
 
+from pipeline.attempt import Attempts
 from pipeline.campaign import Campaign, Test, read
-from pipeline.campaign.names import DISPLACEMENTS, WRENCHES, gauge_column
+from pipeline.campaign.names import channel_columns
+from pipeline.diagnose.doctor_words import doctor_sentence, mends
+from pipeline.diagnose.examined import examined
+from pipeline.progress import Progress
 from pipeline.terminal import terminal
 from pipeline.typed import command
+from reports.quantities import short, sigma
 
 
 def check(folder: Path) -> Campaign:
@@ -31,13 +37,52 @@ def check(folder: Path) -> Campaign:
     out.print(table)
     for remark in campaign.remarks:
         out.print(escape(remark), soft_wrap=True)
+    for said in _examined(campaign):
+        out.print(escape(said), soft_wrap=True)
     out.print(f"next: {escape(command('compare', folder))}", soft_wrap=True)
     return campaign
 
 
+def _examined(campaign: Campaign) -> Iterator[str]:
+    """What the table has wrong beside plain virtual springs with the best single effect."""
+    attempts = Attempts()
+    with Progress().stage("mistakes of the table") as stage:
+        it = attempts.get("mistakes of the table", lambda: examined(campaign, stage.say), None)
+    yield from attempts.failed
+    if it is None:
+        return
+    if it.mistakes:
+        yield f"Doctor: {doctor_sentence(it.mistakes)}"
+        yield from mends(it.mistakes)
+        return
+    yield "Doctor: no unit, sign, exchange or order that would explain most of the misfit."
+    if it.zero is not None:
+        yield f"Doctor: {it.zero.words}"
+    if not it.judged:
+        yield (
+            "Doctor: single readings and sigmas cannot be judged before a model leaves nothing that follows the load: "
+            "diagnose does that."
+        )
+    for bad in it.readings.bad:
+        yield (
+            f"Doctor: {bad.column} at step {bad.step} of {bad.test} is off alone, by {sigma(bad.sigmas)} sigma: "
+            "look it up, or leave the cell empty."
+        )
+    for noise in it.noise:
+        law = (
+            ""
+            if noise.tails is None
+            else f", with long tails (Student's law of {noise.tails:.1f} degrees of freedom)"
+        )
+        yield (
+            f"Doctor: {noise.column} scatters by {short(noise.found)}, {short(noise.declared)} is declared{law}: "
+            f"{noise.column} = {noise.found:.3g} under [noise]."
+        )
+
+
 def _ranges(campaign: Campaign, test: Test) -> list[str]:
     """Each column that was read, from its least to its largest reading."""
-    names = [*DISPLACEMENTS, *WRENCHES, *(gauge_column(gauge.name) for gauge in campaign.gauges)]
+    names = channel_columns(campaign.gauges)
     values = np.column_stack([test.data.displacement, test.data.wrench, test.data.gauges])
     found = []
     for name, column in zip(names, values.T, strict=True):

@@ -24,7 +24,7 @@ from scipy.stats import norm
 
 from pipeline.adequacy.reading_errors import ReadingErrors
 from pipeline.campaign import Campaign, Test
-from pipeline.campaign.names import DISPLACEMENTS, WRENCHES, gauge_column
+from pipeline.campaign.names import channel_columns
 from pipeline.inference.driving import control_channels
 from pipeline.inference.fit import Fit
 from pipeline.inference.residual import Residual
@@ -158,12 +158,7 @@ def _named(found: Fit, row: int, channel: int, score: float) -> BadReading:
     whole = found.residual.program
     test = whole.campaign.tests[whole.test[row]]
     step = int(test.data.steps[row - whole.first[whole.test[row]]])
-    return BadReading(test.id, step, column_names(whole.campaign)[channel], score)
-
-
-def column_names(campaign: Campaign) -> list[str]:
-    """Of the channels of a campaign, as measurements.csv has them."""
-    return [*DISPLACEMENTS, *WRENCHES, *(gauge_column(gauge.name) for gauge in campaign.gauges)]
+    return BadReading(test.id, step, channel_columns(whole.campaign.gauges)[channel], score)
 
 
 def set_aside(campaign: Campaign, bad: tuple[BadReading, ...]) -> Campaign:
@@ -171,7 +166,7 @@ def set_aside(campaign: Campaign, bad: tuple[BadReading, ...]) -> Campaign:
     not known."""
     if not bad:
         return campaign
-    names = column_names(campaign)
+    names = channel_columns(campaign.gauges)
     return replace(
         campaign,
         tests=tuple(_test_without(campaign, test, set(_of(test, bad, names))) for test in campaign.tests),

@@ -72,13 +72,24 @@ def tails_of(found: Fit, criteria: Criteria) -> Tails | None:
     largest = float(np.abs(residual).max(initial=0.0))
     if residual.size < criteria.few_readings or largest == 0.0:
         return None
-    normal = float(norm.logpdf(residual, scale=np.sqrt(np.mean(residual**2))).sum())
     (log_degrees, log_scale), student = _student(residual)
-    growth = 2.0 * (student - normal)
+    growth = 2.0 * (student - _normal(residual))
     beyond = 2.0 * (student - _with_bad_readings(residual, largest))
-    if growth < criteria.tails or beyond < criteria.tails_no_less:
+    if growth < criteria.tails or beyond < criteria.tails_no_less or not _without_few(residual, criteria):
         return None
     return Tails(float(np.exp(log_degrees)), float(np.exp(log_scale)), growth)
+
+
+def _normal(residual: Array) -> float:
+    """Log likelihood of the normal law of zero mean."""
+    return float(norm.logpdf(residual, scale=np.sqrt(np.mean(residual**2))).sum())
+
+
+def _without_few(residual: Array, criteria: Criteria) -> bool:
+    """Whether tails are there without the few largest: single bad readings are gone then."""
+    few = max(1, int(np.ceil(criteria.bad_share * residual.size)))
+    rest = residual[np.argsort(np.abs(residual))[:-few]]
+    return 2.0 * (_student(rest)[1] - _normal(rest)) > criteria.tails_without_few
 
 
 def _student(residual: Array) -> tuple[Array, float]:

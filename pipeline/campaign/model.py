@@ -6,7 +6,7 @@ the platform point; both in the base frame. NaN: not measured, or not known.
 """
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Literal
 
@@ -34,6 +34,15 @@ class Noise:
     wrench: Array
     gauges: Array
     temperature: float = np.nan
+
+    @property
+    def sigmas(self) -> Array:
+        """(12 + G,) of all channels."""
+        return np.concatenate([self.displacement, self.wrench, self.gauges])
+
+    def of(self, sigmas: Array) -> "Noise":
+        """The same with other sigmas (12 + G,) of the channels."""
+        return replace(self, displacement=sigmas[:6], wrench=sigmas[6:12], gauges=sigmas[12:])
 
 
 @dataclass(frozen=True, eq=False)

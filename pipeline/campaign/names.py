@@ -2,6 +2,7 @@
 
 import re
 from collections.abc import Iterable
+from typing import Protocol
 
 from pipeline.toml.spelling import unknown_name
 
@@ -27,6 +28,18 @@ DISPLACEMENT, FORCE, SUPPORT = "displacement", "force", "support"
 def gauge_column(name: str) -> str:
     """Column of a gauge."""
     return f"{name}_mm"
+
+
+class Named(Protocol):
+    """What has a name."""
+
+    @property
+    def name(self) -> str: ...
+
+
+def channel_columns(gauges: Iterable[Named]) -> list[str]:
+    """Columns of the channels: pose, wrench, gauges."""
+    return [*DISPLACEMENTS, *WRENCHES, *(gauge_column(gauge.name) for gauge in gauges)]
 
 
 def known_columns(gauges: Iterable[str]) -> tuple[str, ...]:

@@ -11,12 +11,14 @@ import numpy as np
 
 from pipeline.adequacy.judgement import judge
 from pipeline.adequacy.untested import in_units, untested
-from pipeline.attempt import plain
+from pipeline.answer import DoctorFinding
+from pipeline.attempt import Attempts, plain
 from pipeline.campaign import Campaign
 from pipeline.compare.error import Discrepancy
 from pipeline.compare.failure import findings, groups, too_short
 from pipeline.compare.headline import headline
 from pipeline.compare.record import Comparison, ModelError
+from pipeline.diagnose.examined import mistakes_of
 from pipeline.inference.claims import trusted
 from pipeline.inference.fit import Fit, unfitted
 from pipeline.inference.frame_prediction import predict_frame
@@ -71,18 +73,25 @@ def compare_models(campaign: Campaign, saved: Model | None = None, say: Say = la
     if saved is not None:
         plans["saved"] = (saved, _evaluated(saved, cases))
     plans["fea"] = (Model(), lambda shift: predict_frame(cases, tangent, shift))
-    found = []
+    found: list[ModelError] = []
     for key, (model, solve) in plans.items():
         say(TITLES[key])
         found.append(_error(key, model, cases, solve))
+    shown = next(it for it in found if it.model == ("vjm" if saved is None else "saved"))
+    doctor: tuple[DoctorFinding, ...] = ()
+    if shown.fit is not None and not shown.within_noise and not shown.untested:
+        doctor = Attempts().get(
+            "mistakes of the table", lambda: mistakes_of(campaign, saved or Model(), say), ()
+        )
     return Comparison(
+        doctor=doctor,
         campaign=whole.name,
         folder=str(whole.folder or ""),
         kind=whole.rig.kind,
         tests=len(whole.tests),
         rows=len(cases.test),
         readings=int(cases.predicted.sum()),
-        shown="vjm" if saved is None else "saved",
+        shown=shown.model,
         groups={
             group.name: tuple(whole.tests[n].id for n in group.numbers)
             for group in groups(whole.tests, whole.gauges)

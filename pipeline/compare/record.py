@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from pydantic import Field
 
+from pipeline.answer import DoctorFinding
 from pipeline.record import Record
 
 
@@ -100,7 +101,7 @@ class ModelError(Record):
 
 class Comparison(Record):
     """A campaign and the models beside it. shown: the model whose failure is told. groups: ids of
-    the fitted tests that are loaded alike. remarks: on the campaign."""
+    the fitted tests that are loaded alike. remarks: on the campaign. doctor: mistakes that the table seems to have."""
 
     campaign: str
     folder: str
@@ -112,6 +113,7 @@ class Comparison(Record):
     groups: dict[str, tuple[str, ...]]
     remarks: tuple[str, ...]
     models: tuple[ModelError, ...]
+    doctor: tuple[DoctorFinding, ...] = ()
     seconds: float
     versions: dict[str, str]
     data: dict[str, str] = {}  # noqa: RUF012 (pydantic copies it)

@@ -10,6 +10,7 @@ from rich.table import Table
 from rich.text import Text
 
 from pipeline.compare.record import ChannelError, Comparison, ModelError
+from pipeline.diagnose.doctor_words import doctor_sentence, mends
 from pipeline.terminal import WIDTH, blocks, cell, terminal
 from reports.quantities import NONE, number, p_value, sigma
 
@@ -35,6 +36,7 @@ def page(result: Comparison, width: int = WIDTH) -> RenderableType:
     shown = result.model_of(result.shown)
     parts: list[RenderableType] = [
         Text(sentence(result)),
+        *(Text(said) for said in mends(result.doctor)),
         *_lines("", shown.in_units, SENTENCES),
         Text(
             f"{result.campaign}: {result.tests} tests, {result.rows} load steps, {result.readings} readings to predict"
@@ -61,6 +63,8 @@ def sentence(result: Comparison) -> str:
         return f"{result.campaign}: {shown.title} has no prediction: {shown.failed}"
     if shown.untested:
         return f"{result.campaign}: {shown.untested}"
+    if result.doctor:
+        return f"{result.campaign}: {shown.title}: {sigma(shown.fit)} sigma: {doctor_sentence(result.doctor)}"
     said = "within the noise" if shown.within_noise else "not within the noise"
     said += ", what is written about the rig being within its tolerances" if shown.tolerated else ""
     said += f"; {shown.headline}" if shown.headline else ""

@@ -29,7 +29,7 @@ from pipeline.errors import InputError
 from pipeline.inference.claims import trusted
 from pipeline.inference.fit import Fit, unfitted
 from pipeline.inference.model import Model
-from pipeline.inference.program import program
+from pipeline.inference.program import Program, program
 from pipeline.inference.sigmas import completed
 from pipeline.inference.suitable import check_suitable, scale_for, sized_model
 from pipeline.selection.criteria import CRITERIA, Criteria
@@ -42,8 +42,9 @@ class Diagnosis:
     """What was found. ruling: the verdict and what it rests on. untested: why nothing can be tested, or "".
 
     refused: effects that the rig or the campaign cannot have, and why. failed: optional parts that failed, and why.
-    doctor: mistakes of the table, one of which comes before all physics. readings: what they are about the first set; given: the campaign with all of them as they were declared; with_all:
-    the verdict by those. certain: effects that are there whatever the verdict.
+    doctor: mistakes of the table, one of which comes before all physics. readings: what they are about the first set;
+    given: the campaign with all of them as they were declared; with_all: the verdict by those. certain: effects that
+    are there whatever the verdict.
     """
 
     campaign: Campaign
@@ -122,9 +123,7 @@ def diagnose(
     given, with_all = shelf.whole, it.ruling.verdict
     readings = AS_DECLARED
     for _ in range(0 if it.untested else criteria.reading_rounds):
-        new = attempts.get(
-            "what the readings are", partial(readings.again, it.ruling.fit, given, criteria), readings
-        )
+        new = attempts.get("what the readings are", partial(_readings, it, readings, given), readings)
         if new.same(readings):
             break
         say("with the readings as they are")
@@ -165,6 +164,18 @@ def diagnose(
     )
 
 
+def _readings(it: Chosen, before: Readings, given: Program) -> Readings:
+    """What the readings are about the first set; about a part of it where that explains all but single bad ones: an
+    effect that only explains those is none."""
+    shelf, best = it.found.shelf, it.ruling.sets[0]
+    criteria = shelf.criteria
+    for names in sorted((n for n in shelf.fits if n < best), key=len):
+        new = before.again(shelf.fit(names), given, criteria)
+        if new.bad and new.leaves_noise(shelf.fit(names), given, criteria):
+            return new
+    return before.again(it.ruling.fit, given, criteria)
+
+
 def _unsettled(
     shelf: Shelf, doctor: tuple[Suspicion, ...], refused: dict[str, str], attempts: Attempts, seconds: float
 ) -> Diagnosis:
@@ -180,9 +191,11 @@ def _unsettled(
     )
 
 
-def fit_cache(campaign: Campaign, model: Model, known: Mapping[str, Effect]) -> Shelf:
+def fit_cache(
+    campaign: Campaign, model: Model, known: Mapping[str, Effect], say: Say = lambda _: None
+) -> Shelf:
     """Where fits of the campaign are kept, none made yet. InputError as of `diagnose`."""
-    return _prepared(campaign, model, known, lambda _: None, CRITERIA)[0]
+    return _prepared(campaign, model, known, say, CRITERIA)[0]
 
 
 def _prepared(

@@ -43,14 +43,20 @@ class Suspicion:
 
 def suspicions(shelf: Shelf) -> tuple[Suspicion, ...]:
     """The mistake of the table that explains most, with those that explain as much; none where none does."""
-    criteria, root = shelf.criteria, _root(shelf)
-    if any(_near(shelf.fit(names), criteria) for names in {frozenset(), root}):
+    criteria = shelf.criteria
+    # A mistake that explains most is seen in few rows, and by effects that need no search.
+    some = look(shelf.whole, criteria.doctor_steps).program
+    if not (some.predicted & some.fitted[:, None]).any():
+        return ()
+    plain = {name: it for name, it in shelf.candidates.items() if it.smooth}
+    table = Table.of(Shelf(some, shelf.base, plain, shelf.say, criteria))
+    if (
+        table.fit.degrees < criteria.few_readings
+        or _near(table.fit, criteria)
+        or _near(table.plain.fit, criteria)
+    ):
         return ()
     shelf.say("whether the table has a mistake")
-    # A mistake that explains most is seen in few rows.
-    some = look(shelf.whole, criteria.doctor_steps).program
-    plain = {name: it for name, it in shelf.candidates.items() if it.smooth}
-    table = Table(Shelf(some, shelf.base, plain, shelf.say, criteria), root)
     found, noise = _found(table), max(table.fit.degrees, 1)
     least = min((it.after for it in found), default=0.0)
     kept = [it for it in found if it.after < least + criteria.doctor_tie * max(1.0, least / noise)]
@@ -63,6 +69,11 @@ class Table:
 
     shelf: Shelf
     root: Names
+
+    @classmethod
+    def of(cls, shelf: Shelf) -> Table:
+        """Beside all that is there or not, with no number to fit: a right table is better explained with it."""
+        return cls(shelf, frozenset(name for name, it in shelf.candidates.items() if not it.parameters))
 
     @property
     def fit(self) -> Fit:
@@ -179,11 +190,6 @@ def _like(whole: Program, cases: Program) -> Program:
 def _near(found: Fit, criteria: Criteria) -> bool:
     """Whether nothing could take a factor off what is left but to fit noise."""
     return found.chi_square < criteria.doctor_factor * max(found.degrees, 1)
-
-
-def _root(shelf: Shelf) -> Names:
-    """What is there or not, with no number to fit: a right table is better explained with it."""
-    return frozenset(name for name, it in shelf.candidates.items() if not it.parameters)
 
 
 def _explained(found: Fit, mistake: Mistake, criteria: Criteria) -> bool:

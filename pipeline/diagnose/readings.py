@@ -10,14 +10,12 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
-import numpy as np
-
 from pipeline.adequacy.bad_readings import BadReading, bad_readings, set_aside
 from pipeline.adequacy.judgement import ORDER, SIZE, judge
 from pipeline.adequacy.scatter import Scatter, scatters
 from pipeline.adequacy.tails import Tails, tails_of, without_tails
 from pipeline.campaign import Campaign
-from pipeline.inference.fit import Fit, unfitted
+from pipeline.inference.fit import Fit, fit, unfitted
 from pipeline.inference.program import Program, program
 from pipeline.selection.criteria import Criteria
 
@@ -46,9 +44,14 @@ class Readings:
         """Whether they are as they were declared."""
         return self.same(AS_DECLARED)
 
+    @staticmethod
+    def may_be_asked(found: Fit, criteria: Criteria) -> bool:
+        """Whether there is enough about a fit, and nothing of it has an order."""
+        return found.degrees >= criteria.few_readings and _ordered(found, criteria)
+
     def again(self, found: Fit, given: Program, criteria: Criteria) -> Readings:
         """What the readings are about another fit. given: all of them as they were declared."""
-        if found.degrees < criteria.few_readings or not _ordered(found, criteria):
+        if not self.may_be_asked(found, criteria):
             return self
         whole = found if self.plain else unfitted(found.model, given)
         tails = tails_of(whole, criteria)
@@ -58,25 +61,28 @@ class Readings:
         rest = whole if not bad else unfitted(found.model, program(set_aside(given.campaign, bad)))
         return Readings(bad, tuple(_other(rest, criteria)))
 
+    def leaves_noise(self, found: Fit, given: Program, criteria: Criteria) -> bool:
+        """Whether a model explains all but what they set aside."""
+        rest = program(self.applied(given.campaign))
+        return judge(fit(found.model, rest, None, None, criteria.plausible), criteria).noise
+
     def applied(self, campaign: Campaign) -> Campaign:
         """A campaign as these readings are."""
         if self.normal is not None:
             return self.normal
-        noise = campaign.noise
-        sigmas = np.concatenate([noise.displacement, noise.wrench, noise.gauges])
+        sigmas = campaign.noise.sigmas
         for each in self.scatter:
             sigmas[each.channel] *= each.factor
-        count = 12 + len(campaign.gauges)
-        noise = replace(noise, displacement=sigmas[:6], wrench=sigmas[6:12], gauges=sigmas[12:count])
-        return set_aside(replace(campaign, noise=noise), self.bad)
+        return set_aside(replace(campaign, noise=campaign.noise.of(sigmas)), self.bad)
 
 
 AS_DECLARED = Readings()
 
 
 def _ordered(found: Fit, criteria: Criteria) -> bool:
-    """Whether what is left has no order."""
-    return all(check.passed for check in judge(found, criteria).checks if check.name == ORDER)
+    """Whether what is left has no order along the load paths."""
+    checks = judge(found, criteria).checks
+    return all(check.passed for check in checks if check.name == ORDER)
 
 
 def _other(found: Fit, criteria: Criteria) -> Iterator[Scatter]:

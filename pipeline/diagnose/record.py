@@ -7,28 +7,28 @@ from collections.abc import Iterator
 import numpy as np
 
 from pipeline.add.summary import changes, confusable, error_of, nominals_of, undetermined, values_of
-from pipeline.adequacy.bad_readings import column_names
 from pipeline.answer import (
     Answer,
     Candidate,
     Certain,
     Correlation,
-    DoctorFinding,
     FoundNoise,
     SetAside,
     UnknownZero,
 )
 from pipeline.attempt import Attempts
+from pipeline.campaign import Campaign
 from pipeline.campaign.names import COORDINATES
 from pipeline.diagnose.diagnosis import Diagnosis
-from pipeline.diagnose.doctor import Suspicion
+from pipeline.diagnose.doctor_words import doctor_finding
 from pipeline.diagnose.folds import crossvalidated, crossvalidated_with
 from pipeline.diagnose.menu import Choice
 from pipeline.diagnose.merit import taken
 from pipeline.diagnose.next_test import NextTest
+from pipeline.diagnose.readings import Readings
 from pipeline.diagnose.shelf import Names, Shelf
 from pipeline.diagnose.zeros import Zero
-from pipeline.doctor.mistakes.base import sigmas_of
+from pipeline.doctor.mistakes.base import columns_of, sigmas_of
 from pipeline.inference.fit import Fit
 from pipeline.inference.intervals import correlations, intervals, landscape, only_together, straight
 from pipeline.inference.model import Model
@@ -74,7 +74,7 @@ def answer_of(it: Diagnosis, sentences: tuple[str, ...] = (), found: Fit | None 
         set_aside=tuple(
             SetAside(test=b.test, step=b.step, column=b.column, sigma=b.sigmas) for b in it.readings.bad
         ),
-        noise=tuple(found_noise(it)),
+        noise=() if it.given is None else tuple(found_noise(it.readings, it.given, whole.predicted)),
         as_declared=None if it.readings.plain else it.with_all,
         certain=tuple(Certain(effect=name, parameters=_values(found.model, name)) for name in it.certain),
         doctor=tuple(doctor_finding(each) for each in it.doctor),
@@ -94,36 +94,20 @@ def answer_of(it: Diagnosis, sentences: tuple[str, ...] = (), found: Fit | None 
     )
 
 
-def doctor_finding(it: Suspicion) -> DoctorFinding:
-    """As a record."""
-    return DoctorFinding(
-        hypothesis=it.mistake.words,
-        column=", ".join(it.mistake.columns),
-        chi_square_before=it.before,
-        chi_square_after=it.after,
-        mend=it.mistake.mend,
-    )
-
-
-def found_noise(it: Diagnosis) -> Iterator[FoundNoise]:
-    """Sensors whose noise is not as it was declared."""
-    if it.given is None:
-        return
-    sigmas, names = sigmas_of(it.given), column_names(it.given)
-    for each in it.readings.scatter:
+def found_noise(it: Readings, given: Campaign, predicted: np.ndarray) -> Iterator[FoundNoise]:
+    """Sensors whose noise is not as it was declared. predicted: (R, C) readings that are compared."""
+    sigmas, names = sigmas_of(given), columns_of(given)
+    for each in it.scatter:
         declared = float(sigmas[each.channel])
+        found = declared * each.factor
         yield FoundNoise(
-            column=names[each.channel],
-            declared=declared,
-            found=declared * each.factor,
-            relative_error=each.error,
+            column=names[each.channel], declared=declared, found=found, relative_error=each.error
         )
-    law = it.readings.tails
-    if law is not None:
-        for channel in np.flatnonzero(it.shelf.whole.predicted.any(axis=0)):
+    if it.tails is not None:
+        for channel in np.flatnonzero(predicted.any(axis=0)):
             declared = float(sigmas[channel])
-            found = declared * law.scale
-            yield FoundNoise(column=names[channel], declared=declared, found=found, tails=law.degrees)
+            found, tails = declared * it.tails.scale, it.tails.degrees
+            yield FoundNoise(column=names[channel], declared=declared, found=found, tails=tails)
 
 
 def _values(model: Model, name: str) -> dict[str, float]:

@@ -14,7 +14,7 @@ from pipeline.attempt import Attempts
 from pipeline.campaign.names import COORDINATES
 from pipeline.diagnose.description import descriptions
 from pipeline.diagnose.diagnosis import Diagnosis
-from pipeline.diagnose.doctor_words import doctor_sentence
+from pipeline.diagnose.doctor_words import doctor_sentence, mends
 from pipeline.diagnose.exclusion import needed, worse
 from pipeline.diagnose.menu import Choice, menu
 from pipeline.diagnose.merit import badness
@@ -66,8 +66,7 @@ def sentences(it: Diagnosis, answer: Answer | None = None) -> tuple[str, ...]:
 def doctored(answer: Answer) -> Iterator[str]:
     """The mistakes of a table, and what mends each."""
     yield f"{answer.verdict}: {doctor_sentence(answer.doctor)} Nothing is named before that is settled."
-    for it in answer.doctor:
-        yield f"If {it.hypothesis}: {it.mend}."
+    yield from mends(answer.doctor)
 
 
 def _verdict(it: Diagnosis, answer: Answer) -> Iterator[str]:

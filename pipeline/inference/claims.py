@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from scipy.stats import chi2
 
 from pipeline.campaign import Campaign
-from pipeline.campaign.names import DISPLACEMENTS, WRENCHES, gauge_column
+from pipeline.campaign.names import channel_columns
 from pipeline.inference.fit import Fit, unfitted
 from pipeline.inference.model import Model
 from pipeline.inference.program import program
@@ -44,8 +44,8 @@ def trusted(whole: Campaign, model: Model) -> Campaign:
     if not least:
         return whole
     noise = whole.noise
-    sigmas = np.concatenate([noise.displacement, noise.wrench, noise.gauges])
-    names = [*DISPLACEMENTS, *WRENCHES, *(gauge_column(g.name) for g in whole.gauges)]
+    sigmas = noise.sigmas
+    names = channel_columns(whole.gauges)
     new, remarks = sigmas.copy(), []
     for channel, share in least.items():
         for own, cap in _caps(found, channel, share):
@@ -54,9 +54,7 @@ def trusted(whole: Campaign, model: Model) -> Campaign:
         remarks.append(
             f"{names[k]}: a sigma of {sigmas[k]:.3g} is given, but the readings scatter far less: {new[k]:.3g} counts"
         )
-    count = 12 + len(whole.gauges)
-    lowered = replace(noise, displacement=new[:6], wrench=new[6:12], gauges=new[12:count])
-    return replace(whole, noise=lowered, remarks=(*whole.remarks, *remarks))
+    return replace(whole, noise=noise.of(new), remarks=(*whole.remarks, *remarks))
 
 
 def _by_scatter(found: Fit) -> Iterator[tuple[int, float]]:

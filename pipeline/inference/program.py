@@ -165,7 +165,7 @@ def program(campaign: Campaign) -> Program:
     """The load cases of a campaign. Readings of a channel without a sigma are not compared, see `unweighted`."""
     tests, gauges = campaign.tests, campaign.gauges
     noise = campaign.noise
-    sigma = np.concatenate([noise.displacement, noise.wrench, noise.gauges])
+    sigma = noise.sigmas
     measured = np.concatenate(
         [np.hstack([t.data.displacement, t.data.wrench, t.data.gauges]) for t in tests], axis=0
     )

@@ -8,34 +8,12 @@ solvers are no criteria and stand where the solver is.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, field, fields, replace
+from dataclasses import dataclass, fields, replace
 from functools import cache
-from typing import Any
 
 from scipy.stats import chi2
 
-OWN = "own"
-CHI2, SIGMA, SHARE, COUNT, FACTOR, CHANCE = "chi-square", "sigma", "part", "count", "times", "probability"
-
-
-@dataclass(frozen=True)
-class Criterion:
-    """One threshold. unit: of its value. group: of what it decides. source: a publication, a derivation, or own."""
-
-    name: str
-    value: float
-    unit: str
-    group: str
-    meaning: str
-    source: str
-
-
-def _criterion(
-    value: float, unit: str, group: str, meaning: str, source: str = OWN, fits: bool = False
-) -> Any:
-    """fits: whether fits themselves depend on it, not only what is chosen of them."""
-    told = {"unit": unit, "group": group, "meaning": meaning, "source": source}
-    return field(default=value, metadata={"told": told, "fits": fits})
+from pipeline.selection.criterion import CHANCE, CHI2, COUNT, FACTOR, SHARE, SIGMA, Criterion, criterion
 
 
 @dataclass(frozen=True)
@@ -43,25 +21,25 @@ class Criteria:
     """All thresholds of the choice. `of` lists them with their meaning; `dataclasses.replace` changes one."""
 
     # What noise may do.
-    false_alarm: float = _criterion(
+    false_alarm: float = criterion(
         0.005,
         CHANCE,
         "evidence",
         "noise alone gets any of the candidates named; each of six checks fails noise with a sixth of it",
         "Bonferroni's bound",
     )
-    excess_deviations: float = _criterion(
+    excess_deviations: float = criterion(
         3.0,
         SIGMA,
         "evidence",
         "standard deviations of chi-square by which noise may exceed its mean before a set leaves more than noise",
         "variance 2 n of chi-square with n degrees of freedom",
     )
-    scatter_factor: float = _criterion(
+    scatter_factor: float = criterion(
         1.15, FACTOR, "evidence", "scatter up to so many sigmas, without any order, is put down to the sigmas"
     )
     # When a rival is excluded.
-    exclusion: float = _criterion(
+    exclusion: float = criterion(
         5.0,
         CHI2,
         "exclusion",
@@ -69,17 +47,17 @@ class Criteria:
         "where the data decide least",
         "Phi(-(mu² (1 - rho²) + 5) / (2 mu sqrt(1 - rho²))) at its largest",
     )
-    exclusion_chance: float = _criterion(
+    exclusion_chance: float = criterion(
         0.001,
         CHANCE,
         "exclusion",
         "parameters that an explanation has more than its rival fit so much noise that the rival is excluded",
         "chi-square distribution (S. S. Wilks, Ann. Math. Stat. 9, 1938)",
     )
-    exclusion_least: float = _criterion(
+    exclusion_least: float = criterion(
         2.0, CHI2, "exclusion", "a rival has to be worse by this in any case, however many parameters it has"
     )
-    plausible: float = _criterion(
+    plausible: float = criterion(
         20.0,
         "typical sizes",
         "exclusion",
@@ -87,139 +65,147 @@ class Criteria:
         "ruler as well as its weight does, and is not what is meant by a tilt",
         fits=True,
     )
-    equal_within: float = _criterion(
+    equal_within: float = criterion(
         1e-6,
         SHARE,
         "exclusion",
         "1 - rho, rho the correlation, below which two effects are one in all readings",
     )
-    confusable_within: float = _criterion(
+    confusable_within: float = criterion(
         0.1, SHARE, "plan", "1 - rho below which a candidate is listed as one that looks like a named effect"
     )
-    undetermined_rise: float = _criterion(
+    undetermined_rise: float = criterion(
         2.0, CHI2, "exclusion", "a parameter that may be at its null for no more than this is not determined"
     )
-    nominal_moved: float = _criterion(
+    nominal_moved: float = criterion(
         1.0,
         "tolerances",
         "nominals",
         "a number that was written and fits best farther away than this is told",
     )
-    nominal_seen: float = _criterion(
+    nominal_seen: float = criterion(
         0.9,
         SHARE,
         "nominals",
         "of its tolerance, below which the tests say more of a number than was written",
     )
-    certain_sigmas: float = _criterion(
+    certain_sigmas: float = criterion(
         10.0,
         SIGMA,
         "certain",
         "times what is left by the best set: an effect is certain where the best set without it is worse by this",
     )
-    certain_patterns: int = _criterion(
+    certain_patterns: int = criterion(
         8,
         COUNT,
         "certain",
         "faults of sensors, at most, that the rest of the best set may need to look like noise",
     )
-    certain_more: int = _criterion(2, COUNT, "certain", "faults of sensors that a rival may have more")
-    certain_rivals: int = _criterion(
+    certain_more: int = criterion(2, COUNT, "certain", "faults of sensors that a rival may have more")
+    certain_rivals: int = criterion(
         2, COUNT, "certain", "sets without an effect, at each of two places, that are looked at instead of it"
     )
-    sigma_factor: float = _criterion(
+    sigma_factor: float = criterion(
         1.5,
         FACTOR,
         "noise",
         "by which the scatter has to differ from a declared sigma to count instead of it",
     )
-    sigma_errors: float = _criterion(
+    sigma_errors: float = criterion(
         5.0, SIGMA, "noise", "standard errors of the scatter by which it has to differ from a declared sigma"
     )
-    sigma_errors_unexplained: float = _criterion(
+    sigma_errors_unexplained: float = criterion(
         3.0,
         SIGMA,
         "noise",
         "the same where more is left than the declared sigmas allow, so that one of them has to be another",
     )
-    sigma_known: float = _criterion(
+    sigma_known: float = criterion(
         0.2,
         SHARE,
         "noise",
         "standard error of a scatter, of itself, from which it is too little known to count",
     )
-    tails: float = _criterion(
+    tails: float = criterion(
         25.0,
         CHI2,
         "noise",
         "by which twice the log likelihood grows from normal noise to Student's before tails are long: 108 to 194 on "
         "long-tailed benches, 0 to 21 on others",
     )
-    tails_no_less: float = _criterion(
+    tails_without_few: float = criterion(
+        3.0,
+        CHI2,
+        "noise",
+        "the same without as many of the largest as may be set aside, at least: 150 normal readings with three bad "
+        "ones reach 3.6 in a tenth of draws, 400 of Student's law of 3 degrees less in a tenth",
+        "30 draws of each",
+    )
+    tails_no_less: float = criterion(
         -8.0, CHI2, "noise", "the same over normal noise with single bad readings, at least"
     )
-    bad_neighbours: float = _criterion(
+    bad_neighbours: float = criterion(
         3.5,
         SIGMA,
         "bad readings",
         "a single bad reading has neighbours in its channel that are off by less",
     )
-    bad_rest: float = _criterion(
+    bad_rest: float = criterion(
         0.2,
         SHARE,
         "bad readings",
         "of a single bad reading, below which all others of its row have to be once it is explained",
     )
-    bad_share: float = _criterion(
+    bad_share: float = criterion(
         0.02, SHARE, "bad readings", "of all readings, at most, that are set aside as single bad ones"
     )
-    reading_rounds: int = _criterion(
+    reading_rounds: int = criterion(
         4, COUNT, "bad readings", "searches after which what is found of the readings stays as it is"
     )
-    doctor_factor: float = _criterion(
+    doctor_factor: float = criterion(
         2.5,
         FACTOR,
         "doctor",
         "by which what the best single effect leaves falls where a mistake of the table is mended: forces in kgf take "
         "3.7 to 5.4, benches without a mistake 1.3",
     )
-    doctor_explains: float = _criterion(
+    doctor_explains: float = criterion(
         25.0, CHI2, "doctor", "that the model explains of the columns that are mended, at least"
     )
-    doctor_tie: float = _criterion(
+    doctor_tie: float = criterion(
         25.0,
         CHI2,
         "doctor",
         "within which two mistakes are told together, of noise; of what is left where it is more",
     )
-    doctor_look: float = _criterion(
+    doctor_look: float = criterion(
         1.8, FACTOR, "doctor", "by which what is left has to fall to first order for a mistake to be fitted"
     )
-    doctor_sure: float = _criterion(
+    doctor_sure: float = criterion(
         25.0, FACTOR, "doctor", "the same to first order, from which the table as it is need not be fitted"
     )
-    doctor_fitted: int = _criterion(4, COUNT, "doctor", "mistakes that are fitted, those that promise most")
-    doctor_steps: int = _criterion(100, COUNT, "doctor", "load steps in which mistakes are looked for")
-    doctor_far: float = _criterion(
+    doctor_fitted: int = criterion(4, COUNT, "doctor", "mistakes that are fitted, those that promise most")
+    doctor_steps: int = criterion(100, COUNT, "doctor", "load steps in which mistakes are looked for")
+    doctor_far: float = criterion(
         4.0,
         FACTOR,
         "doctor",
         "what a mistake leaves, beyond which another one is to first order no tie of it",
     )
-    doctor_effects: int = _criterion(2, COUNT, "doctor", "single effects that are fitted on either side")
+    doctor_effects: int = criterion(2, COUNT, "doctor", "single effects that are fitted on either side")
     # How far the search goes.
-    far: float = _criterion(
+    far: float = criterion(
         2.0, SIGMA, "search", "root mean square from which a set is far from an explanation"
     )
-    slow: float = _criterion(
+    slow: float = criterion(
         0.7,
         SHARE,
         "search",
         "growth that leaves more than this part of chi-square far from noise ends the search",
     )
-    most_effects: int = _criterion(5, COUNT, "search", "effects in a set")
-    most_fits: int = _criterion(24, COUNT, "search", "fits after which a set grows no further")
-    search_work: float = _criterion(
+    most_effects: int = criterion(5, COUNT, "search", "effects in a set")
+    most_fits: int = criterion(24, COUNT, "search", "fits after which a set grows no further")
+    search_work: float = criterion(
         5000.0,
         "work of the solver",
         "search",
@@ -227,51 +213,49 @@ class Criteria:
         "600 benches one is cut, an unknown that stays one; the next takes 0.82 of it",
         fits=True,
     )
-    sets_fitted: int = _criterion(
-        4, COUNT, "search", "sets of one size that are fitted of those that compete"
-    )
-    leaders: int = _criterion(7, COUNT, "search", "candidates of which pairs are looked at")
-    estimate_error: float = _criterion(
+    sets_fitted: int = criterion(4, COUNT, "search", "sets of one size that are fitted of those that compete")
+    leaders: int = criterion(7, COUNT, "search", "candidates of which pairs are looked at")
+    estimate_error: float = criterion(
         0.15, SHARE, "search", "of what an effect explains, by which its first-order estimate may be wrong"
     )
-    kinked_estimate_error: float = _criterion(
+    kinked_estimate_error: float = criterion(
         0.6, SHARE, "search", "the same of an effect with kinks, from a probe"
     )
-    competing: float = _criterion(
+    competing: float = criterion(
         10.0, CHI2, "search", "beyond the best cost hoped for, up to which a set competes"
     )
-    root_gap: float = _criterion(
+    root_gap: float = criterion(
         100.0,
         CHI2,
         "search",
         "beyond the best promise, up to which a set of effects without parameters is a root",
     )
-    root_share: float = _criterion(0.5, SHARE, "search", "of the best promise, the same")
-    hopeless: float = _criterion(
+    root_share: float = criterion(0.5, SHARE, "search", "of the best promise, the same")
+    hopeless: float = criterion(
         300.0, FACTOR, "search", "the least chi-square of the roots, beyond which a root is left out unseen"
     )
-    plain_probe: float = _criterion(
+    plain_probe: float = criterion(
         100.0,
         SIGMA,
         "search",
         "of all readings together, from which no stronger probe of an effect is tried",
         fits=True,
     )
-    hidden_share: float = _criterion(
+    hidden_share: float = criterion(
         1e-3,
         SHARE,
         "search",
         "of the largest column that must be left of another one to be seen beside it",
         fits=True,
     )
-    screened_steps: int = _criterion(
+    screened_steps: int = criterion(
         200, COUNT, "search", "load steps that a screening of smooth effects needs", fits=True
     )
-    few_steps: int = _criterion(
+    few_steps: int = criterion(
         20, COUNT, "search", "load steps up to which sets are grown by everything, side by side"
     )
-    few_sets: int = _criterion(3, COUNT, "search", "sets that are grown side by side then")
-    few_readings: int = _criterion(
+    few_sets: int = criterion(3, COUNT, "search", "sets that are grown side by side then")
+    few_readings: int = criterion(
         24,
         COUNT,
         "search",
@@ -279,91 +263,89 @@ class Criteria:
         fits=True,
     )
     # What a set no longer needs.
-    needless: float = _criterion(
+    needless: float = criterion(
         4.0,
         FACTOR,
         "pruning",
         "what it has to show: an effect that by its own numbers explains less may be needless",
     )
-    kinked_needless: float = _criterion(
+    kinked_needless: float = criterion(
         100.0, FACTOR, "pruning", "the same of an effect with kinks, whose covariance says less"
     )
-    refit_near: float = _criterion(
+    refit_near: float = criterion(
         1.5,
         FACTOR,
         "pruning",
         "the chi-square of a set that one without an effect leaves at most to be fitted twice",
     )
-    far_off: float = _criterion(
+    far_off: float = criterion(
         5.0,
         FACTOR,
         "pruning",
         "the chi-square of a set that it leaves, refitted to first order, without an effect of no parameter: needed",
     )
-    elsewhere: float = _criterion(
+    elsewhere: float = criterion(
         2.0,
         FACTOR,
         "pruning",
         "what an effect's own numbers say that its loss costs, and the fit ended elsewhere",
     )
-    elsewhere_least: float = _criterion(2.0, CHI2, "pruning", "more than that, at least")
+    elsewhere_least: float = criterion(2.0, CHI2, "pruning", "more than that, at least")
     # Rivals.
-    rival_gap: float = _criterion(
+    rival_gap: float = criterion(
         25.0, CHI2, "rivals", "beyond the best cost, up to which an exchange is fitted"
     )
-    rivals_fitted: int = _criterion(4, COUNT, "rivals", "rivals of one effect that are fitted")
-    few_rival_share: float = _criterion(
+    rivals_fitted: int = criterion(4, COUNT, "rivals", "rivals of one effect that are fitted")
+    few_rival_share: float = criterion(
         0.9, SHARE, "rivals", "of what an effect stands for that a rival may miss, where load steps are few"
     )
-    held_out_gap: float = _criterion(
+    held_out_gap: float = criterion(
         25.0,
         CHI2,
         "rivals",
         "beyond the best set, up to which sets are looked at with what only held-out tests show",
     )
-    shown: float = _criterion(5.0, SIGMA, "rivals", "from which the tests at one angle show an effect")
-    not_shown: float = _criterion(2.0, SIGMA, "rivals", "below which the tests at all other angles do not")
+    shown: float = criterion(5.0, SIGMA, "rivals", "from which the tests at one angle show an effect")
+    not_shown: float = criterion(2.0, SIGMA, "rivals", "below which the tests at all other angles do not")
     # Sensors.
-    zero_factor: float = _criterion(
+    zero_factor: float = criterion(
         2.5,
         FACTOR,
         "sensors",
         "by which a sensor's zero leaves less than the best set of effects where it comes before all physics: "
         "discrete mistakes take far more off a misfit, an effect that looks a little like one takes less",
     )
-    zero_chance: float = _criterion(1e-3, CHANCE, "sensors", "noise leaves so much beside a sensor's zero")
-    zero_large: float = _criterion(20.0, SIGMA, "sensors", "from which a misfit is large")
-    zero_left: float = _criterion(
+    zero_chance: float = criterion(1e-3, CHANCE, "sensors", "noise leaves so much beside a sensor's zero")
+    zero_large: float = criterion(20.0, SIGMA, "sensors", "from which a misfit is large")
+    zero_left: float = criterion(
         0.01,
         SHARE,
         "sensors",
         "of a large misfit that a zero alone may leave to be settled before anything else",
     )
-    zero_sets: int = _criterion(12, COUNT, "sensors", "sets of least cost beside which a zero is looked for")
-    zero_alone: float = _criterion(
+    zero_sets: int = criterion(12, COUNT, "sensors", "sets of least cost beside which a zero is looked for")
+    zero_alone: float = criterion(
         0.01, SHARE, "sensors", "of a constant, below which the model expects nothing of the channel"
     )
-    chosen_side: float = _criterion(
+    chosen_side: float = criterion(
         5.0, SIGMA, "sensors", "up to which a reading may be what a step chose its side of a play by"
     )
     # What is told about tests that were not done.
-    next_test: float = _criterion(
+    next_test: float = criterion(
         30.0,
         CHI2,
         "plan",
         "between two models in a further test, beyond which more is of no use; half of it tells them",
     )
-    next_test_sets: int = _criterion(3, COUNT, "plan", "rivals for which the next test is sought")
-    name_deviations: float = _criterion(
+    next_test_sets: int = criterion(3, COUNT, "plan", "rivals for which the next test is sought")
+    name_deviations: float = criterion(
         2.33,
         SIGMA,
         "plan",
         "times gamma = 1 / sqrt(1 - rho): size from which the right one of two is named in 95 %",
     )
-    detection_power: float = _criterion(
-        0.9, CHANCE, "plan", "with which the smallest detected size is let in"
-    )
-    rival_power: float = _criterion(
+    detection_power: float = criterion(0.9, CHANCE, "plan", "with which the smallest detected size is let in")
+    rival_power: float = criterion(
         0.95, CHANCE, "plan", "with which the smallest distinguished size excludes a rival"
     )
 

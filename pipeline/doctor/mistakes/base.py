@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pipeline.campaign import Campaign, Test
-from pipeline.campaign.names import DISPLACEMENTS, WRENCHES, gauge_column
+from pipeline.campaign.names import DISPLACEMENTS, WRENCHES, channel_columns
 from pipeline.sensor_noise import from_roughness
 
 Array = NDArray[np.float64]
@@ -30,7 +30,7 @@ class Mistake:
 
 def columns_of(campaign: Campaign) -> tuple[str, ...]:
     """All columns of readings, in the order of the channels."""
-    return (*DISPLACEMENTS, *WRENCHES, *(gauge_column(gauge.name) for gauge in campaign.gauges))
+    return tuple(channel_columns(campaign.gauges))
 
 
 def readings(test: Test) -> Array:
@@ -57,14 +57,13 @@ def with_readings(
         tests.append(replace(test, data=data))
     noise = campaign.noise
     if sigmas is not None:
-        noise = replace(noise, displacement=sigmas[:6], wrench=sigmas[6:12], gauges=sigmas[12:])
+        noise = noise.of(sigmas)
     return replace(campaign, tests=tuple(tests), noise=noise)
 
 
 def sigmas_of(campaign: Campaign) -> Array:
     """(C,) of all channels."""
-    noise = campaign.noise
-    return np.concatenate([noise.displacement, noise.wrench, noise.gauges])
+    return campaign.noise.sigmas
 
 
 def times(campaign: Campaign, columns: tuple[str, ...], factor: float) -> Campaign:
