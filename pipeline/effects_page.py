@@ -15,6 +15,7 @@ from pipeline.errors import InputError
 from pipeline.inference.suitable import known_effects
 from pipeline.terminal import cell, terminal
 from pipeline.toml.spelling import unknown_name
+from vjm.effects import effect_named
 from vjm.effects.base import Effect, Parameter
 
 NAME, UNIT = 27, 12
@@ -24,15 +25,16 @@ NAME, UNIT = 27, 12
 def effects(name: str | None = None, effects_from: Iterable[Path] = ()) -> None:
     """Print all effects, or one. InputError for a name that is not in the catalogue."""
     known = known_effects(effects_from).effects
-    shown = table(known) if name is None else page(effect_named(name, known))
+    shown = table(known) if name is None else page(_asked(name, known))
     terminal().print(shown)
 
 
-def effect_named(name: str, known: Mapping[str, Effect]) -> Effect:
+def _asked(name: str, known: Mapping[str, Effect]) -> Effect:
     """The effect of that name. InputError with the nearest one, or all, if there is none."""
-    if name not in known:
+    effect = effect_named(name, known)
+    if effect is None:
         raise InputError(f"effect {name!r} is unknown, {unknown_name(name, known)}")
-    return known[name]
+    return effect
 
 
 def table(known: Mapping[str, Effect]) -> Table:
@@ -87,6 +89,7 @@ def _parameters(parameters: tuple[Parameter, ...]) -> Table:
 def _file_of(effect: Effect) -> str:
     """Path of the effect's file, from here where it is below."""
     # The function knows its file; the class only through a module that may not be registered.
-    file = Path(inspect.getfile(type(effect).change)).resolve()
+    own = next(it for it in vars(type(effect)).values() if inspect.isfunction(it))
+    file = Path(inspect.getfile(own)).resolve()
     here = Path.cwd().resolve()
     return str(file.relative_to(here)) if here in file.parents else str(file)

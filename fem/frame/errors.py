@@ -159,6 +159,21 @@ class MaterialYield:
 
 
 @dataclass(frozen=True)
+class ActuatorCompliance:
+    """Every drive gives so much more along or about its axis; machines only."""
+
+    mm_per_N: float = 0.0
+    rad_per_Nmm: float = 0.0
+
+
+@dataclass(frozen=True)
+class LinkCompliance:
+    """The stiffness of every elastic link beside the bars of parallelograms times `scale`; machines only."""
+
+    scale: float = 1.0
+
+
+@dataclass(frozen=True)
 class Errors:
     """All effects of a bench, by their canonical names; the geometric nonlinearity of bars is always there."""
 
@@ -180,6 +195,8 @@ class Errors:
     thermal_expansion: ThermalExpansion = field(default_factory=ThermalExpansion)
     self_weight: SelfWeight = field(default_factory=SelfWeight)
     material_yield: MaterialYield = field(default_factory=MaterialYield)
+    actuator_compliance: ActuatorCompliance = field(default_factory=ActuatorCompliance)
+    link_compliance: LinkCompliance = field(default_factory=LinkCompliance)
 
     def __post_init__(self) -> None:
         for path, value in self.values().items():
@@ -217,6 +234,7 @@ _OPEN = {
     "bar_stiffness_asymmetry.ratio",
     "joint_friction.presliding_rad",
     "material_yield.strain",
+    "link_compliance.scale",
 }
 _LOWEST = dict.fromkeys(
     [
@@ -228,6 +246,7 @@ _LOWEST = dict.fromkeys(
         "joint_torsional_stiffness.stiffness_Nmm_per_rad",
         "contact_stiffening.c_mm_per_N23",
         *(f"base_compliance.{p.name}" for p in fields(BaseCompliance)),
+        *(f"actuator_compliance.{p.name}" for p in fields(ActuatorCompliance)),
     ],
     0.0,
 )

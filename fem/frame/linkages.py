@@ -84,6 +84,8 @@ def _check(setup: Setup, gauges: Sequence[Gauge]) -> None:
         raise ValueError("bar_length_mismatch needs a parallelogram")
     if rig.bars == 1 and e.bar_stiffness_asymmetry.ratio != 1.0:
         raise ValueError("bar_stiffness_asymmetry needs a parallelogram")
+    if any([*_values(e.actuator_compliance), e.link_compliance.scale != 1.0]):
+        raise ValueError("actuator_compliance and link_compliance need a machine")
     for gauge in gauges:
         if not 1 <= gauge.bar <= rig.bars or not 0.0 <= gauge.station <= 1.0:
             raise ValueError(f"gauge {gauge.name!r} at {gauge.station:g} of bar {gauge.bar} is not on a bar")

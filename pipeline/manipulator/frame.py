@@ -114,7 +114,10 @@ def _place(build: _Builder, part: Part, left: list[float]) -> None:
         case Frame():
             build.move(part.translation, part.rotation)
         case Actuator():
-            build.step(_along(part.kind, part.axis, 0.0 if part.stiffness is None else 1.0 / part.stiffness))
+            more = build.errors.actuator_compliance
+            given = 0.0 if part.stiffness is None else 1.0 / part.stiffness
+            give = given + (more.mm_per_N if part.kind == "translation" else more.rad_per_Nmm)
+            build.step(_along(part.kind, part.axis, give))
             _moved(build, part.kind, part.axis, left.pop(0))
         case Passive():
             for axis in part.axes:
@@ -184,7 +187,8 @@ def _beam(build: _Builder, part: Elastic) -> None:
         build.step([RIGID] * 6)
     tip = build.place + length * build.triad[:, 0]
     node = build.new(tip)
-    build.beams.append(Beam(build.node, node, section_of(part.link.stiffness, length), build.triad))
+    stiffness = build.errors.link_compliance.scale * part.link.stiffness
+    build.beams.append(Beam(build.node, node, section_of(stiffness, length), build.triad))
     build.node, build.place = node, tip
 
 

@@ -26,6 +26,8 @@ OF_LINKAGES = (
     "dimension_error",
 )
 """Errors of the bars and hinges of parallelograms."""
+OF_LEGS = ("actuator_compliance", "link_compliance")
+"""Errors of other parts of the legs."""
 AROUND = ("base_compliance", "mounting_tilt", "load_misalignment", "load_offset", "self_weight")
 """Errors of what stands around any manipulator."""
 NOT_AT_REST = (
@@ -39,7 +41,7 @@ def refused(errors: Errors, linkages: bool) -> str:
     null = Errors()
     given = [f.name for f in fields(errors) if getattr(errors, f.name) != getattr(null, f.name)]
     for name in given:
-        if name not in OF_LINKAGES + AROUND:
+        if name not in OF_LINKAGES + OF_LEGS + AROUND:
             return f"{name} does not show in finite elements at rest"
         if name in OF_LINKAGES and not linkages:
             return f"{name} needs a parallelogram"

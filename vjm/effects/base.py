@@ -6,11 +6,12 @@ as far as the physics does. An effect that happens at the sensors adds one of `v
 
 from __future__ import annotations
 
+import copy
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from functools import partial
-from typing import Any, ClassVar, Literal, Protocol, Self, TypeAlias, TypeVar
+from typing import Any, ClassVar, Literal, Protocol, Self, TypeAlias, TypeVar, runtime_checkable
 
 import numpy as np
 
@@ -47,6 +48,16 @@ class Viewed(Protocol[Where]):
     def changed_at(self, place: Where, view: object) -> Self: ...
 
 
+@runtime_checkable
+class OfLegs(Protocol):
+    """A machine, whose legs have parts of their own."""
+
+    def with_parts(self, change: Callable[[Any], Any], site: str) -> Self:
+        """It with every part of its legs changed, or of the leg of this name; itself where nothing is. ValueError for a
+        name that no leg has."""
+        ...
+
+
 Changing = TypeVar("Changing", bound=Viewed[Any])
 
 
@@ -70,6 +81,13 @@ class Parameter:
     def one_sided(self) -> bool:
         """Whether null is a bound."""
         return self.null in (self.low, self.high)
+
+    def times(self, factor: float) -> Parameter:
+        """All its sizes so many times as large."""
+        if factor == 1.0:
+            return self
+        values = {name: factor * getattr(self, name) for name in ("null", "typical", "low", "high")}
+        return replace(self, **values)
 
 
 class Effect(ABC):
@@ -138,6 +156,15 @@ class Effect(ABC):
         if self.hinge and not _hinged(view, self.hinge):
             where = "at its base" if self.hinge == "base" else "at either end"
             raise ValueError(f"{self.name} needs a bar with a hinge {where}")
+
+    def sized_by(self, factor: Callable[[str], float]) -> Self:
+        """The effect with typical sizes, bounds and probes so many times those of its class, by their unit."""
+        own, it = type(self), copy.copy(self)
+        parameters = tuple(p.times(factor(p.unit)) for p in own.parameters)
+        probes = tuple(value * factor(own.parameters[0].unit) for value in own.probes)
+        # Attributes of the instance stand before those of its class.
+        vars(it).update(parameters=parameters, probes=probes)
+        return it
 
     def absent(self, values: Values) -> bool:
         """Whether the values leave every mechanism as it is."""

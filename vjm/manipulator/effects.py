@@ -6,6 +6,7 @@ the ground, or at the sensors, happens once, at the base frame and at the platfo
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import Self
 
@@ -57,6 +58,18 @@ class Shown:
     def changed_at(self, place: MachinePlace, view: object) -> Self:
         """It as what is `seen_at` a place has been changed; itself where that is nothing."""
         return self._made(changed_at(self.manipulator, place, view))
+
+    def with_parts(self, change: Callable[[Part], Part], site: str) -> Self:
+        """It with every part of its legs changed, or of the leg of this name; itself where nothing is. ValueError for a
+        name that no leg has."""
+        names = [leg.name for leg in self.manipulator.legs]
+        if site and site not in names:
+            raise ValueError(f"there is no leg {site!r}, allowed are {', '.join(names)}")
+        legs = tuple(
+            _with_parts(leg, change) if site in ("", leg.name) else leg for leg in self.manipulator.legs
+        )
+        same = all(a is b for a, b in zip(legs, self.manipulator.legs, strict=True))
+        return self if same else self._made(replace(self.manipulator, legs=legs))
 
     def _made(self, manipulator: Manipulator) -> Self:
         return self if manipulator is self.manipulator else replace(self, manipulator=manipulator)
@@ -110,6 +123,11 @@ def changed_at(manipulator: Manipulator, place: MachinePlace, view: object) -> M
     legs = list(manipulator.legs)
     legs[place.leg] = Leg(leg.name, tuple(parts))
     return replace(manipulator, legs=tuple(legs))
+
+
+def _with_parts(leg: Leg, change: Callable[[Part], Part]) -> Leg:
+    parts = tuple(change(part) for part in leg.parts)
+    return leg if all(a is b for a, b in zip(parts, leg.parts, strict=True)) else Leg(leg.name, parts)
 
 
 def linkages(manipulator: Manipulator) -> list[Parallelogram]:

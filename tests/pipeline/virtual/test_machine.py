@@ -18,7 +18,7 @@ from pipeline.inference.prediction import predict
 from pipeline.inference.program import program
 from pipeline.manipulator.description import describe, read
 from pipeline.virtual.bench import as_frame
-from pipeline.virtual.machine import AROUND, OF_LINKAGES, Machine
+from pipeline.virtual.machine import AROUND, OF_LEGS, OF_LINKAGES, Machine
 from pipeline.virtual.manipulator import NOISE
 from tests.pipeline.manipulator.machines import TRIPTERON
 from vjm.effects import catalogue
@@ -28,8 +28,12 @@ EFFECTS = catalogue()
 POINT = (50.0, -40.0, 60.0)
 LOADS = np.vstack([np.zeros(6), np.diag([2.0, -1.5, 1.0, 40.0, -30.0, 20.0])])
 """N, N·mm: none, and along and about each axis alone. Geometric stiffness is 2e-6 of what they move."""
-UNUSED = {"dimension_error": ("length_mm",), "self_weight": ("line_N_per_mm",)}
-"""Parameters that do not show at rest."""
+UNUSED = {
+    "dimension_error": ("length_mm",),
+    "self_weight": ("line_N_per_mm",),
+    "actuator_compliance": ("rad_per_Nmm",),
+}
+"""Parameters that do not show at rest; no drive of these machines turns."""
 SHARE = {"self_weight": 0.05}
 """Of the typical size: a weight is a load, and stiffens or softens as one."""
 MACHINES = {
@@ -78,7 +82,8 @@ def size(moved: np.ndarray) -> np.ndarray:
     return np.repeat([np.abs(moved[:, :3]).max(), np.abs(moved[:, 3:]).max()], 3)
 
 
-CASES = [("orthoglide", name) for name in OF_LINKAGES + AROUND] + [("tripteron", name) for name in AROUND]
+CASES = [("orthoglide", name) for name in OF_LINKAGES + OF_LEGS + AROUND]
+CASES += [("tripteron", name) for name in OF_LEGS + AROUND]
 
 
 @pytest.mark.parametrize(("machine", "name"), CASES)
