@@ -163,14 +163,12 @@ def _named(found: Fit, row: int, channel: int, score: float) -> BadReading:
 
 def set_aside(campaign: Campaign, bad: tuple[BadReading, ...]) -> Campaign:
     """The campaign without these readings; without the row where one of them was prescribed: what was done there is
-    not known."""
+    not known. A test without a row is left out."""
     if not bad:
         return campaign
     names = channel_columns(campaign.gauges)
-    return replace(
-        campaign,
-        tests=tuple(_test_without(campaign, test, set(_of(test, bad, names))) for test in campaign.tests),
-    )
+    tests = [_test_without(campaign, test, set(_of(test, bad, names))) for test in campaign.tests]
+    return replace(campaign, tests=tuple(test for test in tests if test.data.steps.size))
 
 
 def _of(test: Test, bad: tuple[BadReading, ...], names: list[str]) -> Iterator[tuple[int, int]]:

@@ -122,7 +122,7 @@ def _expected(found: Fit, chosen_side: float) -> Array:
     given = np.take_along_axis(np.nan_to_num(whole.measured), whole.channels, axis=1)
     np.put_along_axis(readings, whole.channels, given + found.residual.shift[:, :6], axis=1)
     readings[found.prediction.lost] = 0.0
-    chosen = found.residual.undecided[:, None] & (np.abs(readings) < chosen_side * whole.sigma)
+    chosen = found.residual.undecided[:, None] & (np.abs(readings) < chosen_side * whole.spread)
     return np.where(chosen, 0.0, readings)
 
 

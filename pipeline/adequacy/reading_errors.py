@@ -33,7 +33,7 @@ class ReadingErrors:
         whole = it.program
         factors, used = whitening(whole, found.prediction).factors, _used(it)
         count = whole.measured.shape[1]
-        sigma = np.broadcast_to(np.where(whole.sigma > 0.0, whole.sigma, 0.0), whole.measured.shape)
+        sigma = np.where(whole.spread > 0.0, whole.spread, 0.0)
         read = factors * np.where(used, sigma, 0.0)[:, None, :]
         through = np.where(used[..., None], found.prediction.by_inputs[..., :6], 0.0)
         given = -np.einsum("rij,rjk->rik", factors, through) * whole.input_sigma[:, None, :6]

@@ -7,7 +7,7 @@ from typing import Any, TypeVar
 from pydantic import BaseModel, TypeAdapter, ValidationError
 
 from pipeline.campaign.control import controls
-from pipeline.campaign.head import Description, Draft, Head
+from pipeline.campaign.head import Description, Draft, Head, SensorNoise
 from pipeline.campaign.mapped.sources import Sources
 from pipeline.campaign.model import Gauge, Rig, Vector
 from pipeline.campaign.names import (
@@ -15,13 +15,14 @@ from pipeline.campaign.names import (
     FORCE,
     KEYS,
     SUPPORT,
+    TEMPERATURE,
     gauge_column,
     known_columns,
     wrong_column,
 )
 from pipeline.campaign.rig_table import RigTable
 from pipeline.campaign.rigs import KINDS
-from pipeline.campaign.tables import GaugeTable, TestTable, Top
+from pipeline.campaign.tables import GaugeTable, NoiseTable, TestTable, Top
 from pipeline.campaign.tolerance import tolerance
 from pipeline.errors import InputError
 from pipeline.toml.complaints import Complaints, shown
@@ -123,17 +124,21 @@ class _Reader:
                 gauges.append(table.gauge())
         return tuple(gauges)
 
-    def noise(self, raw: Raw) -> dict[str, float]:
+    def noise(self, raw: Raw) -> dict[str, SensorNoise]:
         known = known_columns(self.gauge_names)
         adapter: TypeAdapter[float] = TypeAdapter(Sigma)
-        noise = {}
+        noise: dict[str, SensorNoise] = {}
         for column, value in raw.items():
             path = ("noise", column)
             if column not in known or column in KEYS:
                 self.say(path, wrong_column(column, known), f"noise.{shown(column)[1:-1]}")
                 continue
+            if isinstance(value, dict) and column != TEMPERATURE:
+                table = self.checked(NoiseTable, value, path, f"noise.{column}")
+                noise |= {} if table is None else {column: table.noise}
+                continue
             try:
-                noise[column] = adapter.validate_python(value)
+                noise[column] = SensorNoise(adapter.validate_python(value))
             except ValidationError as error:
                 for _, said in sentences(error, Top):
                     self.say(path, said, f"noise.{column}")

@@ -20,8 +20,17 @@ class Head:
 
 
 @dataclass(frozen=True)
+class SensorNoise:
+    """Of a sensor: standard deviation in its unit, share of the reading, standard deviation of its gain."""
+
+    sigma: float
+    of_reading: float = 0.0
+    gain: float = 0.0
+
+
+@dataclass(frozen=True)
 class Description:
-    """What campaign.toml says; `noise` is one sigma a column, `tolerance` one standard deviation a key, None where
+    """What campaign.toml says; `noise` is that of a column, `tolerance` one standard deviation a key, None where
     nothing is said.
 
     sources: of files that are read as they are declared; none where measurements.csv is as the contract has it.
@@ -29,7 +38,7 @@ class Description:
 
     name: str
     rig: Rig
-    noise: dict[str, float]
+    noise: dict[str, SensorNoise]
     gauges: tuple[Gauge, ...]
     heads: tuple[Head, ...]
     sources: tuple[Source, ...] = ()

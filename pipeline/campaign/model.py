@@ -6,7 +6,7 @@ the platform point; both in the base frame. NaN: not measured, or not known.
 """
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Literal
 
@@ -15,34 +15,13 @@ from numpy.typing import NDArray
 
 from pipeline.campaign.gauge import Gauge, Vector
 from pipeline.campaign.names import COORDINATES, DISPLACEMENT, FORCE, SUPPORT
+from pipeline.campaign.noise import Noise
 from pipeline.campaign.rig import Array, Rig
 
 Role = Literal["fit", "holdout"]
 Zero = Literal["nominal", "first_row", "fitted"]
 
 __all__ = ["Array", "Campaign", "Data", "Gauge", "Noise", "Rig", "Role", "Test", "Vector", "Zero"]
-
-
-@dataclass(frozen=True, eq=False)
-class Noise:
-    """One standard deviation of every sensor; NaN where the campaign does not say it.
-
-    displacement: (6,) mm, rad. wrench: (6,) N, N·mm. gauges: (G,) mm. temperature: K.
-    """
-
-    displacement: Array
-    wrench: Array
-    gauges: Array
-    temperature: float = np.nan
-
-    @property
-    def sigmas(self) -> Array:
-        """(12 + G,) of all channels."""
-        return np.concatenate([self.displacement, self.wrench, self.gauges])
-
-    def of(self, sigmas: Array) -> "Noise":
-        """The same with other sigmas (12 + G,) of the channels."""
-        return replace(self, displacement=sigmas[:6], wrench=sigmas[6:12], gauges=sigmas[12:])
 
 
 @dataclass(frozen=True, eq=False)

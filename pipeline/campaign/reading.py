@@ -6,7 +6,7 @@ from pathlib import Path
 import numpy as np
 
 from pipeline.campaign.description import describe
-from pipeline.campaign.head import Description, Draft
+from pipeline.campaign.head import Description, Draft, SensorNoise
 from pipeline.campaign.long_tests import thinned
 from pipeline.campaign.mapped.assemble import measured as assembled
 from pipeline.campaign.measured import Measured
@@ -195,12 +195,18 @@ def _unread(measured: Measured, description: Description, complaints: Complaints
 
 
 def _noise(description: Description) -> Noise:
-    def of(columns: tuple[str, ...]) -> np.ndarray:
-        return np.array([description.noise.get(column, np.nan) for column in columns], dtype=float)
-
     gauges = tuple(gauge_column(gauge.name) for gauge in description.gauges)
-    temperature = description.noise.get(TEMPERATURE, np.nan)
-    return Noise(of(DISPLACEMENTS), of(WRENCHES), of(gauges), temperature)
+    unknown = SensorNoise(np.nan)
+    every = [description.noise.get(it, unknown) for it in (*DISPLACEMENTS, *WRENCHES, *gauges)]
+    sigmas = np.array([it.sigma for it in every])
+    return Noise(
+        sigmas[:6],
+        sigmas[6:12],
+        sigmas[12:],
+        description.noise.get(TEMPERATURE, unknown).sigma,
+        np.array([it.of_reading for it in every]),
+        np.array([it.gain for it in every]),
+    )
 
 
 def _sigma_remarks(description: Description, tests: tuple[Test, ...]) -> list[str]:

@@ -2,16 +2,19 @@
 
 from __future__ import annotations
 
+from math import hypot
 from typing import Annotated, Any, Literal
 
 from pydantic import Field, field_validator, model_validator
 
+from pipeline.campaign.head import SensorNoise
 from pipeline.campaign.model import Gauge, Role, Zero
 from pipeline.toml.fields import (
     Angle,
     Direction,
     Number,
     Place,
+    Sigma,
     Table,
     Text,
     printable,
@@ -34,6 +37,28 @@ class Top(Table):
     tests: Annotated[list[dict[str, Any]], Field(min_length=1)]
 
     _name = field_validator("name")(printable)
+
+
+class NoiseTable(Table):
+    """Noise of one sensor that is more than a standard deviation."""
+
+    sigma: Sigma | None = None
+    of_reading: Annotated[Number, Field(ge=0.0, le=0.1)] = 0.0
+    resolution: Sigma | None = None
+    gain: Annotated[Number, Field(ge=0.0, le=0.2)] = 0.0
+
+    @model_validator(mode="after")
+    def known(self) -> NoiseTable:
+        """A reading of zero has noise too."""
+        if self.sigma is None and self.resolution is None:
+            raise ValueError("sigma is missing, allowed is one standard deviation, or a resolution")
+        return self
+
+    @property
+    def noise(self) -> SensorNoise:
+        """Rounding to a resolution r scatters by r / sqrt(12) (a uniform law)."""
+        rounding = (self.resolution or 0.0) / 12.0**0.5
+        return SensorNoise(float(hypot(self.sigma or 0.0, rounding)), self.of_reading, self.gain)
 
 
 class GaugeTable(Table):

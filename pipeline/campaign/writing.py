@@ -16,6 +16,7 @@ from pipeline.campaign.names import (
     SUPPORT,
     TEMPERATURE,
     WRENCHES,
+    channel_columns,
     gauge_column,
 )
 from pipeline.campaign.reading import DESCRIPTION, MEASUREMENTS, read
@@ -111,12 +112,21 @@ def rig_table(rig: Rig) -> dict[str, Any]:
     }
 
 
-def noise_table(campaign: Campaign) -> dict[str, float]:
-    """The sigmas that are known, by column."""
+def noise_table(campaign: Campaign) -> dict[str, Any]:
+    """The noise that is known, by column: a sigma, or a table where it is more than that."""
     noise = campaign.noise
+    more = dict(
+        zip(channel_columns(campaign.gauges), zip(noise.shares, noise.gains, strict=True), strict=True)
+    )
     names = [*DISPLACEMENTS, *WRENCHES, *(gauge_column(g.name) for g in campaign.gauges), TEMPERATURE]
     sigmas = [*noise.displacement, *noise.wrench, *noise.gauges, noise.temperature]
-    return {name: float(sigma) for name, sigma in zip(names, sigmas, strict=True) if np.isfinite(sigma)}
+    known = {name: float(sigma) for name, sigma in zip(names, sigmas, strict=True) if np.isfinite(sigma)}
+    return {name: _scatter(sigma, *more.get(name, (0.0, 0.0))) for name, sigma in known.items()}
+
+
+def _scatter(sigma: float, of_reading: float, gain: float) -> Any:
+    values = {"sigma": sigma, "of_reading": float(of_reading), "gain": float(gain)}
+    return inline({key: value for key, value in values.items() if value}) if of_reading or gain else sigma
 
 
 def inline(values: dict[str, Any]) -> Any:

@@ -6,20 +6,24 @@ linearly about a point (`pipeline.inference.marginal`), and linearised once more
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from pipeline.campaign import Campaign
+from pipeline.campaign.names import channel_columns
 from pipeline.inference.model import Model, Term
-from pipeline.inference.prediction import Prediction, predict
+from pipeline.inference.predicted import Prediction
+from pipeline.inference.prediction import predict
 from pipeline.inference.program import Program
 from pipeline.parameter_names import path_of
 from vjm.effects.base import Parameter
 from vjm.tolerances import tolerances
 from vjm.tolerances.angle import POSTURE
 from vjm.tolerances.base import Tolerance
+from vjm.tolerances.gain import Gain
 
 Array = NDArray[np.float64]
 FARTHEST = 5.0
@@ -47,6 +51,8 @@ class Nominal:
     def name(self) -> str:
         """In results: its key in the table of tolerances, with the parameter where the key has several."""
         key = self.tolerance.keys[self.parameter.name]
+        if isinstance(self.tolerance, Gain):
+            return f"{key} of {self.tolerance.column}"
         several = list(self.tolerance.keys.values()).count(key) > 1
         return path_of(key, self.parameter.name) if several else key
 
@@ -54,12 +60,23 @@ class Nominal:
 def nominals(campaign: Campaign) -> tuple[Nominal, ...]:
     """Those of a campaign, none where all is exact."""
     known = {key: value for key, value in campaign.tolerance.items() if key in campaign.rig.written}
-    return tuple(
+    of_rig = (
         Nominal(it, p, known[it.keys[p.name]])
         for it in tolerances()
         for p in it.parameters
         if known.get(it.keys[p.name], 0.0) > 0.0
     )
+    return (*of_rig, *_gains(campaign))
+
+
+def _gains(campaign: Campaign) -> Iterator[Nominal]:
+    """Of the sensors that were read and whose gain is known to a standard deviation."""
+    columns, gains = channel_columns(campaign.gauges), campaign.noise.gains
+    read = [np.hstack([t.data.displacement, t.data.wrench, t.data.gauges]) for t in campaign.tests]
+    for channel in np.flatnonzero(gains > 0.0):
+        if any(np.isfinite(one[:, channel]).any() for one in read):
+            it = Gain().at(columns[channel])
+            yield Nominal(it, it.parameters[0], float(gains[channel]))
 
 
 def departed(model: Model, numbers: tuple[Nominal, ...], at: Array) -> Model:

@@ -21,7 +21,7 @@ from vjm.manipulator.machine import machine
 from vjm.manipulator.parts import Manipulator
 from vjm.manipulator.posed import Posed
 from vjm.manipulator.posture import Postures, postures
-from vjm.parts import Leg
+from vjm.parts import Actuator, Elastic, Leg
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -41,7 +41,13 @@ class ManipulatorRig(Rig):
 
     @property
     def written(self) -> tuple[str, ...]:
-        return ("bars",) if linkages(self.manipulator) else ()
+        parts = [part for leg in self.manipulator.legs for part in leg.parts]
+        there = {
+            "bars": bool(linkages(self.manipulator)),
+            "drives": any(isinstance(part, Actuator) and part.stiffness for part in parts),
+            "links": any(isinstance(part, Elastic) for part in parts),
+        }
+        return tuple(key for key, known in there.items() if known)
 
     @property
     def point(self) -> Vector | None:
