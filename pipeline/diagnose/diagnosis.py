@@ -16,13 +16,14 @@ from pipeline.diagnose.apart import Likeness
 from pipeline.diagnose.beyond import with_what_held_out_tests_need
 from pipeline.diagnose.certain import certain
 from pipeline.diagnose.doctor import Suspicion, suspicions
+from pipeline.diagnose.faulty import has_fault, with_promising_faults
 from pipeline.diagnose.folds import agreement
 from pipeline.diagnose.next_test import NextTest, best_next_test
 from pipeline.diagnose.readings import AS_DECLARED, Readings
 from pipeline.diagnose.rivals import Found
 from pipeline.diagnose.ruling import Ruling, ruled
 from pipeline.diagnose.search import search, search_one_by_one
-from pipeline.diagnose.sensor_faults import Instead, plain_zero
+from pipeline.diagnose.sensor_faults import Instead, asked_about, plain_zero
 from pipeline.diagnose.shelf import Names, Shelf
 from pipeline.diagnose.signatures import Say
 from pipeline.errors import InputError
@@ -34,6 +35,7 @@ from pipeline.inference.sigmas import completed
 from pipeline.inference.suitable import check_suitable, scale_for, sized_model
 from pipeline.selection.criteria import CRITERIA, Criteria
 from vjm.effects.base import Effect
+from vjm.effects.sensor_fault import SensorFault
 from vjm.effects.sized import all_sized
 
 
@@ -130,7 +132,8 @@ def diagnose(
         readings, attempts = new, Attempts()
         shelf, refused = _prepared(readings.applied(given.campaign), model, known, say, criteria)
         it = chosen(shelf, attempts)
-    whole = shelf.whole.campaign
+    it = attempts.get("whether a sensor is at fault", partial(_with_faults, it, known, attempts), it)
+    shelf, whole = it.found.shelf, shelf.whole.campaign
     if it.untested:
         found, judgement = Found(shelf, frozenset(), ()), Judgement((), 1.0)
         return Diagnosis(
@@ -176,13 +179,31 @@ def _readings(it: Chosen, before: Readings, given: Program) -> Readings:
     return before.again(it.ruling.fit, given, criteria)
 
 
+def _with_faults(it: Chosen, known: Mapping[str, Effect], attempts: Attempts) -> Chosen:
+    """With faults of sensors among the effects, where that leaves noise and nothing else does."""
+    shelf, best = it.found.shelf, it.found.best
+    if it.untested or it.ruling.verdict != "unknown":
+        return it
+    if judge(shelf.fit(best), shelf.criteria).noise:
+        return it
+    kinds = all_sized(known, scale_for(shelf.whole.campaign))
+    more = with_promising_faults(shelf, kinds.values(), best)
+    if more is None:
+        return it
+    shelf.say("whether a sensor is at fault")
+    new = chosen(more, attempts)
+    explained = judge(more.fit(new.found.best), shelf.criteria).noise
+    return new if explained and has_fault(more, new.found.best) else it
+
+
 def _unsettled(
     shelf: Shelf, doctor: tuple[Suspicion, ...], refused: dict[str, str], attempts: Attempts, seconds: float
 ) -> Diagnosis:
     """Of a table with a mistake: nothing is named before that is settled."""
     nothing: Names = frozenset()
     before = shelf.fit(nothing)
-    ruling = Ruling("unknown", (nothing,), before)
+    zero = attempts.get("which zero it is", lambda: asked_about(before, doctor, shelf.criteria), None)
+    ruling = Ruling("unknown", (nothing,), before, zero=zero)
     judgement = judge(before, shelf.criteria)
     failed = tuple(attempts.failed)
     found = Found(shelf, nothing, ())
@@ -258,7 +279,7 @@ def suitable(
     """Effects that could be added, by name, and why the others cannot."""
     can, cannot = {}, {}
     for name, effect in known.items():
-        if name in model.names or not _may_exceed(effect, campaign):
+        if name in model.names or not _may_exceed(effect, campaign) or _needs_a_sensor(effect):
             continue
         try:
             check_suitable([effect], campaign)
@@ -266,6 +287,11 @@ def suitable(
         except InputError as error:
             cannot[name] = str(error)
     return can, cannot
+
+
+def _needs_a_sensor(effect: Effect) -> bool:
+    """Whether an effect is a kind of fault that no sensor has yet."""
+    return isinstance(effect, SensorFault) and not effect.column
 
 
 def _may_exceed(effect: Effect, campaign: Campaign) -> bool:

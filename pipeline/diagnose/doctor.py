@@ -15,15 +15,17 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
+from pipeline.campaign import Campaign
 from pipeline.diagnose.merit import badness
 from pipeline.diagnose.picture import picture
 from pipeline.diagnose.shelf import Names, Shelf
 from pipeline.diagnose.signatures import look
 from pipeline.doctor.mistakes import possible
-from pipeline.doctor.mistakes.base import Mistake, columns_of
+from pipeline.doctor.mistakes.base import Mistake, columns_of, with_readings
+from pipeline.inference.claims import trusted
 from pipeline.inference.fit import Fit
 from pipeline.inference.linear_prediction import predict_linear
-from pipeline.inference.prediction import Prediction
+from pipeline.inference.predicted import Prediction
 from pipeline.inference.program import Program, program
 from pipeline.inference.residual import residual
 from pipeline.selection.criteria import Criteria
@@ -58,8 +60,9 @@ def suspicions(shelf: Shelf) -> tuple[Suspicion, ...]:
         return ()
     shelf.say("whether the table has a mistake")
     found, noise = _found(table), max(table.fit.degrees, 1)
-    least = min((it.after for it in found), default=0.0)
-    kept = [it for it in found if it.after < least + criteria.doctor_tie * max(1.0, least / noise)]
+    # A factor that silences a column leaves less than noise: that explains no more than noise does.
+    least = max(min((it.after for it in found), default=0.0), noise)
+    kept = [it for it in found if it.after < least + criteria.doctor_tie * least / noise]
     return tuple(sorted(kept, key=lambda it: (it.after, len(it.mistake.columns))))
 
 
@@ -119,9 +122,9 @@ class Table:
         return badness(shelf, best), best
 
     def mended(self, mistake: Mistake) -> Table:
-        """The table without a mistake."""
+        """The table without a mistake, with the sigmas that its scatter then allows."""
         shelf = self.shelf
-        cases = program(mistake.mended(shelf.whole.campaign))
+        cases = program(trusted(mistake.mended(shelf.whole.campaign), shelf.base))
         return replace(self, shelf=Shelf(cases, shelf.base, shelf.candidates, shelf.say, shelf.criteria))
 
 
@@ -143,7 +146,7 @@ def _found(table: Table) -> list[Suspicion]:
     out: list[Suspicion] = []
     for mistake, mended in sorted(enough, key=lambda it: it[1].first_order):
         far = out and mended.first_order > criteria.doctor_far * min(it.after for it in out)
-        if far or mended.left[0] * criteria.doctor_factor > before:
+        if far or not _shows(mended, mistake) or mended.left[0] * criteria.doctor_factor > before:
             continue
         if _explained(mended.shelf.fit(mended.left[1]), mistake, criteria):
             out.append(Suspicion(mistake, before, mended.left[0]))
@@ -192,15 +195,32 @@ def _near(found: Fit, criteria: Criteria) -> bool:
     return found.chi_square < criteria.doctor_factor * max(found.degrees, 1)
 
 
+def _shows(mended: Table, mistake: Mistake) -> bool:
+    """Whether what is prescribed in the columns of a mistake has to be there: with zeros more would be left."""
+    names = np.isin(columns_of(mended.shelf.whole.campaign), mistake.columns)
+    if not np.any(np.isin(mended.shelf.whole.channels, np.flatnonzero(names))):
+        return True
+
+    def silenced(campaign: Campaign) -> Campaign:
+        return with_readings(campaign, lambda values: np.where(names, 0.0 * values, values))
+
+    silent = mended.mended(replace(mistake, mended=silenced))
+    return silent.first_order > mended.first_order + mended.shelf.criteria.doctor_explains
+
+
 def _explained(found: Fit, mistake: Mistake, criteria: Criteria) -> bool:
-    """Whether the model explains the columns of a mistake, where it predicts them."""
+    """Whether the model explains the columns of a mistake, where it predicts them and they read more than noise: a
+    factor that silences a column explains nothing."""
     parts = list(_signals(found, mistake))
-    signal, left = sum(s for s, _ in parts), sum(x for _, x in parts)
-    return not parts or (signal - left > criteria.doctor_explains and left * criteria.doctor_factor < signal)
+    if not parts:
+        return True
+    loud = [(signal, left) for signal, left, count in parts if signal > criteria.doctor_explains * count]
+    signal, left = sum(s for s, _ in loud), sum(x for _, x in loud)
+    return bool(loud) and left * criteria.doctor_factor < signal
 
 
-def _signals(found: Fit, mistake: Mistake) -> Iterator[tuple[float, float]]:
-    """Of each predicted column: chi-square of its readings, and of what is left of them."""
+def _signals(found: Fit, mistake: Mistake) -> Iterator[tuple[float, float, int]]:
+    """Of each predicted column: chi-square of its readings, of what is left of them, and their number."""
     cases = found.residual.program
     names = columns_of(cases.campaign)
     for column in mistake.columns:
@@ -209,6 +229,7 @@ def _signals(found: Fit, mistake: Mistake) -> Iterator[tuple[float, float]]:
         channel = names.index(column)
         rows = cases.predicted[:, channel] & cases.fitted & ~found.prediction.lost
         if rows.any():
-            sigma, read = cases.sigma[channel], cases.measured[rows, channel]
+            sigma, read = cases.spread[rows, channel], cases.measured[rows, channel]
             off = read - found.prediction.values[rows, channel]
-            yield float(np.sum((read / sigma) ** 2)), float(np.sum((off / sigma) ** 2))
+            squares = float(np.sum((read / sigma) ** 2)), float(np.sum((off / sigma) ** 2))
+            yield *squares, int(rows.sum())

@@ -19,7 +19,8 @@ from scipy.linalg import block_diag
 
 from pipeline.diagnose.menu import Choice, menu
 from pipeline.inference.fit import Fit
-from pipeline.inference.prediction import Prediction, predict
+from pipeline.inference.predicted import Prediction
+from pipeline.inference.prediction import predict
 from pipeline.inference.program import Program, program
 from pipeline.inference.residual import Residual, residual, whitening
 from pipeline.selection.criteria import CRITERIA

@@ -10,6 +10,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
+import numpy as np
+
 from pipeline.adequacy.bad_readings import BadReading, bad_readings, set_aside
 from pipeline.adequacy.judgement import ORDER, SIZE, judge
 from pipeline.adequacy.scatter import Scatter, scatters
@@ -70,10 +72,10 @@ class Readings:
         """A campaign as these readings are."""
         if self.normal is not None:
             return self.normal
-        sigmas = campaign.noise.sigmas
+        factors = np.ones(12 + len(campaign.gauges))
         for each in self.scatter:
-            sigmas[each.channel] *= each.factor
-        return set_aside(replace(campaign, noise=campaign.noise.of(sigmas)), self.bad)
+            factors[each.channel] *= each.factor
+        return set_aside(replace(campaign, noise=campaign.noise.times(factors)), self.bad)
 
 
 AS_DECLARED = Readings()

@@ -8,12 +8,14 @@ from dataclasses import dataclass
 from scipy.stats import chi2
 
 from pipeline.adequacy.patterns import scores
+from pipeline.diagnose.doctor import Suspicion
 from pipeline.diagnose.merit import badness, cost, numbers
 from pipeline.diagnose.rivals import Found
 from pipeline.diagnose.shelf import Names, Shelf
 from pipeline.diagnose.zeros import Zero, zeros
 from pipeline.inference.fit import Fit
 from pipeline.selection.criteria import Criteria
+from vjm.effects.sensor_fault import SensorFault
 
 
 @dataclass(frozen=True)
@@ -38,7 +40,9 @@ def faults_instead(found: Found) -> tuple[Instead, ...]:
     out = []
     for name in shelf.order(best):
         effect, without = shelf.candidates[name], best - {name}
-        if not effect.parameters or any(name in shelf.candidates[other].includes for other in without):
+        if not effect.parameters or isinstance(effect, SensorFault):
+            continue
+        if any(name in shelf.candidates[other].includes for other in without):
             continue
         gain = badness(shelf, without) - badness(shelf, best)
         enough = gain - shelf.criteria.apart(numbers(effect) - 1)
@@ -94,3 +98,13 @@ def zero_first(found: Found, explained: bool) -> Instead | None:
             if worth and (noise or left < most / criteria.zero_factor):
                 out.append((total, Instead("", names, zero.words, zero.gain, most, zero)))
     return min(out, key=lambda it: it[0])[1] if out else None
+
+
+def asked_about(found: Fit, doctor: tuple[Suspicion, ...], criteria: Criteria) -> Instead | None:
+    """The zero that a mistake of one column is, where it is one; beside a fit."""
+    mistake = doctor[0].mistake
+    if mistake.kind != "zero" or len(mistake.columns) != 1:
+        return None
+    column, _, _ = mistake.columns[0].rpartition("_")
+    zero = next((it for it in zeros(found, criteria) if it.column == column and it.everywhere), None)
+    return None if zero is None else Instead("", frozenset(), zero.words, zero.gain, found.chi_square, zero)

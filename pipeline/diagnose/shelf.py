@@ -13,7 +13,8 @@ from pipeline.diagnose.signatures import Look, Probe, Say, hidden, look, probed,
 from pipeline.inference.fit import Fit, fit, unfitted
 from pipeline.inference.model import Model, Term
 from pipeline.inference.parts import at_rows
-from pipeline.inference.prediction import Prediction, predict
+from pipeline.inference.predicted import Prediction
+from pipeline.inference.prediction import predict
 from pipeline.inference.program import Program
 from pipeline.inference.residual import residual
 from pipeline.inference.sent import fits_at_once
@@ -104,6 +105,20 @@ class Shelf:
         """Fit sets as if they had not been, and keep the better fit of each."""
         there = self._all_known(wanted) if self.known else {}
         self._fit_all({names: {} for names in wanted if names not in there})
+
+    def with_candidates(self, candidates: Mapping[str, Effect]) -> Shelf:
+        """Nothing looked at yet, with others of the same order; sets of these that were fitted are."""
+        fits = {names: found for names, found in self.fits.items() if names <= candidates.keys()}
+        return replace(
+            self,
+            candidates=candidates,
+            fits=fits,
+            pictures={},
+            looks={},
+            tried=set(),
+            ends=np.inf,
+            known=None,
+        )
 
     def under(self, criteria: Criteria) -> Shelf:
         """As if nothing had been looked at, under other criteria; sets that were fitted have the fits that they have

@@ -18,7 +18,8 @@ from scipy.linalg import qr
 from pipeline.inference.fit import Fit
 from pipeline.inference.model import Model
 from pipeline.inference.parts import at_rows
-from pipeline.inference.prediction import Prediction, predict
+from pipeline.inference.predicted import Prediction
+from pipeline.inference.prediction import predict
 from pipeline.inference.program import Program
 from pipeline.inference.residual import residual, whitening
 from pipeline.parameter_names import path_of

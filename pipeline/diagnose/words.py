@@ -45,7 +45,7 @@ def sentences(it: Diagnosis, answer: Answer | None = None) -> tuple[str, ...]:
     attempts = Attempts()
     record = answer or answer_of(it)
     if record.doctor:
-        return (*doctored(record), *in_units(it.fit), *(f"{r}." for r in it.campaign.remarks))
+        return (*doctored(it, record), *in_units(it.fit), *(f"{r}." for r in it.campaign.remarks))
     first = attempts.get("the verdict in words", lambda: tuple(_verdict(it, record)), (f"{it.verdict}.",))
     parts: dict[str, Callable[[], tuple[str, ...]]] = {"what is known in units": lambda: in_units(it.fit)}
     if it.verdict != "nothing_tested":
@@ -63,9 +63,11 @@ def sentences(it: Diagnosis, answer: Answer | None = None) -> tuple[str, ...]:
     return (*first, *told, *failed, *(f"{r}." for r in it.campaign.remarks))
 
 
-def doctored(answer: Answer) -> Iterator[str]:
+def doctored(it: Diagnosis, answer: Answer) -> Iterator[str]:
     """The mistakes of a table, and what mends each."""
-    yield f"{answer.verdict}: {doctor_sentence(answer.doctor)} Nothing is named before that is settled."
+    asked, said = it.ruling.zero, doctor_sentence(answer.doctor)
+    told = f"{asked.words} {said[0].upper()}{said[1:]}" if asked else said
+    yield f"{answer.verdict}: {told} Nothing is named before that is settled."
     yield from mends(answer.doctor)
 
 

@@ -38,7 +38,7 @@ _GAUGES = 12
 class Sight:
     """What the sensors read at the steps of a group.
 
-    measured, used: (T, S, C). sigma: (C,). zeroed: (T, S) where constants of the sensors are not known.
+    measured, used, sigma: (T, S, C). zeroed: (T, S) where constants of the sensors are not known.
     """
 
     measured: Array
@@ -50,12 +50,14 @@ class Sight:
     def of(cls, program: Program, rows: NDArray[np.int64]) -> Sight:
         """Of these rows (T, S)."""
         zero = np.array([test.zero != "nominal" for test in program.campaign.tests])
-        return cls(program.measured[rows], program.predicted[rows], program.sigma, zero[program.test[rows]])
+        return cls(
+            program.measured[rows], program.predicted[rows], program.spread[rows], zero[program.test[rows]]
+        )
 
     def misfit(self, where: tuple[NDArray[np.int64], ...], readings: Array, found: Mask) -> float:
         """Chi-square of readings (N, C) at these steps; what is not found counts as lost."""
         used = self.used[where]
-        sigma = np.where(used.any(axis=0), self.sigma, 1.0)
+        sigma = np.where(used, self.sigma[where], 1.0)
         left = np.where(used, self.measured[where] - readings, 0.0) / sigma
         if self.zeroed[where].any():
             left = np.where(used, left - np.sum(left, axis=0) / np.maximum(used.sum(axis=0), 1), 0.0)

@@ -24,7 +24,8 @@ from scipy.stats import chi2
 
 from pipeline.inference.model import Model
 from pipeline.inference.parts import ARRAYS, states_at, states_with
-from pipeline.inference.prediction import Prediction, predict
+from pipeline.inference.predicted import Prediction
+from pipeline.inference.prediction import predict
 from pipeline.inference.program import Program
 from pipeline.inference.residual import Residual, residual
 from pipeline.inference.stops import Bounds, sided

@@ -14,7 +14,7 @@ from pipeline.inference.model import Model
 from pipeline.inference.nominals import nominals
 from pipeline.inference.objective import Objective
 from pipeline.inference.parts import at_rows, joined
-from pipeline.inference.prediction import Prediction
+from pipeline.inference.predicted import Prediction
 from pipeline.inference.program import Program
 from pipeline.inference.residual import Residual, residual
 from pipeline.inference.solvers import End, Solver, Watch

@@ -15,7 +15,7 @@ from fem.frame.newton import REASONS, SINGULAR
 from fem.frame.rig import Gauge as FrameGauge
 from pipeline.campaign import ManipulatorRig, Rig, RigOfBars
 from pipeline.campaign.names import DISPLACEMENT, SUPPORT
-from pipeline.inference.prediction import Prediction, moved_along, no_slides, no_stops, zeroed
+from pipeline.inference.predicted import Prediction, moved_along, no_slides, no_stops, zeroed
 from pipeline.inference.program import INPUTS, Group, Program
 from pipeline.manipulator.frame import frame_stiffness
 from pipeline.virtual.bench import frame_rig

@@ -23,7 +23,7 @@ from pipeline.inference.landscape import BLIND, CLOSE, NEARLY, RISE, STEPS, Land
 from pipeline.inference.model import Free
 from pipeline.inference.objective import Objective
 from pipeline.inference.parts import at_rows
-from pipeline.inference.prediction import Prediction
+from pipeline.inference.predicted import Prediction
 from pipeline.inference.program import Program
 from pipeline.inference.solvers import WORK, allowance
 from pipeline.inference.stops import sided

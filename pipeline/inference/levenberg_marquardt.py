@@ -10,7 +10,7 @@ from scipy.linalg import qr
 from scipy.optimize import lsq_linear
 
 from pipeline.inference.objective import Evaluation, Objective
-from pipeline.inference.prediction import Prediction
+from pipeline.inference.predicted import Prediction
 from pipeline.inference.solvers import WORK, End, Pulled, Watch, allowance, nothing
 from vjm.effects.base import Parameter
 from vjm.work import spent

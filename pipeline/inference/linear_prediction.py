@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from pipeline.inference.model import Model
-from pipeline.inference.prediction import Prediction, no_slides, no_stops, zeroed
+from pipeline.inference.predicted import Prediction, no_slides, no_stops, zeroed
 from pipeline.inference.program import INPUTS, Group, Program
 from vjm.equilibrium import equilibrium
 from vjm.lagrangian import layout

@@ -15,7 +15,7 @@ import numpy as np
 from pipeline.inference.model import Model
 from pipeline.inference.nominals import FARTHEST, departed, departures, linearised, nominals
 from pipeline.inference.objective import Evaluation, Objective
-from pipeline.inference.prediction import Prediction
+from pipeline.inference.predicted import Prediction
 from pipeline.inference.program import Program
 from pipeline.inference.solvers import End
 

@@ -21,6 +21,7 @@ from pipeline.toml.complaints import Complaints, shown
 from pipeline.toml.fields import Table, sentences
 from pipeline.toml.lines import TomlLines
 from pipeline.toml.spelling import unknown_name
+from vjm.effects import effect_named
 from vjm.effects.base import Effect, Parameter
 from vjm.tolerances import tolerances
 
@@ -138,12 +139,12 @@ class _Reader:
         return None
 
     def effect(self, name: str, k: int, known: Known, before: list[str], rig: Kind | None) -> Effect | None:
-        effect, said = known.effects.get(name), ""
+        effect, said = effect_named(name, known.effects), ""
         if effect is None:
             said = f"is unknown, {unknown_name(name, known.effects)}"
         elif name in before:
             said = "is there twice, allowed is each effect once"
-        elif rig is not None and rig.acted_on not in effect.kinds:
+        elif rig is not None and not {rig.acted_on, rig.kind} & set(effect.kinds):
             said = f"needs a rig of kind {' or '.join(effect.kinds)}, not {rig.kind}"
         if said:
             self.say(("effects", k, "name"), f"effect {shown(name)}", said)

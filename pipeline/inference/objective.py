@@ -18,7 +18,8 @@ from numpy.typing import NDArray
 from pipeline.inference.contact_branches import begun, kinked, on_best_sides
 from pipeline.inference.model import Model
 from pipeline.inference.nominals import departures, nominals
-from pipeline.inference.prediction import Prediction, predict
+from pipeline.inference.predicted import Prediction
+from pipeline.inference.prediction import predict
 from pipeline.inference.program import Program
 from pipeline.inference.residual import Residual, residual
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from functools import cache
 from typing import Any
 
@@ -15,7 +15,9 @@ from pipeline.campaign.rig import Solvable
 from pipeline.inference.branches import Sight, branched
 from pipeline.inference.history import history
 from pipeline.inference.model import Model
+from pipeline.inference.predicted import Prediction, no_slides, no_stops, zeroed
 from pipeline.inference.program import INPUTS, Group, Program
+from pipeline.inference.sensor_faults import faulted, in_mechanism, inputs_off
 from vjm.effects.bar_initial_bow import BarInitialBow
 from vjm.effects.base import for_bars
 from vjm.effects.thermal_expansion import DRIVE
@@ -44,44 +46,9 @@ _GAUGES = 12
 """Channels from which on readings are those of gauges."""
 _SLIGHT = 1e-3
 """Bow, in lengths of a bar, from which straight bars find the branch on which they bend."""
-PLAYS = 2
-"""Plays of a bench, at most: one in each bar. Manipulators may have more."""
 OVERFLOW = "the numbers of the model leave the range of arithmetic there"
 NEAR_KINKS = 1e-3
 """Of its typical size, over which a number with kinks is differentiated."""
-
-
-@dataclass(frozen=True, eq=False)
-class Prediction:
-    """Readings of a model, rows and channels as in `Program`.
-
-    values: (R, C); pose channels are displacements. by_inputs: (R, C, 7) derivative by what is prescribed at the
-    same step, and by its temperature. by_free: (R, C, P), empty where not asked for. shift: (R, 7) by which
-    inputs differ from the measured ones. stops: (R, K, 8) force, N, by which a stop is pressed at each play, with the
-    sign of the stop and zero where none is, and its derivatives by the inputs; infinite where there is no play.
-    slides: (R, K, 9) strain of each play, mm, half its width, and derivatives of the strain by the inputs; the width is
-    infinite where there is no play.
-    lost: (R,) rows without a stable equilibrium. reasons: of the lost rows, as in `vjm.reasons`. states: of
-    each group, to start from again. nominal: (K,) standard deviations from what was written about the rig, at which the
-    prediction is; by_nominal: (R, C, K) its derivative by them. Empty where all is exact.
-    """
-
-    values: Array
-    by_inputs: Array
-    by_free: Array
-    shift: Array
-    stops: Array
-    slides: Array
-    lost: np.ndarray
-    reasons: dict[int, str]
-    states: tuple[Equilibrium, ...]
-    nominal: Array = field(default_factory=lambda: np.zeros(0))
-    by_nominal: Array = field(default_factory=lambda: np.zeros((0, 0, 0)))
-
-    @property
-    def as_written(self) -> Array:
-        """(R, C) readings where what was written about the rig is true, along the line of the prediction."""
-        return self.values - self.by_nominal @ self.nominal if self.nominal.size else self.values
 
 
 @dataclass(frozen=True, eq=False)
@@ -127,11 +94,11 @@ def predict(
         {},
         (),
     )
-    states = []
+    states, off = [], out.shift + inputs_off(model, program)
     for number, group in enumerate(program.groups):
         begin = None if start is None else start.states[number]
         place, real = program.rows_of(group), group.real
-        stood = _shifted(group.turned(model.turn), out.shift[place])
+        stood = _shifted(group.turned(model.turn), off[place])
         part = _group(model, program, stood, slopes, begin, order, held, bent)
         out.values[place], out.by_inputs[place] = part.values, part.by_inputs
         out.by_free[place] = part.by_free
@@ -144,7 +111,8 @@ def predict(
         for row, reason in zip(place[lost[real]], part.state.reason[real][lost[real]], strict=True):
             out.reasons[int(row)] = Reason.UNSTABLE if reason == CONVERGED else Reason.of(reason)
         states.append(part.state)
-    return replace(zeroed(_finite(out), program), states=tuple(states))
+    read = faulted(model, program, _finite(out))
+    return replace(zeroed(read, program), states=tuple(states))
 
 
 def _finite(found: Prediction) -> Prediction:
@@ -165,24 +133,6 @@ def _finite(found: Prediction) -> Prediction:
     }
     said = {int(row): OVERFLOW for row in np.flatnonzero(~good)}
     return replace(found, lost=found.lost | ~good, reasons=said | found.reasons, **arrays)
-
-
-def moved_along(found: Prediction, shift: Array) -> Prediction:
-    """A prediction at inputs shifted by (R, 7), along its own tangent: exact where that is constant."""
-    values = found.values + np.einsum("rci,ri->rc", found.by_inputs, shift)
-    return replace(found, values=values, shift=shift)
-
-
-def no_stops(rows: int, plays: int = PLAYS) -> Array:
-    """`Prediction.stops` without plays."""
-    return np.concatenate([np.full((rows, plays, 1), np.inf), np.zeros((rows, plays, INPUTS))], axis=-1)
-
-
-def no_slides(rows: int, plays: int = PLAYS) -> Array:
-    """`Prediction.slides` without plays."""
-    out = np.zeros((rows, plays, 2 + INPUTS))
-    out[..., 1] = np.inf
-    return out
 
 
 def _group(
@@ -222,10 +172,11 @@ def _solved(
     drives = layout(mechanism).drives
     inputs = {"q": np.broadcast_to(group.q[:, None], group.rise.shape), DRIVE: group.rise}
     inputs = {name: value for name, value in inputs.items() if name in drives}
-    free = model.free if slopes else ()
+    count = len(model.free) if slopes else 0
+    moving = in_mechanism(model)[:count]
     asked: list[AnyDirection] = []
     if order:
-        asked += [*TARGETS, *(_direction(model, k, group, program) for k in range(len(free)))]
+        asked += [*TARGETS, *(_direction(model, k, group, program) for k in moving)]
         asked += [DriveDirection(DRIVE, _KELVIN)] if DRIVE in drives else []
     begin = _begin(mechanism, group, inputs, start)
     if held and begin is not None:
@@ -245,10 +196,11 @@ def _solved(
     values = state.readings.copy()
     values[..., :6] -= group.nominal
     if not asked:
-        by = np.zeros((*values.shape, 7 + len(free)))
+        by = np.zeros((*values.shape, 7 + len(moving)))
     warm = by[..., -1:] if DRIVE in drives else np.zeros((*values.shape, 1))
     by_inputs = np.concatenate([by[..., :6], warm], axis=-1)
-    real, by_free = group.real, by[..., 6 : 6 + len(free)]
+    real, by_free = group.real, np.zeros((*values.shape, count))
+    by_free[..., moving] = by[..., 6 : 6 + len(moving)]
     return _Part(values[real], by_inputs[real], by_free[real], state, stops[real], slides[real])
 
 
@@ -355,21 +307,6 @@ def _direction(model: Model, number: int, group: Group, program: Program) -> Dir
     if model.reads_alone(each, value + change, group.rig, gauges):
         return SensorDirection(lambda other: moved(other).sensors, value, size)
     return Direction(moved, value, size)
-
-
-def zeroed(prediction: Prediction, program: Program) -> Prediction:
-    """Readings less those of the first row, in tests that were zeroed there; what is prescribed stays."""
-    values = prediction.values.copy()
-    by_free = prediction.by_free.copy()
-    for k, test in enumerate(program.campaign.tests):
-        if test.zero != "first_row":
-            continue
-        rows = slice(int(program.first[k]), int(program.first[k + 1]))
-        out = np.ones(values.shape[1], dtype=bool)
-        out[program.channels[rows.start]] = False
-        for array in (values, by_free):
-            array[rows] -= np.where(out.reshape(-1, *[1] * (array.ndim - 2)), array[rows.start], 0.0)
-    return replace(prediction, values=values, by_free=by_free)
 
 
 def coordinate_names(program: Program) -> tuple[str, ...]:

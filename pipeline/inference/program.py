@@ -10,7 +10,10 @@ from numpy.typing import NDArray
 
 from pipeline.campaign import Campaign, Test
 from pipeline.campaign import Rig as Described
-from pipeline.campaign.names import DISPLACEMENT, FORCE, SUPPORT
+from pipeline.campaign.names import DISPLACEMENT, FORCE, SUPPORT, channel_columns
+from vjm.effects.sensor_fault import Rows
+from vjm.lagrangian import layout
+from vjm.work import UNKNOWNS
 
 Array = NDArray[np.float64]
 CHANNELS = 12
@@ -83,9 +86,11 @@ class Program:
 
     measured: (R, C), NaN where not measured. predicted: (R, C) mask of what a model predicts and the campaign
     measured, with a sigma. channels: (R, 6) channel that each coordinate's control prescribes. input_sigma: (R, 7)
-    noise of what is prescribed, and of the temperature, K. sigma: (C,) noise of every sensor. test: (R,) its number.
+    noise of what is prescribed, and of the temperature, K. sigma: (C,) noise of every sensor at a reading of zero.
+    test: (R,) its number.
     by_nominal: (R, C, K) derivative of the predictions by what was written about the rig, in its standard deviations,
-    near the models that are fitted; None where all is exact, or not looked at yet.
+    near the models that are fitted; None where all is exact, or not looked at yet. whole_clock: (R,) share of the
+    campaign that was done before, where these are not all of its rows.
     """
 
     campaign: Campaign
@@ -97,12 +102,34 @@ class Program:
     sigma: Array
     test: np.ndarray
     by_nominal: Array | None = None
+    whole_clock: Array | None = None
+
+    @cached_property
+    def rows(self) -> Rows:
+        """The rows as sensors read them."""
+        steps = [test.data.steps - test.data.steps[0] for test in self.campaign.tests]
+        count = len(self.test)
+        clock = np.linspace(0.0, 1.0, count) if self.whole_clock is None else self.whole_clock
+        columns = tuple(channel_columns(self.campaign.gauges))
+        return Rows(self.test, np.concatenate(steps).astype(float), clock, columns)
+
+    @cached_property
+    def spread(self) -> Array:
+        """(R, C) standard deviation of every reading; NaN where none is known."""
+        noise = self.campaign.noise
+        return np.concatenate([noise.spread(readings_of(test)) for test in self.campaign.tests])
 
     @cached_property
     def first(self) -> np.ndarray:
         """(tests + 1,) first row of each test."""
         counts = [test.data.steps.size for test in self.campaign.tests]
         return np.concatenate([[0], np.cumsum(counts)]).astype(int)
+
+    @cached_property
+    def unknowns(self) -> float:
+        """Of all rigs together, each solved by itself, in those of a parallelogram; at least one."""
+        rigs = (group.rig.mechanism(self.campaign.gauges) for group in self.groups)
+        return max(1.0, sum(layout(it).size for it in rigs) / UNKNOWNS)
 
     @cached_property
     def unweighted(self) -> np.ndarray:
@@ -137,7 +164,11 @@ class Program:
         same = all(
             one.control == other.control for one, other in zip(tests, self.campaign.tests, strict=True)
         )
-        return None if same else program(replace(self.campaign, tests=tests))
+        return (
+            None
+            if same
+            else replace(program(replace(self.campaign, tests=tests)), whole_clock=self.whole_clock)
+        )
 
     @cached_property
     def by_role(self) -> tuple[tuple[NDArray[np.int64], Program], ...]:
@@ -150,7 +181,8 @@ class Program:
         """The program of these rows (N,) alone, in order; tests without any are left out."""
         tests = [_rows_of(test, rows[self.test[rows] == k] - self.first[k]) for k, test in self._tests(rows)]
         part = program(replace(self.campaign, tests=tuple(tests)))
-        return part if self.by_nominal is None else replace(part, by_nominal=self.by_nominal[rows])
+        line = None if self.by_nominal is None else self.by_nominal[rows]
+        return replace(part, by_nominal=line, whole_clock=self.rows.clock[rows])
 
     @property
     def plain(self) -> Program:
@@ -166,15 +198,15 @@ def program(campaign: Campaign) -> Program:
     tests, gauges = campaign.tests, campaign.gauges
     noise = campaign.noise
     sigma = noise.sigmas
-    measured = np.concatenate(
-        [np.hstack([t.data.displacement, t.data.wrench, t.data.gauges]) for t in tests], axis=0
-    )
+    measured = np.concatenate([readings_of(t) for t in tests], axis=0)
     number = np.repeat(np.arange(len(tests)), [t.data.steps.size for t in tests])
     channels = np.array([_channels(t.control, [g.name for g in gauges]) for t in tests])[number]
     given = np.take_along_axis(measured, channels, axis=1)
+    spread = np.concatenate([noise.spread(readings_of(t)) for t in tests])
     held = np.array([[by == SUPPORT for by in t.control] for t in tests])[number]
     # A force that was not read, and a coordinate on its support, are what they are without a sensor's noise.
-    input_sigma = np.where(np.isnan(given) | held, 0.0, np.nan_to_num(sigma[channels]))
+    input_sigma = np.take_along_axis(np.nan_to_num(spread), channels, axis=1)
+    input_sigma = np.where(np.isnan(given) | held, 0.0, input_sigma)
     warm = np.full((len(number), 1), np.nan_to_num(noise.temperature))
     input_sigma = np.concatenate([input_sigma, warm], axis=1)
     # A reading whose scatter nobody knows is compared in units alone, one without any scatter says nothing of a model.
@@ -194,6 +226,11 @@ def program(campaign: Campaign) -> Program:
         sigma,
         number,
     )
+
+
+def readings_of(test: Test) -> Array:
+    """(N, C) of a test."""
+    return np.hstack([test.data.displacement, test.data.wrench, test.data.gauges])
 
 
 def _group(campaign: Campaign, numbers: np.ndarray) -> Group:

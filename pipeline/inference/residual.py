@@ -23,7 +23,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pipeline.inference.marginal import Marginal
-from pipeline.inference.prediction import Prediction
+from pipeline.inference.predicted import Prediction
 from pipeline.inference.program import LOST, Program
 from pipeline.inference.span import basis
 from pipeline.inference.stops import SIDE, SPREAD, on_their_sides
@@ -53,7 +53,7 @@ def whitening(program: Program, prediction: Prediction) -> Whitening:
     """That of a prediction's own tangent."""
     used = program.predicted
     through = _through(program, prediction) * program.input_sigma[:, None, :]
-    scale = np.where(used, program.sigma, 1.0)
+    scale = np.where(used, program.spread, 1.0)
     through = through / scale[..., None]
     return Whitening(_inverse_root(through) / scale[:, None, :], used)
 

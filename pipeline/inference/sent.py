@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from pipeline.inference.fit import Fit
 from pipeline.inference.model import Model, Term
-from pipeline.inference.prediction import Prediction
+from pipeline.inference.predicted import Prediction
 from pipeline.inference.program import Group, Program
 from pipeline.inference.residual import residual
 from pipeline.processors import at_once

@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from pipeline.campaign import Campaign, Gauge, Noise, Test
+from pipeline.campaign import Campaign, Gauge, Test
 from pipeline.campaign.names import DISPLACEMENTS, TEMPERATURE, WRENCHES, gauge_column
 from pipeline.campaign.reading import DESCRIPTION
 from pipeline.inference.driving import control_channels, driving
@@ -48,7 +48,7 @@ def completed(campaign: Campaign) -> Campaign:
         except ValueError as error:
             remarks.append(f"{name}: no sigma is given and none can be told: {error}; {to_write(name)}")
     last = 12 + len(campaign.gauges)
-    known = Noise(sigmas[:6], sigmas[6:12], sigmas[12:last], float(sigmas[last]))
+    known = replace(noise.of(sigmas[:last]), temperature=float(sigmas[last]))
     return replace(campaign, noise=known, remarks=(*campaign.remarks, *remarks))
 
 

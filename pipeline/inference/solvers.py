@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from scipy.optimize import least_squares
 
 from pipeline.inference.objective import Evaluation, Objective
-from pipeline.inference.prediction import Prediction
+from pipeline.inference.predicted import Prediction
 from pipeline.inference.program import Program
 from vjm.work import spent
 
@@ -129,5 +129,5 @@ def nothing(gain: float, total: float, count: int) -> bool:
 
 
 def allowance(program: Program) -> float:
-    """Work that a campaign may take, as a multiple of that without any rows."""
-    return 1.0 + float(program.fitted.sum()) / ROWS
+    """Work that a campaign may take, as a multiple of that of a parallelogram without any rows."""
+    return program.unknowns + float(program.fitted.sum()) / ROWS

@@ -14,7 +14,7 @@ from pipeline.inference.fit import Fit, fit
 from pipeline.inference.model import Free, Model
 from pipeline.inference.objective import Objective
 from pipeline.inference.parts import at_rows
-from pipeline.inference.prediction import Prediction
+from pipeline.inference.predicted import Prediction
 from pipeline.inference.program import Program
 from pipeline.inference.sent import fits_at_once
 from pipeline.inference.solvers import far

@@ -6,12 +6,16 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
+import numpy as np
+
 from pipeline.campaign import Campaign
+from pipeline.campaign.names import channel_columns
 from pipeline.errors import InputError
 from pipeline.inference.model import Model
 from pipeline.toml.spelling import unknown_name
-from vjm.effects import catalogue, from_file
+from vjm.effects import catalogue, effect_named, from_file
 from vjm.effects.base import Effect
+from vjm.effects.sensor_fault import SensorFault
 from vjm.effects.sized import Scale, all_sized, sized
 from vjm.effects.thermal_expansion import DRIVE
 from vjm.lagrangian import layout
@@ -74,17 +78,34 @@ def _user_effects(path: Path, known: Known) -> dict[str, Effect]:
 def named_effects(names: Sequence[str], known: Mapping[str, Effect]) -> list[Effect]:
     """The effects of these names, in order; InputError for one that is unknown or named twice."""
     for k, name in enumerate(names):
-        if name not in known:
+        if effect_named(name, known) is None:
             raise InputError(f"effect {name!r} is unknown, {unknown_name(name, known)}")
         if name in names[:k]:
             raise InputError(f"effect {name} is named twice, allowed is each once")
-    return [known[name] for name in names]
+    every = (effect_named(name, known) for name in names)
+    return [effect for effect in every if effect is not None]
+
+
+def columns_read(campaign: Campaign) -> tuple[str, ...]:
+    """Columns of which there are readings, in the order of the channels."""
+    there: set[int] = set()
+    for test in campaign.tests:
+        read = np.hstack([test.data.displacement, test.data.wrench, test.data.gauges])
+        there |= set(np.flatnonzero(np.isfinite(read).any(axis=0)).tolist())
+    return tuple(name for k, name in enumerate(channel_columns(campaign.gauges)) if k in there)
 
 
 def check_suitable(effects: Iterable[Effect], campaign: Campaign) -> None:
     """InputError for an effect that a rig of the campaign cannot have, or whose input was never measured."""
     warm = any(test.data.temperature is not None for test in campaign.tests)
+    read = columns_read(campaign)
     for effect in effects:
+        if isinstance(effect, SensorFault) and not set(effect.columns) <= set(read):
+            site = effect.example
+            raise InputError(
+                f"{campaign.name}: {effect.name} needs a sensor that was read, write {effect.kind}@{site} with any of "
+                f"{', '.join(read)}"
+            )
         for rig in {id(test.rig): test.rig for test in campaign.tests}.values():
             plain = rig.mechanism(campaign.gauges)
             try:

@@ -170,7 +170,7 @@ class Criteria:
         "3.7 to 5.4, benches without a mistake 1.3",
     )
     doctor_explains: float = criterion(
-        25.0, CHI2, "doctor", "that the model explains of the columns that are mended, at least"
+        25.0, CHI2, "doctor", "of a reading in a column that is mended, at least: less may be silence"
     )
     doctor_tie: float = criterion(
         25.0,
@@ -336,6 +336,9 @@ class Criteria:
         CHI2,
         "plan",
         "between two models in a further test, beyond which more is of no use; half of it tells them",
+    )
+    faults_looked_at: int = criterion(
+        3, COUNT, "sensors", "faults of sensors that promise most, beside the best set and beside none"
     )
     next_test_sets: int = criterion(3, COUNT, "plan", "rivals for which the next test is sought")
     name_deviations: float = criterion(

@@ -18,6 +18,7 @@ from pipeline.campaign.model import Role
 from pipeline.errors import InputError
 from pipeline.parameter_names import parted
 from pipeline.virtual.plan import PlannedTest
+from pipeline.virtual.sensors import as_read, of_sensors
 
 DISPLAYED = 20.0
 """Steps of a display in a sigma, at least: rounding then adds 1e-4 of the noise."""
@@ -65,7 +66,11 @@ def true_readings(
         if (readings.negative > 0).any():
             step = int(np.argmax(readings.negative > 0))
             raise RuntimeError(f"the bench has buckled: test {planned.id}, step {step}")
-    return found
+    there = [np.hstack([it.displacement, it.wrench, it.gauges]) for it in found]
+    return [
+        replace(it, displacement=one[:, :6], wrench=one[:, 6:12], gauges=one[:, 12:])
+        for it, one in zip(found, as_read(there, hidden, gauges), strict=True)
+    ]
 
 
 def _yields(hidden: Mapping[str, float]) -> bool:
@@ -111,7 +116,7 @@ def frame_rig(rig: RigOfBars) -> FrameRig:
 
 
 def as_frame(hidden: Mapping[str, float], rig: Rig) -> dict[str, float]:
-    """Names of the catalogue as the frame spells them: weights are vectors there."""
+    """Names of the catalogue as the frame spells them: weights are vectors there, and sensors are no part of it."""
     down = np.array([0.0, 0.0, -1.0]) if rig.down is None else rig.down
     out: dict[str, float] = {}
     for name, value in hidden.items():
@@ -120,7 +125,7 @@ def as_frame(hidden: Mapping[str, float], rig: Rig) -> dict[str, float]:
             out |= {f"self_weight.line_{a}_N_per_mm": value * d for a, d in zip("xyz", down, strict=True)}
         elif effect == "self_weight" and parameter.startswith("platform_"):
             out[f"self_weight.f{parameter[9]}_N"] = value
-        elif effect != "bar_geometric_nonlinearity":
+        elif effect != "bar_geometric_nonlinearity" and name not in of_sensors(hidden):
             out[name] = value
     return out
 

@@ -13,7 +13,9 @@ from pipeline.errors import InputError
 from pipeline.parameter_names import parted, path_of
 from pipeline.toml.spelling import unknown_name
 from pipeline.virtual.bench import as_frame
+from vjm.effects import effect_named
 from vjm.effects.base import Effect
+from vjm.effects.sensor_fault import SensorFault
 
 FACTOR = 2.0
 """An effect without a value is up to so many times larger or smaller than its typical size."""
@@ -32,9 +34,9 @@ def hidden(
     for text in asked:
         left, equals, value = text.partition("=")
         name, parameter = parted(left.strip())
-        if name not in known:
+        effect = effect_named(name, known)
+        if effect is None:
             raise InputError(f"--effect {text}: effect {name!r} is unknown, {unknown_name(name, known)}")
-        effect = known[name]
         _simulable(text, effect, rig)
         new = name not in given
         own = given.setdefault(name, dict(effect.nulls))
@@ -52,6 +54,9 @@ def hidden(
 
 def _simulable(text: str, effect: Effect, rig: Rig) -> None:
     paths = {path_of(effect.name, p.name): p.null for p in effect.parameters}
+    if isinstance(effect, SensorFault) and not effect.column:
+        example = f"{effect.name}@{effect.example}"
+        raise InputError(f"--effect {text}: {effect.name} needs a sensor, allowed is {example}, such as fy_N")
     try:
         Errors.of(as_frame(paths, rig))
         effect.apply(rig.mechanism(()), effect.typicals)
@@ -67,6 +72,7 @@ def _drawn(effect: Effect, rig: Rig, generator: np.random.Generator) -> dict[str
         sign = 1.0 if p.one_sided else generator.choice([-1.0, 1.0])
         alone = effect.nulls | {p.name: p.null + p.typical}
         # A parameter that is no size of the effect, such as a presliding angle, changes nothing alone.
-        if effect.apply(mechanism, alone) is not mechanism:
+        of_sensor = isinstance(effect, SensorFault) and not effect.absent(alone)
+        if of_sensor or effect.apply(mechanism, alone) is not mechanism:
             out[p.name] = float(np.clip(p.null + sign * size, p.low, p.high))
     return out

@@ -19,6 +19,7 @@ from pipeline.errors import InputError
 from pipeline.parameter_names import path_of
 from pipeline.virtual.bench import as_frame
 from pipeline.virtual.machine import Machine, refused
+from pipeline.virtual.sensors import as_read
 from vjm.manipulator.effects import linkages
 from vjm.manipulator.parts import Manipulator
 from vjm.manipulator.posture import Postures
@@ -77,18 +78,24 @@ def measure_manipulator(
 
     InputError for an effect that the frame at rest does not have.
     """
-    errors = _errors(rig, hidden)
+    if "bar_geometric_nonlinearity" in hidden:
+        raise InputError("--effect: frame elements at rest do not show how bars stiffen or soften under load")
+    paths = {path_of(name, p): value for name, own in hidden.items() for p, value in own.items()}
+    errors = _errors(rig, paths)
     generator = np.random.default_rng(seed)
     rigs: dict[Vector, ManipulatorRig] = {}
-    tests = []
+    there = []
     for one in loadings:
         own = rigs.setdefault(one.point, replace(rig, at=one.point))
         machine = Machine(rig.manipulator, errors, _posture(own))
-        way = machine.displacements(one.loads, _weight(rig))
+        there.append(np.hstack([machine.displacements(one.loads, _weight(rig)), one.loads]))
+    tests = []
+    for one, read in zip(loadings, as_read(there, paths), strict=True):
+        own, way, loads = rigs[one.point], read[:, :6], read[:, 6:]
         data = Data(
             np.arange(len(one.loads)),
             way + generator.normal(size=way.shape) * NOISE.displacement,
-            one.loads + generator.normal(size=way.shape) * NOISE.wrench,
+            loads + generator.normal(size=way.shape) * NOISE.wrench,
             np.zeros((len(one.loads), 0)),
             None,
             np.zeros(len(one.loads), dtype=np.int64),
@@ -101,11 +108,8 @@ def _weight(rig: ManipulatorRig) -> Array:
     return np.zeros(3) if rig.down is None else rig.platform_weight * rig.down
 
 
-def _errors(rig: ManipulatorRig, hidden: Mapping[str, Mapping[str, float]]) -> Errors:
-    """What is hidden, in the truth's own record."""
-    if "bar_geometric_nonlinearity" in hidden:
-        raise InputError("--effect: frame elements at rest do not show how bars stiffen or soften under load")
-    paths = {path_of(name, p): value for name, own in hidden.items() for p, value in own.items()}
+def _errors(rig: ManipulatorRig, paths: Mapping[str, float]) -> Errors:
+    """What is hidden in the machine, in the truth's own record."""
     errors = Errors.of(as_frame(paths, rig))
     if said := refused(errors, bool(linkages(rig.manipulator))):
         raise InputError(f"--effect: the virtual bench cannot have it: {said}")

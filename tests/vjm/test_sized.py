@@ -35,6 +35,7 @@ def test_a_size_scales_as_its_unit_does(force: float, length: float) -> None:
         "rad": (0.0, 0.0),
         "1": (0.0, 0.0),
         "1/K": (0.0, 0.0),
+        "of the column": (0.0, 0.0),
     }
     for effect in catalogue().values():
         for old, new in zip(effect.parameters, sized(effect, scale).parameters, strict=True):

@@ -8,11 +8,13 @@ import inspect
 import pkgutil
 import sys
 import warnings
+from collections.abc import Mapping
 from pathlib import Path
 from types import ModuleType
 
 from vjm.effects.base import Effect
 from vjm.effects.checkout_names import ABOVE, install
+from vjm.effects.sensor_fault import SensorFault
 
 
 def catalogue() -> dict[str, Effect]:
@@ -20,6 +22,33 @@ def catalogue() -> dict[str, Effect]:
     names = sorted(info.name for info in pkgutil.iter_modules(__path__))
     modules = (importlib.import_module(f"{__name__}.{name}") for name in names)
     return {effect.name: effect for module in modules for effect in defined_in(module)}
+
+
+def for_kind(kind: str) -> dict[str, Effect]:
+    """Those that act on the mechanism of a rig of this kind, by name: no faults of sensors."""
+    return {
+        name: it for name, it in catalogue().items() if kind in it.kinds and not isinstance(it, SensorFault)
+    }
+
+
+def effect_of(name: str, known: Mapping[str, Effect]) -> Effect:
+    """The effect of a name as in `effect_named`; KeyError for a name that is none."""
+    found = effect_named(name, known)
+    if found is None:
+        raise KeyError(name)
+    return found
+
+
+def effect_named(name: str, known: Mapping[str, Effect]) -> Effect | None:
+    """An effect by its name, that of a sensor's fault with the sensor after an @; None for a name that is none."""
+    kind, at, column = name.partition("@")
+    effect = known.get(name) or known.get(kind)
+    if not at or effect is None or effect.name == name:
+        return effect if effect is not None and effect.name == name else None
+    try:
+        return effect.at(column) if isinstance(effect, SensorFault) else None
+    except ValueError:
+        return None
 
 
 def shipped(effect: Effect) -> bool:

@@ -8,15 +8,14 @@ unit of force or length, or a model to scale, changes no verdict. Angles, ratios
 
 from __future__ import annotations
 
-import copy
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
 from vjm import paper
 from vjm.effects import shipped
-from vjm.effects.base import Effect, Parameter
+from vjm.effects.base import Effect
 from vjm.frames import Array
 
 LENGTH = 310.0
@@ -69,22 +68,9 @@ def sized(effect: Effect, scale: Scale) -> Effect:
     """The effect with typical sizes, bounds and probes of a rig; a user's own effect stays as it is."""
     if scale == Scale() or not shipped(effect) or not effect.parameters:
         return effect
-    own = type(effect)
-    parameters = tuple(_sized(p, scale.of(p.unit)) for p in own.parameters)
-    probes = tuple(value * scale.of(own.parameters[0].unit) for value in own.probes)
-    it = copy.copy(effect)
-    # Attributes of the instance stand before those of its class.
-    vars(it).update(parameters=parameters, probes=probes)
-    return it
+    return effect.sized_by(scale.of)
 
 
 def all_sized(effects: Mapping[str, Effect], scale: Scale) -> dict[str, Effect]:
     """Every effect by its name."""
     return {name: sized(effect, scale) for name, effect in effects.items()}
-
-
-def _sized(p: Parameter, factor: float) -> Parameter:
-    if factor == 1.0:
-        return p
-    values = {name: factor * getattr(p, name) for name in ("null", "typical", "low", "high")}
-    return replace(p, **values)

@@ -2,6 +2,8 @@
 
 from dataclasses import replace
 
+import pytest
+
 from pipeline.coverage.trial import campaign
 from pipeline.diagnose.diagnosis import Diagnosis, diagnose
 from pipeline.diagnose.words import sentences
@@ -16,6 +18,7 @@ def found(most: float) -> Diagnosis:
     return diagnose(TESTS, Model(), catalogue(), criteria=replace(CRITERIA, search_work=most))
 
 
+@pytest.mark.long
 def test_what_was_not_compared_with_all_is_not_named() -> None:
     whole = found(CRITERIA.search_work)
     assert whole.verdict == "identified" and not whole.found.ended

@@ -24,7 +24,8 @@ def slightly_creeping(data: Data) -> Data:
     return replace(data, gauges=data.gauges + 0.0025 * np.linspace(0.0, 1.0, len(data.steps))[:, None])
 
 
-@pytest.mark.parametrize("seed", [2, pytest.param(3, marks=pytest.mark.long)])
+@pytest.mark.long
+@pytest.mark.parametrize("seed", [2, 3])
 def test_a_gauge_that_creeps_a_little_is_no_tilt(seed: int) -> None:
     """A tilt of the mounting takes more off chi-square than any other effect, the gauge's own fault still more."""
     it = diagnose(with_fault(bench(seed=seed), slightly_creeping), Model(), catalogue())

@@ -19,7 +19,8 @@ from pipeline.campaign import read
 from pipeline.errors import InputError
 from pipeline.inference import branches
 from pipeline.inference.model import Model
-from pipeline.inference.prediction import Prediction, predict
+from pipeline.inference.predicted import Prediction
+from pipeline.inference.prediction import predict
 from pipeline.inference.program import Program, program
 from tests.fem.frame.rigs import parallelogram
 from vjm.bent import Ways

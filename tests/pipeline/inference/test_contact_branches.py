@@ -16,7 +16,8 @@ from pipeline.coverage.trial import campaign
 from pipeline.inference.contact_branches import kinked, on_best_sides
 from pipeline.inference.fit import fit
 from pipeline.inference.model import Model
-from pipeline.inference.prediction import Prediction, predict
+from pipeline.inference.predicted import Prediction
+from pipeline.inference.prediction import predict
 from pipeline.inference.program import Program, program
 from pipeline.inference.residual import FARTHEST, Residual, residual
 from pipeline.simulate import bench_rig
@@ -170,7 +171,7 @@ def test_a_play_that_is_not_there_takes_up_little(seed: int, beside: tuple[str, 
     assert least.residual.charged > 1.0
 
 
-@pytest.mark.parametrize("begin", [3e-3, 1e-2])
+@pytest.mark.parametrize("begin", [3e-3, pytest.param(1e-2, marks=pytest.mark.long)])
 def test_from_too_large_a_play_a_fit_ends_as_from_below(begin: float) -> None:
     """Rows do not stay on the sides that belong to the play that the fit began with."""
     tests = program(campaign((("joint_clearance.play_mm", 3e-3),), 1, 8))

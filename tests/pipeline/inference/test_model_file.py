@@ -149,7 +149,7 @@ BAD = {
     "effect, nothing near": (
         '"joint_friction"\n',
         '"magic"\n',
-        "effect 'magic': is unknown, allowed: axis_flexibility, ",
+        "effect 'magic': is unknown, allowed: actuator_compliance, ",
     ),
     "twice": (
         '"bar_geometric_nonlinearity"',

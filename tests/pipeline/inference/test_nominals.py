@@ -83,6 +83,7 @@ def explicit(found: Fit, cases: Program) -> float:
     )
 
 
+@pytest.mark.long
 def test_the_line_of_a_fit_gives_what_free_numbers_give() -> None:
     off = "modulus_error.scale", 1.04
     found = fitted(*off)

@@ -40,7 +40,7 @@ def total(there: Evaluation) -> float:
         ("joint_clearance", "joint_friction"),
     ],
 )
-@pytest.mark.parametrize("size", [0.03, 1.0])
+@pytest.mark.parametrize("size", [0.03, pytest.param(1.0, marks=pytest.mark.long)])
 def test_the_same_parameters_give_the_same_value_wherever_it_begins(
     names: tuple[str, ...], size: float
 ) -> None:

@@ -12,7 +12,7 @@ from pipeline.inference.model import Free, Model
 from pipeline.inference.prediction import predict
 from pipeline.inference.program import program
 from pipeline.simulate import bench_rig
-from vjm.effects import catalogue
+from vjm.effects import catalogue, for_kind
 from vjm.effects.base import Effect, Parameter, Rig, Values
 from vjm.laws import Polynomial
 from vjm.sensors import DeadWeight
@@ -48,7 +48,7 @@ class Counterweight(Effect):
 def every() -> Model:
     """One that is both, and all effects of the catalogue that go together."""
     left_out = {"material_yield", "joint_friction", "joint_clearance"}
-    known = [effect for name, effect in catalogue().items() if name not in left_out]
+    known = [effect for name, effect in for_kind("parallelogram").items() if name not in left_out]
     return Model().with_effects([HeavyHinge(), *known])
 
 

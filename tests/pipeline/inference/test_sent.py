@@ -112,6 +112,7 @@ def test_intervals_are_those_of_one_processor(two: None) -> None:
     assert intervals(alone) == found and alone.evaluations == both.evaluations > 0
 
 
+@pytest.mark.long
 def test_a_diagnosis_is_that_of_one_processor(two: None) -> None:
     tests = campaign((("modulus_error.scale", 0.95),), 3, 8)
 

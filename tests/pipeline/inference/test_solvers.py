@@ -31,9 +31,21 @@ def pulled(found: Fit) -> float:
         ("joint_friction.torque_Nmm", 200.0, MIXED[:3], (BENT, "joint_friction")),
         ("bar_initial_bow.bow_y_mm", 0.1, AXIAL, (BENT, "bar_initial_bow")),
         # Far above noise, along a curved ridge: a modulus three times as large.
-        ("bar_initial_bow.bow_y_mm", 0.1, AXIAL, ("modulus_error", "axis_flexibility")),
+        pytest.param(
+            "bar_initial_bow.bow_y_mm",
+            0.1,
+            AXIAL,
+            ("modulus_error", "axis_flexibility"),
+            marks=pytest.mark.long,
+        ),
         # Ridges: axial loads say little of a weight, and nothing of the width.
-        ("base_compliance.x_mm_per_N", 3e-6, AXIAL, (BENT, "dimension_error", "self_weight")),
+        pytest.param(
+            "base_compliance.x_mm_per_N",
+            3e-6,
+            AXIAL,
+            (BENT, "dimension_error", "self_weight"),
+            marks=pytest.mark.long,
+        ),
     ],
 )
 def test_both_end_at_the_same_least(

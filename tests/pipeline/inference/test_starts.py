@@ -113,7 +113,8 @@ def yielding(strain: float) -> Program:
     return program(campaign((("material_yield.strain", strain),), 3, 8))
 
 
-@pytest.mark.parametrize("strain", [pytest.param(0.00215, marks=pytest.mark.long), 0.0026])
+@pytest.mark.long
+@pytest.mark.parametrize("strain", [0.00215, 0.0026])
 def test_a_strain_of_yielding_between_two_sizes_of_the_ladder_is_found(strain: float) -> None:
     """At the larger of the two nothing yields, at the smaller one so much that the plain model fits better."""
     best = best_fit(BENT.with_effects([EFFECTS["material_yield"]]), yielding(strain), ("material_yield",))

@@ -6,9 +6,9 @@ import pytest
 from pipeline.errors import InputError
 from pipeline.simulate import bench_rig
 from pipeline.virtual.hidden import FACTOR, hidden
-from vjm.effects import catalogue
+from vjm.effects import catalogue, for_kind
 
-KNOWN = catalogue()
+KNOWN = for_kind("parallelogram")
 
 
 def drawn(name: str, seed: int) -> dict[str, float]:
@@ -45,3 +45,9 @@ def test_values_of_one_effect_add_up_and_names_alone_come_once() -> None:
     assert hidden(asked, KNOWN, bench_rig(), rng)["bar_initial_bow"] == {"bow_y_mm": 0.2, "bow_z_mm": -0.1}
     with pytest.raises(InputError, match="given twice"):
         hidden(["joint_friction", "joint_friction"], KNOWN, bench_rig(), rng)
+
+
+@pytest.mark.parametrize("name", ["actuator_compliance", "link_compliance"])
+def test_a_bench_has_no_drives_and_no_links(name: str) -> None:
+    with pytest.raises(InputError, match=f"the virtual bench cannot have {name}"):
+        hidden([name], catalogue(), bench_rig(), np.random.default_rng(1))

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from vjm import paper
-from vjm.effects import catalogue, from_file
+from vjm.effects import catalogue, for_kind, from_file
 from vjm.effects.base import Effect, Rig, kind_of
 from vjm.effects.thermal_expansion import DRIVE
 from vjm.equilibrium import Equilibrium, equilibrium
@@ -23,7 +23,9 @@ from vjm.sensitivity import Direction, by_parameters
 from vjm.sensors import TrueMoment
 
 HERE = Path(__file__).parent
-EFFECTS: dict[str, Effect] = {**catalogue(), **from_file(HERE / "seal_spring.py")}
+EVERY: dict[str, Effect] = {**catalogue(), **from_file(HERE / "seal_spring.py")}
+EFFECTS = {**for_kind("parallelogram"), **from_file(HERE / "seal_spring.py")}
+"""What rigs of bars can have."""
 NOISE = np.array([1e-3] * 3 + [2e-5] * 3 + [1.0] * 3 + [50.0] * 3 + [1e-3])
 """What a bench resolves of the readings: mm, rad, N, N·mm, mm."""
 

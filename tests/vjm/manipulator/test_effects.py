@@ -18,7 +18,7 @@ from tests.vjm.manipulator.example import (
     without_load,
 )
 from vjm import paper
-from vjm.effects import catalogue
+from vjm.effects import for_kind
 from vjm.effects.thermal_expansion import DRIVE
 from vjm.equilibrium import equilibrium
 from vjm.manipulator.buckling import critical_load
@@ -33,7 +33,7 @@ from vjm.refined import SEGMENTS
 from vjm.sensors import TrueMoment
 from vjm.stiffness import read_stiffness
 
-EFFECTS = catalogue()
+EFFECTS = for_kind("parallelogram")
 HELD = ("x", "z", "rx", "ry", "rz")
 RISE = 12.0
 FIBRES = {"fibre_y": 6.0, "fibre_z": 7.75}

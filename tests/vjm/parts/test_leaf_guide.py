@@ -91,7 +91,7 @@ def test_critical_load() -> None:
     assert force[0] > 0 > force[1]
 
 
-@pytest.mark.parametrize("driven", [True, False])
+@pytest.mark.parametrize("driven", [True, pytest.param(False, marks=pytest.mark.long)])
 def test_many_load_cases_are_solved(driven: bool) -> None:
     """3 000 to 10 % of L and 0.8 P_cr; driven to a shift, or under the force that makes it."""
     generator = np.random.default_rng(7)

@@ -25,7 +25,9 @@ def stiffness(of: Bar) -> np.ndarray:
     return of.links[0].stiffness
 
 
-@pytest.mark.parametrize("of", tolerances(), ids=lambda it: it.name)
+@pytest.mark.parametrize(
+    "of", [it for it in tolerances() if "parallelogram" in it.kinds], ids=lambda it: it.name
+)
 def test_at_its_nominal_values_nothing_changes(of: EndSoftness) -> None:
     rig = Parallelogram(LENGTH, 80.0, uniform_stiffness(LENGTH, EA, EIY, EIZ, GJ))
     assert of.apply(rig, of.nulls) is rig

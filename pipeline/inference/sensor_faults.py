@@ -1,0 +1,120 @@
+"""Faults of sensors in what a model predicts: read as a faulty sensor reads it, prescribed as it was read.
+
+A fault adds e(y) to a reading y. Of a column that is predicted, the prediction becomes y + e(y). Of one that controls
+a coordinate, what was really done is the y that makes y + e(y) the reading, which acts through the mechanism. Faults
+are small: how they change the derivatives by everything else is left out.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pipeline.campaign.names import SUPPORT
+from pipeline.inference.model import Model, Term
+from pipeline.inference.predicted import Prediction
+from pipeline.inference.program import Program
+from vjm.effects.sensor_fault import SensorFault
+
+Array = NDArray[np.float64]
+STEP = 1e-4
+"""Of a typical size, over which an error is differenced: it is a smooth formula."""
+TURNS = 6
+"""Of the iteration for what was really done: each takes an error's share of what is left."""
+
+
+def faults(model: Model) -> list[Term]:
+    """Terms that are faults of sensors, gains that are known to a tolerance among them."""
+    every = (*model.nominals, *model.terms)
+    return [term for term in every if isinstance(term.effect, SensorFault)]
+
+
+def in_mechanism(model: Model) -> list[int]:
+    """Numbers of the free parameters that are not those of a sensor's fault."""
+    names = {term.effect.name for term in faults(model)}
+    return [number for number, each in enumerate(model.free) if each.effect not in names]
+
+
+def inputs_off(model: Model, program: Program) -> Array:
+    """(R, 7) by which what was really prescribed differs from what was read of it."""
+    out = np.zeros((len(program.test), 7))
+    for term in faults(model):
+        rows, coordinates = _controlled(program, term)
+        if rows.size:
+            out[rows, coordinates] -= _error_of_input(term, program)[rows]
+    return out
+
+
+def faulted(model: Model, program: Program, found: Prediction) -> Prediction:
+    """A prediction as faulty sensors read it; the prediction is of what was really prescribed."""
+    terms = faults(model)
+    if not terms:
+        return found
+    read = _as_read(program, found)
+    values, by_free = found.values.copy(), found.by_free.copy()
+    for term in terms:
+        channel = _channel(program, term)
+        rows, coordinates = _controlled(program, term)
+        free = np.ones(len(values), dtype=bool)
+        free[rows] = False
+        values[free, channel] += _error(term, read, program)[free]
+        for number, column, done in _slopes(term, read, program, model) if by_free.shape[-1] else ():
+            by_free[..., number] = 0.0
+            by_free[free, channel, number] = column[free]
+            through = found.by_inputs[rows, :, coordinates] * done[rows][:, None]
+            by_free[rows, :, number] -= through
+    lost = found.lost
+    values[lost], by_free[lost] = found.values[lost], found.by_free[lost]
+    return replace(found, values=values, by_free=by_free)
+
+
+def _channel(program: Program, term: Term) -> int:
+    assert isinstance(term.effect, SensorFault)
+    return program.rows.columns.index(term.effect.column)
+
+
+def _controlled(program: Program, term: Term) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+    """Rows in which the sensor of a fault controls a coordinate, and which."""
+    held = np.array([[by == SUPPORT for by in test.control] for test in program.campaign.tests])[program.test]
+    # What a support holds is where it is, whatever a sensor says.
+    return np.nonzero((program.channels == _channel(program, term)) & ~held)  # type: ignore[return-value]
+
+
+def _as_read(program: Program, found: Prediction) -> Array:
+    """(R, C) what is there: predicted, and prescribed where it is that."""
+    out = found.values.copy()
+    given = np.take_along_axis(np.nan_to_num(program.measured), program.channels, axis=1)
+    np.put_along_axis(out, program.channels, given + found.shift[:, :6], axis=1)
+    return out
+
+
+def _error(term: Term, read: Array, program: Program) -> Array:
+    assert isinstance(term.effect, SensorFault)
+    return term.effect.error(read, program.rows, term.values)
+
+
+def _error_of_input(term: Term, program: Program) -> Array:
+    """(R,) what its column read too much where it controls a coordinate."""
+    read = np.nan_to_num(program.measured)
+    done, channel = read.copy(), _channel(program, term)
+    for _ in range(TURNS):
+        done[:, channel] = read[:, channel] - _error(term, done, program)
+    return np.asarray(read[:, channel] - done[:, channel])
+
+
+def _slopes(term: Term, read: Array, program: Program, model: Model) -> Iterator[tuple[int, Array, Array]]:
+    """Number of each free parameter of a fault, and (R,) derivatives by it: of its error where it is only read, and
+    where it controls a coordinate."""
+    for number, each in enumerate(model.free):
+        if each.effect != term.effect.name:
+            continue
+        size, name = STEP * abs(each.parameter.typical), each.parameter.name
+        ends = [
+            replace(term, values={**term.values, name: term.values[name] + step}) for step in (-size, size)
+        ]
+        low, high = (_error(end, read, program) for end in ends)
+        less, more = (_error_of_input(end, program) for end in ends)
+        yield number, (high - low) / (2.0 * size), (more - less) / (2.0 * size)

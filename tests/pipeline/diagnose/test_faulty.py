@@ -1,0 +1,55 @@
+"""A faulty sensor is named as one where nothing of the mechanism explains what is read, and only then."""
+
+from __future__ import annotations
+
+import pytest
+
+from pipeline.campaign import Campaign
+from pipeline.diagnose.diagnosis import diagnose
+from pipeline.diagnose.faulty import faults_of
+from pipeline.inference.model import Model
+from pipeline.inference.suitable import columns_read
+from pipeline.simulate import bench_rig
+from pipeline.virtual.bench import measure
+from pipeline.virtual.plan import GAUGES, SENSORS, bench_plan
+from tests.pipeline.diagnose.bench import MIXED, bench, creeping_gauge, growing_gain, with_fault
+from vjm.effects import catalogue
+
+ALWAYS = "bar_geometric_nonlinearity"
+QUICK = "sensor_drift@fz_N"
+HIDDEN = {
+    "sensor_gain@fx_N": {"share": 0.02},
+    QUICK: {"size": 15.0},
+    "sensor_settling@fy_N": {"size": 8.0, "steps": 2.5},
+    "sensor_lag@x_mm": {"keeps": 0.1},
+}
+
+
+def measured(name: str) -> Campaign:
+    """With a softer bar as well."""
+    plan = [test for test in bench_plan(12) if test.id in MIXED]
+    hidden = {f"{name}.{key}": value for key, value in HIDDEN[name].items()} | {"modulus_error.scale": 0.93}
+    return measure("faulty", bench_rig(), plan, SENSORS, hidden, 5, GAUGES)
+
+
+@pytest.mark.parametrize(
+    "name", [pytest.param(it, marks=[] if it == QUICK else pytest.mark.long) for it in HIDDEN]
+)
+def test_the_sensor_is_named_beside_the_effect(name: str) -> None:
+    found = diagnose(measured(name), Model(), catalogue())
+    assert found.verdict == "identified" and found.ruling.sets[0] == {ALWAYS, "modulus_error", name}
+    assert all(name in each for each in found.ruling.sets)
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("fault", [growing_gain, creeping_gauge])
+def test_a_fault_of_another_form_is_not_named_as_one_of_these(fault: object) -> None:
+    campaign = with_fault(bench("modulus_error.scale", 0.93), fault)  # type: ignore[arg-type]
+    assert diagnose(campaign, Model(), catalogue()).verdict == "unknown"
+
+
+def test_every_sensor_that_was_read_may_have_every_fault() -> None:
+    every = faults_of(catalogue().values(), columns_read(bench()))
+    # Four faults of thirteen columns, and cross-talk of every two of a load cell and of a tracker.
+    assert len(every) == 4 * 13 + 2 * 6 * 5
+    assert all(it.name == name and it.column for name, it in every.items())
