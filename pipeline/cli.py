@@ -273,12 +273,20 @@ def challenge(
     store: Annotated[Path, typer.Option(help="Where finished campaigns are kept.")] = Path(
         "reports/challenge/outcomes.jsonl"
     ),
+    dirty: Annotated[
+        bool,
+        typer.Option("--dirty", help="Benches as they are: bar, gains and noise beside what is written."),
+    ] = False,
     quiet: Quiet = False,
 ) -> None:
     """The score of the diagnosis over many virtual benches with hidden effects; stopped, it can go on."""
-    from pipeline.challenge.command import run_challenge
+    from pipeline.challenge.command import run_challenge, run_dirty
 
-    guarded(lambda: run_challenge(cases, workers, out, store, quiet))
+    if dirty:
+        own = store.with_name(f"dirty_{store.name}")
+        guarded(lambda: run_dirty(cases, workers, out, own, quiet))
+    else:
+        guarded(lambda: run_challenge(cases, workers, out, store, quiet))
 
 
 @app.command()

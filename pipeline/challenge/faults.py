@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -91,3 +91,15 @@ FAULTS: Mapping[str, Fault] = {
     "sticking_hinge": sticking_hinge,
     "creeping_bars": creeping_bars,
 }
+
+AT_FAULT: Mapping[str, tuple[str, ...]] = {
+    "growing_gain": ("fx_N",),
+    "cross_talk": ("fy_N", "mx_Nmm"),
+    "creeping_gauge": ("mid_mm",),
+}
+"""Columns that a fault is in: who names these sensors and nothing else is right, whatever its form."""
+
+
+def of_sensor(name: str, columns: Sequence[str]) -> bool:
+    """Whether an effect is a fault of one of these sensors."""
+    return name.partition("@")[2].partition("<")[0] in columns

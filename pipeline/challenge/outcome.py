@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from fem.frame.bench import Readings
 from pipeline.campaign import Campaign
 from pipeline.challenge.cases import ALWAYS, Case, Kind, case
-from pipeline.challenge.faults import FAULTS
+from pipeline.challenge.faults import AT_FAULT, FAULTS, of_sensor
 from pipeline.compare.error import Discrepancy
 from pipeline.coverage.cases import is_size
 from pipeline.diagnose.apart import multiple_correlation
@@ -116,7 +116,7 @@ def outcome(number: int, commit: str, code: str) -> Outcome:
         "sets": sets,
         "score": score,
         "inside": _inside(answer, it) if score == "right" and it.hidden else {},
-        "holdout": _held_out(answer),
+        "holdout": held_out(answer),
     }
     return Outcome(**common, seconds=round(process_time() - began, 2))
 
@@ -129,8 +129,11 @@ def judged(it: Case, verdict: str, sets: Sequence[Sequence[str]]) -> Score:
     if it.kind == "clean":
         return "right" if not any(named) else "false alarm" if all(named) else "in set"
     if it.fault:
+        at_fault = AT_FAULT.get(it.fault[0], ())
         if not any(named):
             return "missed"
+        if all(names and all(of_sensor(name, at_fault) for name in names) for names in named):
+            return "right"
         return "wrong" if len(named) == 1 else "undecided"
     if len(named) == 1:
         (only,) = named
@@ -227,7 +230,8 @@ def _inside(answer: Diagnosis, it: Case) -> dict[str, bool]:
     return out
 
 
-def _held_out(answer: Diagnosis) -> tuple[float, ...]:
+def held_out(answer: Diagnosis) -> tuple[float, ...]:
+    """Whitened RMS of each held-out test."""
     whole = answer.shelf.whole
     gap = Discrepancy(whole, answer.fit.prediction)
     every = [

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
 from itertools import pairwise
-from typing import get_args
+from typing import Any, get_args
 
 import numpy as np
 from scipy.stats import binomtest, norm
@@ -74,10 +74,15 @@ class Scored(Record):
 def share(hits: Iterable[bool]) -> Share:
     """Of all."""
     found = [bool(hit) for hit in hits]
-    if not found:
+    return counted(sum(found), len(found))
+
+
+def counted(count: int, of: int) -> Share:
+    """So many of so many."""
+    if not of:
         return Share(count=0, of=0, low=0.0, high=1.0)
-    ends = binomtest(sum(found), len(found)).proportion_ci(LEVEL, method="exact")
-    return Share(count=sum(found), of=len(found), low=float(ends.low), high=float(ends.high))
+    ends = binomtest(count, of).proportion_ci(LEVEL, method="exact")
+    return Share(count=count, of=of, low=float(ends.low), high=float(ends.high))
 
 
 def scored(outcomes: Sequence[Outcome]) -> Scored:
@@ -89,9 +94,9 @@ def scored(outcomes: Sequence[Outcome]) -> Scored:
     return Scored(
         cases=len(every),
         goals=tuple(_goals(every)),
-        kinds=_by(every, lambda it: (it.kind,)),
-        effects=_by(hidden, lambda it: tuple(it.sizes)),
-        faults=_by([it for it in every if it.fault], lambda it: (it.fault[0] if it.fault else "",)),
+        kinds=by(every, lambda it: (it.kind,)),
+        effects=by(hidden, lambda it: tuple(it.sizes)),
+        faults=by([it for it in every if it.fault], lambda it: (it.fault[0] if it.fault else "",)),
         cells=tuple(_cells([it for it in every if it.kind == "single"])),
         seconds_median=float(np.median(seconds)),
         seconds_95=float(np.quantile(seconds, 0.95)),
@@ -134,9 +139,8 @@ def _single(it: Outcome) -> bool:
     return it.verdict == "identified" and bool(it.sets and it.sets[0])
 
 
-def _by(
-    outcomes: Iterable[Outcome], names: Callable[[Outcome], tuple[str, ...]]
-) -> dict[str, dict[str, int]]:
+def by(outcomes: Iterable[Any], names: Callable[[Any], tuple[str, ...]]) -> dict[str, dict[str, int]]:
+    """Numbers of scores, by name."""
     found: dict[str, dict[str, int]] = {}
     for it in outcomes:
         for name in names(it):

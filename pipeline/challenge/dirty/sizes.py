@@ -1,0 +1,108 @@
+"""How large and how confusable a hidden effect is, after what was written about the rig and the sensors is known to its
+tolerances only."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fem.frame.bench import Readings
+from pipeline.campaign import Campaign
+from pipeline.challenge.cases import ALWAYS
+from pipeline.challenge.dirty.cases import DirtyCase
+from pipeline.challenge.dirty.dirt import true_rig
+from pipeline.diagnose.apart import multiple_correlation
+from pipeline.diagnose.diagnosis import Diagnosis
+from pipeline.inference.model import Model
+from pipeline.inference.nominals import linearised, nominals
+from pipeline.inference.prediction import predict
+from pipeline.inference.program import Program, program
+from pipeline.inference.residual import Whitening, whitening
+from pipeline.parameter_names import parted
+from pipeline.virtual.bench import read_out, true_readings
+from pipeline.virtual.plan import GAUGES
+from vjm.effects import catalogue
+
+Array = NDArray[np.float64]
+
+
+def sizes_after_tolerances(
+    it: DirtyCase, found: list[Readings], without: list[Readings], answer: Diagnosis
+) -> tuple[dict[str, float], dict[str, float]]:
+    """mu and gamma of each hidden effect after what was written about the rig is known to its tolerances."""
+    whole, model = answer.campaign, Model().with_effects([catalogue()[ALWAYS]])
+    clean, changed = (program(_exact(whole, it, readings)) for readings in (without, found))
+    reference = predict(model, clean, slopes=False)
+    white = whitening(clean, reference)
+    used = clean.predicted & clean.fitted[:, None]
+    numbers = nominals(whole)
+    line = linearised(model, clean, None, numbers) if numbers else None
+    given = (
+        np.zeros((int(used.sum()), 0))
+        if line is None
+        else white.apply(np.where(used[..., None], line, 0.0))[used]
+    )
+    sizes, gamma, signatures = {}, {}, {}
+    for name in it.effects or ((it.fault[0],) if it.fault else ()):
+        there = changed
+        if len(it.effects) > 1:
+            own = {path: value for path, value in it.hidden.items() if parted(path)[0] == name}
+            try:
+                alone = true_readings(true_rig(it.bench.rig, it.dirt.bar), it.bench.plan, own, GAUGES)
+                there = program(_exact(whole, it, alone))
+            except RuntimeError:
+                there = changed
+        signatures[name] = after(given, _difference(clean, there, reference.by_inputs, white, used))
+        sizes[name] = float(np.linalg.norm(signatures[name]))
+    for name in it.effects:
+        gamma[name] = _confusable(answer, name, it.effects, signatures[name], given, used)
+    return sizes, gamma
+
+
+def _exact(whole: Campaign, it: DirtyCase, found: list[Readings]) -> Campaign:
+    """The campaign with readings as they would be without any noise, its sigmas as they were told."""
+    return read_out(whole.name, it.bench.rig, it.bench.plan, whole.noise, None, found, GAUGES)
+
+
+def _difference(
+    clean: Program, changed: Program, by_inputs: Array, white: Whitening, used: NDArray[np.bool_]
+) -> Array:
+    """(N,) whitened, less what differs in the prescribed readings."""
+    change = changed.measured - clean.measured
+    inputs = np.take_along_axis(change, clean.channels, axis=1)
+    change = change - np.einsum("rck,rk->rc", by_inputs[..., :6], inputs)
+    return np.asarray(white.apply(np.where(used, change, 0.0))[used])
+
+
+def after(given: Array, values: Array) -> Array:
+    """(N, ...) times (1 + G Gt)^(-1/2): of what the tolerances do not explain."""
+    if not given.shape[1]:
+        return values
+    u, s, _ = np.linalg.svd(given, full_matrices=False)
+    less = 1.0 - 1.0 / np.sqrt(1.0 + s**2)
+    return np.asarray(
+        values
+        - u @ (less[:, None] * (u.T @ values.reshape(len(values), -1))).reshape(len(s), *values.shape[1:])
+    )
+
+
+def _confusable(
+    answer: Diagnosis, name: str, hidden: Sequence[str], mine: Array, given: Array, used: NDArray[np.bool_]
+) -> float:
+    """1 / sqrt(1 - rho) of the candidate that looks most like it."""
+    shelf = answer.shelf
+    root = frozenset({ALWAYS}) if ALWAYS in shelf.candidates else frozenset[str]()
+    about, at = shelf.picture(root), shelf.at
+    place = np.full(used.shape, -1)
+    place[used] = np.arange(used.sum())
+    rows = place[at.rows]
+    rows = rows[rows >= 0]
+    columns = [
+        c for s in about.signatures.values() if s.effect.name not in (name, *hidden) for c in s.columns
+    ]
+    if not np.any(mine) or any(len(c) != len(rows) for c in columns):
+        return float("nan")
+    alike = [multiple_correlation(mine[rows], after(given[rows], c)) for c in columns]
+    return float(1.0 / np.sqrt(max(1.0 - max(alike, default=0.0), 1e-6)))
