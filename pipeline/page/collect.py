@@ -24,6 +24,7 @@ from pipeline.page.words import SOURCES, assumptions, reading, why
 from pipeline.parameter_names import path_of
 from pipeline.provenance import commit, versions
 from reports.quantities import sigma
+from vjm.effects import effect_of
 
 Say = Callable[[str], None]
 
@@ -50,7 +51,7 @@ def collect(it: Subject, commands: tuple[str, ...] = (), say: Say = lambda _: No
     found = stages(model, cases, say)
     answer = it.answer or _plain_answer(it, model, found)
     known = it.known.effects
-    catalogue = [known[name] for name in model.names]
+    catalogue = [effect_of(name, known) for name in model.names]
     return Page(
         campaign=whole.name,
         folder=str(whole.folder or ""),
@@ -68,6 +69,10 @@ def collect(it: Subject, commands: tuple[str, ...] = (), say: Say = lambda _: No
         out_by_plausibility=answer.out_by_plausibility,
         tests=tests_of(found.before, found.after),
         candidates=_candidates(answer, it.known),
+        doctor=answer.doctor,
+        nominals=answer.nominals,
+        set_aside=answer.set_aside,
+        noise=answer.noise,
         isolability=it.isolability,
         next_test=answer.next_test,
         catalogue=tuple(
@@ -94,7 +99,7 @@ def proposed(model: Model, answer: Answer, known: Known) -> Model:
     """The model that an answer leaves: its effects with its values."""
     terms = []
     for name in answer.effects:
-        effect = known.effects[name]
+        effect = effect_of(name, known.effects)
         values = {p.name: answer.parameters[path_of(name, p.name)].value for p in effect.parameters}
         terms.append(Term(effect, values))
     return replace(model, terms=tuple(terms))
@@ -161,7 +166,7 @@ def _candidates(answer: Answer, known: Known) -> tuple[CandidatePage, ...]:
     return tuple(
         CandidatePage(
             effect=c.effect,
-            title=known.effects[c.effect].title,
+            title=effect_of(c.effect, known.effects).title,
             chosen=c.effect in answer.effects,
             screen=c.screen,
             fit=c.fit,

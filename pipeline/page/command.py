@@ -24,6 +24,7 @@ from pipeline.page.isolability import attempted_isolability, isolability_anew
 from pipeline.page.record import NAME, Page
 from pipeline.progress import Progress, Stage
 from pipeline.typed import command
+from vjm.effects import effect_named
 
 RESULTS, RESULT = Path("results"), "result.json"
 
@@ -152,7 +153,7 @@ def _answered(it: Subject, answer: Answer, path: Path, stage: Stage) -> Subject:
             f"{path} is about the campaign {answer.campaign!r}, allowed is one about {it.campaign.name!r}"
         )
     for name in [*answer.effects, *(c.effect for c in answer.candidates)]:
-        if name not in it.known.effects:
+        if effect_named(name, it.known.effects) is None:
             raise InputError(
                 f"{path} names the effect {name!r}, which is unknown; allowed with --effects-from"
             )

@@ -8,7 +8,15 @@ from __future__ import annotations
 
 from typing import Any
 
-from pipeline.answer import Correlation, ModelError, Value
+from pipeline.answer import (
+    Correlation,
+    DoctorFinding,
+    FoundNoise,
+    ModelError,
+    NominalValue,
+    SetAside,
+    Value,
+)
 from pipeline.record import Record
 
 Numbers = tuple[float | None, ...]
@@ -147,6 +155,10 @@ class Page(Record):
     out_by_plausibility: tuple[tuple[str, ...], ...] = ()
     tests: tuple[TestPage, ...]
     candidates: tuple[CandidatePage, ...]
+    doctor: tuple[DoctorFinding, ...] = ()
+    nominals: tuple[NominalValue, ...] = ()
+    set_aside: tuple[SetAside, ...] = ()
+    noise: tuple[FoundNoise, ...] = ()
     isolability: Isolability | None
     next_test: dict[str, Any] | None
     catalogue: tuple[EffectPage, ...]

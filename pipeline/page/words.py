@@ -8,6 +8,7 @@ from pipeline.answer import Answer, Candidate
 from pipeline.campaign import Campaign
 from pipeline.inference.program import LOST
 from reports.quantities import short, sigma
+from vjm.effects import effect_of
 from vjm.effects.base import Effect
 
 APART = 10.0
@@ -65,7 +66,7 @@ def assumptions(campaign: Campaign, names: tuple[str, ...], known: Mapping[str, 
     if rig.platform_weight or rig.line_weight:
         yield f"Known weights: platform {rig.platform_weight:g} N, bars {rig.line_weight:g} N/mm."
     for name in names:
-        yield f"{name}: {known[name].limits}."
+        yield f"{name}: {effect_of(name, known).limits}."
 
 
 _READING = (

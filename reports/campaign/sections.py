@@ -4,7 +4,7 @@ from collections.abc import Iterator, Mapping
 from math import ceil
 
 from reports.blocks import Block, Bullets, Code, Explorer, Figure, Lead, Section, Tables, Text
-from reports.campaign import curve, matrix, plots, tables
+from reports.campaign import curve, doubt, matrix, plots, tables
 from reports.campaign.names import channel_label, measured, test_label, worst
 from reports.formats import number
 from reports.load import Json
@@ -26,6 +26,10 @@ def build(page: Json, pictures: Pictures) -> list[Section]:
     parts += [Section("candidates", "What could be missing", list(candidates(page, pictures)))]
     if page["parameters"]:
         parts.append(Section("parameters", "Parameters", list(parameters(page))))
+    if doubt.known(page):
+        parts.append(
+            Section("doubt", "What was written, and what the readings are", list(doubt.blocks(page)))
+        )
     parts.append(Section("next", "Next test", list(next_test(page))))
     parts.append(Section("assumed", "What was assumed", [Bullets(page["assumptions"]), tables.sigmas(page)]))
     return [*parts, sources(page), record(page)]
