@@ -22,8 +22,8 @@ class Done:
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """The default run first: files are given out whole, and at the end the longest one would be waited for."""
-    items.sort(key=lambda item: "clean_run" not in getattr(item, "fixturenames", ()))
+    """Whole runs first: files are given out whole, and at the end the longest one would be waited for."""
+    items.sort(key=lambda item: "_run.py" not in item.nodeid)
 
 
 @pytest.fixture(scope="session")

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from pipeline.compare.record import ChannelError, Lost, TestError
 from pipeline.inference.driving import column_name, unit_of
-from pipeline.inference.prediction import Prediction
+from pipeline.inference.predicted import Prediction
 from pipeline.inference.program import Program
 from pipeline.inference.residual import residual, whitening
 from pipeline.noise import Check, chi_square, lag_one

@@ -26,7 +26,8 @@ from pipeline.inference.linear_prediction import predict_linear
 from pipeline.inference.model import Model
 from pipeline.inference.nominals import nominals
 from pipeline.inference.objective import Objective
-from pipeline.inference.prediction import Prediction, moved_along, predict
+from pipeline.inference.predicted import Prediction, moved_along
+from pipeline.inference.prediction import predict
 from pipeline.inference.program import Program, program
 from pipeline.inference.residual import residual
 from pipeline.inference.sigmas import completed

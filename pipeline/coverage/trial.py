@@ -18,7 +18,7 @@ from pipeline.coverage.cases import BASE, is_size, typical
 from pipeline.inference.fit import Fit
 from pipeline.inference.intervals import holds_null, intervals, landscape
 from pipeline.inference.model import Model
-from pipeline.inference.prediction import Prediction
+from pipeline.inference.predicted import Prediction
 from pipeline.inference.program import Program, program
 from pipeline.inference.starts import best_fit
 from pipeline.record import Record

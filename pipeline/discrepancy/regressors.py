@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from pipeline.campaign.names import COORDINATES
 from pipeline.compare.error import Discrepancy
 from pipeline.inference.driving import driving
-from pipeline.inference.prediction import Prediction
+from pipeline.inference.predicted import Prediction
 from pipeline.inference.program import Program
 from pipeline.misfit import direction
 

@@ -16,7 +16,8 @@ from pipeline.extrapolation.forward import forward
 from pipeline.extrapolation.polynomial import polynomial
 from pipeline.extrapolation.yardstick import Error, Yardstick, yardstick
 from pipeline.inference.model import Model
-from pipeline.inference.prediction import Prediction, predict
+from pipeline.inference.predicted import Prediction
+from pipeline.inference.prediction import predict
 from pipeline.inference.program import program
 from vjm.effects import catalogue
 from vjm.effects.base import Effect

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pipeline.discrepancy.regressors import Samples, regressors, samples
-from pipeline.inference.prediction import Prediction
+from pipeline.inference.predicted import Prediction
 from pipeline.inference.program import Program
 from pipeline.inference.residual import whitening
 

@@ -11,7 +11,8 @@ from pipeline.challenge.cases import ALWAYS, Case
 from pipeline.compare.error import Discrepancy
 from pipeline.extrapolation.bench import Measured
 from pipeline.inference.model import Model
-from pipeline.inference.prediction import Prediction, predict
+from pipeline.inference.predicted import Prediction
+from pipeline.inference.prediction import predict
 from pipeline.inference.program import Program
 from pipeline.record import Record
 from vjm.effects import catalogue

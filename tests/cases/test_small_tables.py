@@ -82,7 +82,12 @@ VERDICTS = {
 }
 
 
-@pytest.mark.parametrize("name", VERDICTS)
+SLOW = ("n_B_s4", "t10_add_unsolvable", "t09_identified_undetermined")
+
+
+@pytest.mark.parametrize(
+    "name", [pytest.param(it, marks=[pytest.mark.long] if it in SLOW else []) for it in VERDICTS]
+)
 def test_every_table_has_its_verdict(name: str) -> None:
     found = answer(name)
     assert found.verdict == VERDICTS[name], found.sentences
@@ -172,6 +177,7 @@ def test_the_shipped_bench_without_one_column_of_the_wrench(tmp_path: Path) -> N
     assert json.dumps(made.model_dump(mode="json"), allow_nan=False)
 
 
+@pytest.mark.long
 def test_the_next_test_reads_sensors_that_exist() -> None:
     found = answer("n_B_s4")
     assert any("axis_flexibility" in names for names in sets(found))
@@ -261,3 +267,22 @@ def test_readings_that_stand_still_refute_no_sigma(tmp_path: Path) -> None:
     campaign = read(tmp_path)
     found = answered(diagnose(campaign, Model(), known_effects(()).effects))
     assert (found.verdict, found.effects) == ("within_noise", ())
+
+
+@pytest.mark.long
+@pytest.mark.parametrize(
+    ("name", "mistake"),
+    [("n_B_k0", "all forces are in kgf"), ("n_e_flip", "all forces have the wrong sign")],
+)
+def test_a_mistake_of_the_table_is_told_and_no_effect_is_named(name: str, mistake: str) -> None:
+    found = answer(name)
+    assert found.verdict == "unknown" and found.effects == ()
+    assert mistake in [it.hypothesis for it in found.doctor]
+    assert mistake in found.sentences[0]
+
+
+@pytest.mark.long
+def test_one_bad_reading_is_told_and_the_verdict_is_that_without_it() -> None:
+    found = answer("n_i_outlier_f")
+    assert [(it.column, it.step) for it in found.set_aside] == [("x_mm", 5)]
+    assert found.verdict == "ambiguous" and found.as_declared == "unknown"

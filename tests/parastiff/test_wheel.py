@@ -15,7 +15,7 @@ import hatch_build
 import parastiff
 
 ROOT = Path(__file__).resolve().parents[2]
-LARGEST = 1_000_000
+LARGEST = 1_200_000
 """Bytes of the wheel."""
 OWN = """
 from {module} import Effect, Parameter
@@ -132,6 +132,7 @@ def test_its_command_does_what_that_of_the_checkout_does(bench: Path) -> None:
     assert "Usage: parastiff" in said(bench, "-m", "parastiff", "--help")
 
 
+@pytest.mark.long
 def test_processes_and_what_was_pickled_know_it_by_its_name(bench: Path) -> None:
     (bench / "spread.py").write_text(SPREAD)
     assert said(bench, "spread.py") == "True"

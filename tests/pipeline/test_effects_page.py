@@ -54,7 +54,7 @@ def test_a_page_says_everything(name: str) -> None:
 
 def test_a_wrong_name_is_answered_with_the_right_one() -> None:
     assert "did you mean 'joint_friction'?" in output("joint_fiction", code=2)
-    assert "allowed: axis_flexibility, " in output("zzz", code=2)
+    assert "allowed: actuator_compliance, " in output("zzz", code=2)
 
 
 def test_an_effect_of_ones_own(tmp_path: Path) -> None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
@@ -67,29 +68,29 @@ def sigmas_of(campaign: Campaign) -> Array:
 
 
 def times(campaign: Campaign, columns: tuple[str, ...], factor: float) -> Campaign:
-    """Columns times a factor. A sigma goes with them where the readings scatter by it as they are, and stays where they
-    scatter by it once they are multiplied."""
+    """Columns times a factor. A sigma goes with them where the readings scatter by it as they are; it stays where they
+    scatter by it once they are multiplied, and where too few readings tell that."""
     every = columns_of(campaign)
     factors = np.where(np.isin(every, columns), factor, 1.0)
     sigmas = sigmas_of(campaign)
     size = abs(factor)
     for channel in np.flatnonzero(np.abs(factors) != 1.0):
-        scatter, sigma = _scatter(campaign, int(channel)), sigmas[channel]
-        if scatter is None:
-            sigmas[channel] = sigma * max(1.0, size)
-        elif abs(np.log(scatter / sigma)) < abs(np.log(size * scatter / sigma)):
+        scatter, sigma = _scatters(campaign)[channel], sigmas[channel]
+        if scatter is not None and abs(np.log(scatter / sigma)) < abs(np.log(size * scatter / sigma)):
             sigmas[channel] = sigma * size
     return with_readings(campaign, lambda values: values * factors, sigmas)
 
 
-def _scatter(campaign: Campaign, channel: int) -> float | None:
-    """Of the readings of a channel beyond a smooth path, in their unit; None where that cannot be told."""
-    paths = []
-    for test in campaign.tests:
-        values = readings(test)[:, channel]
-        values = values[np.isfinite(values)]
-        paths.append((np.arange(values.size, dtype=float), values))
-    return from_roughness(paths).value or None
+@lru_cache(maxsize=2)
+def _scatters(campaign: Campaign) -> tuple[float | None, ...]:
+    """Of the readings of every channel beyond a smooth path, in their unit; None where that cannot be told."""
+    out = []
+    every = [readings(test) for test in campaign.tests]
+    for channel in range(every[0].shape[1]):
+        columns = [values[np.isfinite(values[:, channel]), channel] for values in every]
+        paths = [(np.arange(column.size, dtype=float), column) for column in columns]
+        out.append(from_roughness(paths).value or None)
+    return tuple(out)
 
 
 FORCES, MOMENTS, TRAVELS, TURNS = WRENCHES[:3], WRENCHES[3:], DISPLACEMENTS[:3], DISPLACEMENTS[3:]

@@ -81,7 +81,7 @@ def test_an_effect_of_ones_own_that_fails_is_said(tmp_path: Path) -> None:
 
 BAD = {
     "unknown": (["joint_frction"], "effect 'joint_frction' is unknown, did you mean 'joint_friction'?"),
-    "nothing near": (["magic"], "effect 'magic' is unknown, allowed: axis_flexibility, "),
+    "nothing near": (["magic"], "effect 'magic' is unknown, allowed: actuator_compliance, "),
     "twice": (["load_offset", "load_offset"], "effect load_offset is named twice, allowed is each once"),
     "rig": (
         ["joint_friction", "bar_length_mismatch"],

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from pipeline.compare.error import Discrepancy
-from pipeline.inference.prediction import Prediction, no_slides, no_stops
+from pipeline.inference.predicted import Prediction, no_slides, no_stops
 from pipeline.inference.program import INPUTS, Program, program
 from tests.pipeline.bench import bench
 from vjm.reasons import Reason

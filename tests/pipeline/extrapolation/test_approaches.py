@@ -23,7 +23,7 @@ from pipeline.extrapolation.approaches import (
 from pipeline.extrapolation.forward import aic, forward
 from pipeline.extrapolation.yardstick import yardstick
 from pipeline.inference.model import Model
-from pipeline.inference.prediction import Prediction
+from pipeline.inference.predicted import Prediction
 from pipeline.inference.program import program
 from tests.pipeline.extrapolation.stiff import stiff
 from vjm.effects import catalogue

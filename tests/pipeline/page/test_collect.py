@@ -151,6 +151,7 @@ def test_a_report_inside_the_campaign_is_refused(tmp_path: Path, monkeypatch: py
     assert sorted(p.name for p in (tmp_path / "bench").iterdir()) == ["campaign.toml", "measurements.csv"]
 
 
+@pytest.mark.long
 def test_report_from_the_command_line(pipeline_command: Callable[..., Done], tmp_path: Path) -> None:
     """By the folder, of a campaign, of what was saved, with the same bytes; an answer about another one is refused."""
     folder = tmp_path / "bench"

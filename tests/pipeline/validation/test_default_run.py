@@ -14,6 +14,7 @@ from pipeline.validation.entries import eight_entries
 from pipeline.validation.result import Result
 from tests.conftest import CleanRun
 
+pytestmark = pytest.mark.long
 # Identified K_b of the reference bar, measured with this project on the default mesh (18 183 unknowns).
 REGRESSION = {
     "K11": 21961.6,
