@@ -8,7 +8,7 @@ import traceback
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
-from time import perf_counter
+from time import process_time
 from typing import Any, get_args
 
 import numpy as np
@@ -29,7 +29,7 @@ from pipeline.record import Record
 from tests.fuzz.tables import Files
 
 LIMIT = 60.0
-"""Seconds that all commands may take for one small table."""
+"""Seconds of this process that all commands may take for one small table, whatever else the machine does."""
 LIBRARY = re.compile(r"SVD|ingular matrix|positive definite|LinAlgError|illegal value")
 """What a library of linear algebra says of itself."""
 
@@ -54,7 +54,7 @@ class Seen:
 
     def attempt(self, what: str, work: Callable[[], str]) -> None:
         """Runs a command; InputError is a result, anything else that is raised a fault."""
-        start = perf_counter()
+        start = process_time()
         try:
             self.done[what] = work()
         except InputError as error:
@@ -64,7 +64,7 @@ class Seen:
         except Exception:
             self.done[what] = "raised"
             self.faults.append(f"{what}: {traceback.format_exc()}")
-        self.parts[what] = perf_counter() - start
+        self.parts[what] = process_time() - start
 
 
 def looked(files: Files) -> Seen:
