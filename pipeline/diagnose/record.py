@@ -81,9 +81,10 @@ def answer_of(it: Diagnosis, sentences: tuple[str, ...] = (), found: Fit | None 
         zeros=()
         if it.ruling.zero is None or it.ruling.zero.zero is None
         else (zero_record(it.ruling.zero.zero),),
-        nominals=attempts.get(
-            "what was written about the rig", lambda: nominals_of(found, shelf.criteria), ()
-        ),
+        # Beside a mistake of the table they take up what that does.
+        nominals=()
+        if it.doctor
+        else attempts.get("what was written about the rig", lambda: nominals_of(found, shelf.criteria), ()),
         not_done=(*it.failed, *attempts.failed),
         sentences=sentences,
         evaluations=shelf.evaluations + land.evaluations,

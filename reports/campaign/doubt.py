@@ -22,7 +22,7 @@ def blocks(page: Json) -> Iterator[Block]:
     """Mistakes of the table first, then what moved, then the readings."""
     if page.get("doctor"):
         yield Text("The table seems to have a mistake; nothing else is named before that is settled:")
-        yield Bullets([f"{it['hypothesis']}: {it['mend']}." for it in page["doctor"]])
+        yield Bullets([f"{it['hypothesis']}. Then {it['mend']}." for it in page["doctor"]])
     if page.get("nominals"):
         yield nominals(page)
     if page.get("set_aside"):
@@ -45,7 +45,7 @@ def nominals(page: Json) -> Table:
     ]
     rows = [
         [
-            Cell(it["name"], "far" if abs(it["pull"]) > PULLED else "" if it["seen"] else "not seen"),
+            Cell(it["name"], "not seen" if not it["seen"] else "far" if abs(it["pull"]) > PULLED else ""),
             Cell(number(it["nominal"], 4)),
             Cell(number(it["tolerance"], 3)),
             Cell(number(it["value"], 4) if it["seen"] else DASH),
