@@ -20,8 +20,11 @@ from hatchling.builders.hooks.plugin.interface import BuildHookInterface
 NAME = "parastiff"
 PACKAGES = ("fem", "meshes", "pipeline", "reports", "vjm")
 DATA = (".csv", ".css", ".j2", ".js", ".toml")
-RESULTS = ("challenge", "coverage", "extrapolation", "studio", "validation")
-"""Folders of `reports` with results of the checkout."""
+LEFT_OUT = {
+    "reports": ("challenge", "coverage", "extrapolation", "sensitivity", "studio", "validation"),
+    "pipeline": ("extrapolation", "sensitivity"),
+}
+"""Folders of packages that only a checkout has: results, and studies of the diagnosis that no command runs."""
 EXAMPLE = "examples/bench"
 _MODULE = re.compile(rf"(?:{'|'.join(PACKAGES)})(?:\.[A-Za-z_]\w*)+")
 
@@ -52,7 +55,7 @@ def laid_out(root: Path) -> Iterator[tuple[str, bytes]]:
     for folder in (NAME, *PACKAGES, EXAMPLE):
         for path in sorted((root / folder).rglob("*")):
             inside = path.relative_to(root / folder)
-            if not path.is_file() or (folder == "reports" and inside.parts[0] in RESULTS):
+            if not path.is_file() or inside.parts[0] in LEFT_OUT.get(folder, ()):
                 continue
             where = inside.as_posix() if folder == NAME else f"{folder}/{inside.as_posix()}"
             if path.suffix == ".py":

@@ -40,6 +40,11 @@ class Data:
     temperature: Array | None
     lines: NDArray[np.int64]
 
+    @property
+    def readings(self) -> Array:
+        """(N, 12 + G) of all channels."""
+        return np.hstack([self.displacement, self.wrench, self.gauges])
+
 
 @dataclass(frozen=True, eq=False)
 class Test:

@@ -60,7 +60,7 @@ class Case:
     """hidden: "effect.parameter" to value. fault: what no effect explains, with its size. seed: of the noise."""
 
     number: int
-    kind: Kind
+    kind: str
     bench: Bench
     hidden: Mapping[str, float]
     fault: tuple[str, float] | None

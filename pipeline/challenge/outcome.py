@@ -2,17 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
+from functools import partial
 from time import process_time
-from typing import Any, Literal
+from typing import Any, Literal, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
 from fem.frame.bench import Readings
-from pipeline.campaign import Campaign
-from pipeline.challenge.cases import ALWAYS, Case, Kind, case
-from pipeline.challenge.faults import AT_FAULT, FAULTS, of_sensor
+from pipeline.campaign import Campaign, ParallelogramRig
+from pipeline.challenge.cases import ALWAYS, Case, case
+from pipeline.challenge.faults import FAULTS
 from pipeline.compare.error import Discrepancy
 from pipeline.coverage.cases import is_size
 from pipeline.diagnose.apart import multiple_correlation
@@ -20,9 +21,10 @@ from pipeline.diagnose.diagnosis import Diagnosis, diagnose
 from pipeline.diagnose.shelf import Shelf
 from pipeline.inference.intervals import intervals, landscape
 from pipeline.inference.model import Model
+from pipeline.inference.predicted import Prediction
 from pipeline.inference.prediction import predict
-from pipeline.inference.program import program
-from pipeline.inference.residual import whitening
+from pipeline.inference.program import Program, program
+from pipeline.inference.residual import Whitening, whitening
 from pipeline.parameter_names import parted
 from pipeline.record import Record
 from pipeline.virtual.bench import read_out, true_readings
@@ -31,6 +33,7 @@ from vjm.effects import catalogue
 from vjm.work import TooMuch
 
 Array = NDArray[np.float64]
+AnyCase = TypeVar("AnyCase", bound=Case)
 Score = Literal["right", "in set", "part", "missed", "undecided", "wrong", "false alarm", "failed"]
 """right: exactly what was hidden, or that nothing was, or that nothing known explains it. in set: one of the sets is
 right. part: some of it, and nothing else. missed: nothing was named where something was hidden. undecided: unknown
@@ -40,24 +43,23 @@ SHARES = (1.0, 0.7, 0.5, 0.35)
 """Of the loads, tried in turn where a bench does not bear them."""
 
 
-class Outcome(Record):
-    """A case and its score. sizes: mu, sigmas by which each hidden effect shows. gamma: 1 / sqrt(1 - rho), by effect,
+class Answered(Record):
+    """A case and its answer. sizes: mu, sigmas by which each hidden effect shows. gamma: 1 / sqrt(1 - rho), by effect,
     of the rival that looks most like it. sets: the answer, without what every bench has. inside: whether the 95 %
     intervals hold the truth, of right answers. holdout: whitened RMS of each held-out test. code: digest of what
     answered."""
 
     number: int
-    kind: Kind
+    kind: str
     plan: str
     hidden: dict[str, float]
     fault: tuple[str, float] | None
-    rows: int
-    sizes: dict[str, float]
-    gamma: dict[str, float]
-    verdict: str
-    sets: tuple[tuple[str, ...], ...]
-    score: Score
-    inside: dict[str, bool] = {}  # noqa: RUF012 (pydantic copies it)
+    rows: int = 0
+    sizes: dict[str, float] = {}  # noqa: RUF012 (pydantic copies it)
+    gamma: dict[str, float] = {}  # noqa: RUF012
+    verdict: str = ""
+    sets: tuple[tuple[str, ...], ...] = ()
+    inside: dict[str, bool] = {}  # noqa: RUF012
     holdout: tuple[float, ...] = ()
     error: str = ""
     seconds: float
@@ -73,6 +75,12 @@ class Outcome(Record):
     def confusability(self) -> float:
         """The largest gamma, 1 where nothing is hidden."""
         return max(self.gamma.values(), default=1.0)
+
+
+class Outcome(Answered):
+    """A case of the clean programme and its score."""
+
+    score: Score = "failed"
 
 
 def outcome(number: int, commit: str, code: str) -> Outcome:
@@ -99,7 +107,7 @@ def outcome(number: int, commit: str, code: str) -> Outcome:
     except RuntimeError as error:
         return Outcome(**common, error=f"bench: {error}", seconds=round(process_time() - began, 2))
     campaign = campaign_of(it, found, it.seed)
-    sizes = {name: shows(it, only, without) for name, only in each_alone(it, found, without).items()}
+    sizes = {name: shows(it, only, without) for name, only in each_alone(it, found, it.bench.rig).items()}
     common |= {
         "rows": sum(t.data.steps.size for t in campaign.tests),
         "sizes": {name: float(np.linalg.norm(d)) for name, d in sizes.items()},
@@ -127,14 +135,21 @@ def judged(it: Case, verdict: str, sets: Sequence[Sequence[str]]) -> Score:
     if verdict == "unknown":
         return "right" if it.fault else "undecided"
     if it.kind == "clean":
-        return "right" if not any(named) else "false alarm" if all(named) else "in set"
+        return of_nothing(named)
     if it.fault:
-        at_fault = AT_FAULT.get(it.fault[0], ())
         if not any(named):
             return "missed"
-        if all(names and all(of_sensor(name, at_fault) for name in names) for names in named):
-            return "right"
         return "wrong" if len(named) == 1 else "undecided"
+    return of_effects(named, truth)
+
+
+def of_nothing(named: Sequence[set[str]]) -> Score:
+    """Of sets that are named where nothing is hidden."""
+    return "right" if not any(named) else "false alarm" if all(named) else "in set"
+
+
+def of_effects(named: Sequence[set[str]], truth: set[str]) -> Score:
+    """Of sets that are named where effects are hidden."""
     if len(named) == 1:
         (only,) = named
         if only == truth:
@@ -147,22 +162,30 @@ def judged(it: Case, verdict: str, sets: Sequence[Sequence[str]]) -> Score:
 
 def measured(number: int) -> tuple[Case, list[Readings], list[Readings]]:
     """The case with loads that its bench bears, and its readings with and without what is hidden, both exact."""
+    return borne(partial(case, number), lambda it: it.bench.rig)
+
+
+def borne(
+    make: Callable[[float], AnyCase], rig: Callable[[AnyCase], ParallelogramRig]
+) -> tuple[AnyCase, list[Readings], list[Readings]]:
+    """A case with the largest share of its loads that its true rig bears, and exact readings of that with and without
+    what is hidden. RuntimeError where it bears none."""
     for share in SHARES:
-        it = case(number, share)
-        bench = it.bench
+        it = make(share)
+        true, plan = rig(it), it.bench.plan
         try:
-            without = true_readings(bench.rig, bench.plan, {}, GAUGES)
-            found = true_readings(bench.rig, bench.plan, it.hidden, GAUGES) if it.hidden else without
+            without = true_readings(true, plan, {}, GAUGES)
+            found = true_readings(true, plan, it.hidden, GAUGES) if it.hidden else without
             if it.fault:
-                found = FAULTS[it.fault[0]](bench, found, it.fault[1])
+                found = FAULTS[it.fault[0]](it.bench, found, it.fault[1])
             return it, found, without
         except RuntimeError as error:
             last = error
-    raise RuntimeError(f"case {number} at {SHARES[-1]:g} of its loads: {last}")
+    raise RuntimeError(f"case {it.number} at {SHARES[-1]:g} of its loads: {last}")
 
 
-def each_alone(it: Case, found: list[Readings], without: list[Readings]) -> Mapping[str, list[Readings]]:
-    """Readings with each effect alone; the fault is one."""
+def each_alone(it: Case, found: list[Readings], rig: ParallelogramRig) -> Mapping[str, list[Readings]]:
+    """Readings of the true rig with each effect alone; the fault is one."""
     if it.fault:
         return {it.fault[0]: found}
     if len(it.effects) < 2:
@@ -171,7 +194,7 @@ def each_alone(it: Case, found: list[Readings], without: list[Readings]) -> Mapp
     for name in it.effects:
         own = {path: value for path, value in it.hidden.items() if parted(path)[0] == name}
         try:
-            alone[name] = true_readings(it.bench.rig, it.bench.plan, own, GAUGES)
+            alone[name] = true_readings(rig, it.bench.plan, own, GAUGES)
         except RuntimeError:
             # One that is borne only with the other: what it adds to that.
             alone[name] = found
@@ -186,13 +209,18 @@ def campaign_of(it: Case, found: list[Readings], seed: int | None) -> Campaign:
 
 def shows(it: Case, found: list[Readings], without: list[Readings]) -> Array:
     """(N,) whitened difference of the fitted readings that are predicted, less what prescribed ones answer for."""
-    cases = program(campaign_of(it, without, None))
-    change = program(campaign_of(it, found, None)).measured - cases.measured
+    cases, changed = (program(campaign_of(it, readings, None)) for readings in (without, found))
     reference = predict(Model().with_effects([catalogue()[ALWAYS]]), cases, slopes=False)
+    return difference(cases, changed, reference, whitening(cases, reference))
+
+
+def difference(cases: Program, changed: Program, reference: Prediction, white: Whitening) -> Array:
+    """(N,) the same of two programs of the same rows, about a prediction of the first."""
+    change = changed.measured - cases.measured
     inputs = np.take_along_axis(change, cases.channels, axis=1)
     change = change - np.einsum("rck,rk->rc", reference.by_inputs[..., :6], inputs)
     used = cases.predicted & cases.fitted[:, None]
-    return np.asarray(whitening(cases, reference).apply(np.where(used, change, 0.0))[used])
+    return np.asarray(white.apply(np.where(used, change, 0.0))[used])
 
 
 def _confusable(shelf: Shelf, names: Sequence[str], signatures: Mapping[str, Array]) -> dict[str, float]:

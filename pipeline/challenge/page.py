@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import get_args
 
 from pipeline.challenge.cases import SEED
@@ -31,7 +31,7 @@ def page(it: Scored) -> str:
         "· undecided: unknown where the catalogue explains it, or several sets where it does not · wrong: a name of "
         "what was not there.",
         "",
-        *_table("kind", it.kinds),
+        *by_score("kind", it.kinds, SCORES),
         "## Single effects by size and confusability",
         "",
         "Size μ: sigmas of all fitted readings together. γ = 1/sqrt(1 - ρ), ρ the correlation with the effect that "
@@ -40,13 +40,13 @@ def page(it: Scored) -> str:
         f"| μ | γ | {' | '.join(SCORES)} | formula |",
         f"|---|---|{'---|' * (len(SCORES) + 1)}",
         *(
-            f"| {_range(c.size)} | {_range(c.gamma)} | {_counts(c.scores)} | "
+            f"| {_range(c.size)} | {_range(c.gamma)} | {_counts(c.scores, SCORES)} | "
             f"{'–' if c.formula is None else f'{100 * c.formula:.0f} %'} |"
             for c in it.cells
         ),
         "",
-        *_table("hidden effect", it.effects),
-        *_table("outside the catalogue", it.faults),
+        *by_score("hidden effect", it.effects, SCORES),
+        *by_score("outside the catalogue", it.faults, SCORES),
         f"A case took {it.seconds_median:.0f} s of one processor in the median, {it.seconds_95:.0f} s at most in 95 %.",
         f"Wrong names and false alarms: {', '.join(f'case {n}' for n in it.wrong) or 'none'}.",
         "",
@@ -56,15 +56,16 @@ def page(it: Scored) -> str:
     return "\n".join(lines)
 
 
-def _table(name: str, rows: Mapping[str, Mapping[str, int]]) -> list[str]:
+def by_score(name: str, rows: Mapping[str, Mapping[str, int]], scores: Sequence[str]) -> list[str]:
+    """A table of how many answers of each kind had which score; none without rows."""
     if not rows:
         return []
-    head = [f"| {name} | {' | '.join(SCORES)} |", f"|---|{'---|' * len(SCORES)}"]
-    return [*head, *(f"| {row} | {_counts(scores)} |" for row, scores in rows.items()), ""]
+    head = [f"| {name} | {' | '.join(scores)} |", f"|---|{'---|' * len(scores)}"]
+    return [*head, *(f"| {row} | {_counts(found, scores)} |" for row, found in rows.items()), ""]
 
 
-def _counts(scores: Mapping[str, int]) -> str:
-    return " | ".join(str(scores.get(score, "")) for score in SCORES)
+def _counts(found: Mapping[str, int], scores: Sequence[str]) -> str:
+    return " | ".join(str(found.get(score, "")) for score in scores)
 
 
 def _range(ends: tuple[float, float]) -> str:

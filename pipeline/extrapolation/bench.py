@@ -98,5 +98,5 @@ def _counted(asked: Program, count: int) -> tuple[Mask, Mask]:
 
 
 def _sizes(it: Case, found: list[Readings], without: list[Readings]) -> dict[str, float]:
-    alone = each_alone(it, found, without)
+    alone = each_alone(it, found, it.bench.rig)
     return {name: float(np.linalg.norm(shows(it, only, without))) for name, only in alone.items()}

@@ -18,6 +18,7 @@ from pipeline.inference.model import Model, Term
 from pipeline.inference.predicted import Prediction
 from pipeline.inference.prediction import predict
 from pipeline.inference.program import Program
+from pipeline.inference.suitable import columns_read
 from pipeline.parameter_names import path_of
 from vjm.effects.base import Parameter
 from vjm.tolerances import tolerances
@@ -72,9 +73,9 @@ def nominals(campaign: Campaign) -> tuple[Nominal, ...]:
 def _gains(campaign: Campaign) -> Iterator[Nominal]:
     """Of the sensors that were read and whose gain is known to a standard deviation."""
     columns, gains = channel_columns(campaign.gauges), campaign.noise.gains
-    read = [np.hstack([t.data.displacement, t.data.wrench, t.data.gauges]) for t in campaign.tests]
+    read = columns_read(campaign)
     for channel in np.flatnonzero(gains > 0.0):
-        if any(np.isfinite(one[:, channel]).any() for one in read):
+        if columns[channel] in read:
             it = Gain().at(columns[channel])
             yield Nominal(it, it.parameters[0], float(gains[channel]))
 

@@ -117,7 +117,7 @@ class Program:
     def spread(self) -> Array:
         """(R, C) standard deviation of every reading; NaN where none is known."""
         noise = self.campaign.noise
-        return np.concatenate([noise.spread(readings_of(test)) for test in self.campaign.tests])
+        return np.concatenate([noise.spread(test.data.readings) for test in self.campaign.tests])
 
     @cached_property
     def first(self) -> np.ndarray:
@@ -198,11 +198,11 @@ def program(campaign: Campaign) -> Program:
     tests, gauges = campaign.tests, campaign.gauges
     noise = campaign.noise
     sigma = noise.sigmas
-    measured = np.concatenate([readings_of(t) for t in tests], axis=0)
+    measured = np.concatenate([t.data.readings for t in tests], axis=0)
     number = np.repeat(np.arange(len(tests)), [t.data.steps.size for t in tests])
     channels = np.array([_channels(t.control, [g.name for g in gauges]) for t in tests])[number]
     given = np.take_along_axis(measured, channels, axis=1)
-    spread = np.concatenate([noise.spread(readings_of(t)) for t in tests])
+    spread = np.concatenate([noise.spread(t.data.readings) for t in tests])
     held = np.array([[by == SUPPORT for by in t.control] for t in tests])[number]
     # A force that was not read, and a coordinate on its support, are what they are without a sensor's noise.
     input_sigma = np.take_along_axis(np.nan_to_num(spread), channels, axis=1)
@@ -226,11 +226,6 @@ def program(campaign: Campaign) -> Program:
         sigma,
         number,
     )
-
-
-def readings_of(test: Test) -> Array:
-    """(N, C) of a test."""
-    return np.hstack([test.data.displacement, test.data.wrench, test.data.gauges])
 
 
 def _group(campaign: Campaign, numbers: np.ndarray) -> Group:

@@ -90,8 +90,7 @@ def columns_read(campaign: Campaign) -> tuple[str, ...]:
     """Columns of which there are readings, in the order of the channels."""
     there: set[int] = set()
     for test in campaign.tests:
-        read = np.hstack([test.data.displacement, test.data.wrench, test.data.gauges])
-        there |= set(np.flatnonzero(np.isfinite(read).any(axis=0)).tolist())
+        there |= set(np.flatnonzero(np.isfinite(test.data.readings).any(axis=0)).tolist())
     return tuple(name for k, name in enumerate(channel_columns(campaign.gauges)) if k in there)
 
 

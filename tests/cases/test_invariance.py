@@ -63,7 +63,12 @@ def scaled(it: Campaign, force: float, length: float) -> Campaign:
 
 
 @pytest.mark.parametrize(
-    ("force", "length"), [(1000.0, 10.0), pytest.param(0.01, 0.1, marks=pytest.mark.long)]
+    ("force", "length"),
+    [
+        (1000.0, 1.0),
+        pytest.param(1.0, 10.0, marks=pytest.mark.long),
+        pytest.param(0.01, 0.1, marks=pytest.mark.long),
+    ],
 )
 def test_units_and_scale_change_no_verdict(force: float, length: float) -> None:
     other = found(scaled(soft(), force, length))

@@ -15,7 +15,7 @@ import hatch_build
 import parastiff
 
 ROOT = Path(__file__).resolve().parents[2]
-LARGEST = 1_200_000
+LARGEST = 1_000_000
 """Bytes of the wheel."""
 OWN = """
 from {module} import Effect, Parameter

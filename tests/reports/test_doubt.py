@@ -19,7 +19,11 @@ NOMINAL = {
 }
 PAGE = {
     "doctor": [{"hypothesis": "all forces are in kgf", "mend": "multiply fx_N by 9.80665"}],
-    "nominals": [NOMINAL, {**NOMINAL, "name": "GJ", "seen": False, "pull": 9.0}, {**NOMINAL, "name": "EA", "pull": -3.4}],
+    "nominals": [
+        NOMINAL,
+        {**NOMINAL, "name": "GJ", "seen": False, "pull": 9.0},
+        {**NOMINAL, "name": "EA", "pull": -3.4},
+    ],
     "set_aside": [{"test": "axial", "step": 5, "column": "x_mm", "sigma": 31.2}],
     "noise": [
         {"column": "fy_N", "declared": 0.5, "found": 1.02, "tails": None},

@@ -9,16 +9,15 @@ import numpy as np
 
 from pipeline.campaign.names import channel_columns
 from pipeline.challenge.benches import FAIR, RICH, Bench, drawn_noise, drawn_plan, drawn_rig, scaled
-from pipeline.challenge.cases import HIDDEN, STEPS, drawn
+from pipeline.challenge.cases import HIDDEN, STEPS, Case, drawn
 from pipeline.challenge.dirty.dirt import Dirt, drawn_dirt
 from pipeline.challenge.faults import FAULTS
-from pipeline.parameter_names import parted, path_of
+from pipeline.parameter_names import path_of
 from pipeline.virtual.plan import GAUGES
 from vjm.effects import catalogue, effect_of
 
-Kind = str
 SEED = 20_261_127
-ROUND: tuple[Kind, ...] = (
+ROUND = (
     *("clean", "single", "sensor", "single"),
     *("clean", "pair", "single", "outside"),
     *("clean", "single", "sensor", "single"),
@@ -33,21 +32,10 @@ LARGEST_SHARE: Mapping[str, float] = {"sensor_gain": 0.05, "sensor_lag": 0.4, "s
 
 
 @dataclass(frozen=True, eq=False)
-class DirtyCase:
-    """hidden: "effect.parameter" to value. fault: what no effect explains, with its size. seed: of the noise."""
+class DirtyCase(Case):
+    """dirt: what its bench has besides the physics."""
 
-    number: int
-    kind: Kind
-    bench: Bench
-    hidden: Mapping[str, float]
-    fault: tuple[str, float] | None
     dirt: Dirt
-    seed: int
-
-    @property
-    def effects(self) -> tuple[str, ...]:
-        """Names of what is hidden."""
-        return tuple(dict.fromkeys(parted(path)[0] for path in self.hidden))
 
 
 def dirty_case(number: int, share: float = 1.0) -> DirtyCase:
@@ -69,7 +57,7 @@ def dirty_case(number: int, share: float = 1.0) -> DirtyCase:
         count = {"single": 1, "pair": 2, "triple": 3}[kind]
         for name in generator.choice(list(HIDDEN), count, replace=False):
             hidden |= drawn(str(name), generator)
-    return DirtyCase(number, kind, Bench(rig, noise, plan, label), hidden, fault, dirt, seed)
+    return DirtyCase(number, kind, Bench(rig, noise, plan, label), hidden, fault, seed, dirt)
 
 
 def _of_sensor(generator: np.random.Generator) -> dict[str, float]:

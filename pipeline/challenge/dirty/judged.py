@@ -7,6 +7,7 @@ from typing import Literal
 
 from pipeline.challenge.dirty.cases import DirtyCase
 from pipeline.challenge.faults import AT_FAULT, of_sensor
+from pipeline.challenge.outcome import of_effects, of_nothing
 
 Score = Literal[
     "right", "in set", "certain", "part", "missed", "undecided", "doctor", "wrong", "false alarm", "failed"
@@ -28,18 +29,13 @@ def judged(
         return "doctor"
     if any(name not in truth and not of_sensor(name, at_fault) for name in sure):
         return "false alarm" if it.kind == "clean" else "wrong"
-    if it.kind == "clean":
-        return _of_nothing(verdict, named)
     if it.fault:
         return _of_fault(verdict, named, at_fault)
-    found = _of_effects(verdict, named, truth)
-    return "certain" if sure and found in ("undecided", "part", "missed") else found
-
-
-def _of_nothing(verdict: str, named: Sequence[set[str]]) -> Score:
     if verdict == "unknown":
-        return "undecided"
-    return "right" if not any(named) else "false alarm" if all(named) else "in set"
+        found: Score = "undecided"
+    else:
+        found = of_effects(named, truth) if truth else of_nothing(named)
+    return "certain" if sure and found in ("undecided", "part", "missed") else found
 
 
 def _of_fault(verdict: str, named: Sequence[set[str]], at_fault: Sequence[str]) -> Score:
@@ -50,16 +46,3 @@ def _of_fault(verdict: str, named: Sequence[set[str]], at_fault: Sequence[str]) 
     if all(names and all(of_sensor(name, at_fault) for name in names) for names in named):
         return "right"
     return "wrong" if len(named) == 1 else "undecided"
-
-
-def _of_effects(verdict: str, named: Sequence[set[str]], truth: set[str]) -> Score:
-    if verdict == "unknown":
-        return "undecided"
-    if len(named) == 1:
-        (only,) = named
-        if only == truth:
-            return "right"
-        return "wrong" if only - truth else "part" if only else "missed"
-    if truth in named:
-        return "in set"
-    return "part" if any(names <= truth for names in named) else "wrong"

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import partial
 from time import process_time
 from typing import Any
 
@@ -14,37 +15,23 @@ from pipeline.challenge.dirty.cases import DirtyCase, dirty_case
 from pipeline.challenge.dirty.dirt import Knock, read_dirty, true_rig
 from pipeline.challenge.dirty.judged import Score, judged
 from pipeline.challenge.dirty.sizes import sizes_after_tolerances
-from pipeline.challenge.faults import FAULTS
-from pipeline.challenge.outcome import SHARES, held_out
+from pipeline.challenge.outcome import Answered, borne, held_out
 from pipeline.diagnose.diagnosis import Diagnosis, diagnose
 from pipeline.diagnose.record import answer_of
 from pipeline.inference.model import Model
 from pipeline.parameter_names import parted
-from pipeline.record import Record
-from pipeline.virtual.bench import true_readings
-from pipeline.virtual.plan import GAUGES
 from vjm.effects import catalogue
 
 Array = NDArray[np.float64]
 
 
-class DirtyOutcome(Record):
+class DirtyOutcome(Answered):
     """A case and its score. sizes: mu after tolerances, of each hidden effect; gamma: after them too. knocked: bad
     readings that were made, found among them, and good ones that were set aside, of so many readings. declared: by what
     declared sigmas are off, and whether that was found. certain: what was told so. inside: whether the 95 % interval
     holds the truth, of sizes of right answers."""
 
-    number: int
-    kind: str
-    plan: str
-    hidden: dict[str, float]
-    fault: tuple[str, float] | None
     dirt: dict[str, float]
-    rows: int = 0
-    sizes: dict[str, float] = {}  # noqa: RUF012 (pydantic copies it)
-    gamma: dict[str, float] = {}  # noqa: RUF012
-    verdict: str = ""
-    sets: tuple[tuple[str, ...], ...] = ()
     certain: tuple[str, ...] = ()
     score: Score = "failed"
     knocked: int = 0
@@ -52,27 +39,11 @@ class DirtyOutcome(Record):
     good_aside: int = 0
     readings: int = 0
     declared_found: bool | None = None
-    inside: dict[str, bool] = {}  # noqa: RUF012
-    holdout: tuple[float, ...] = ()
-    error: str = ""
-    seconds: float
-    commit: str
-    code: str
 
     @property
     def hidden_names(self) -> tuple[str, ...]:
         """Names of what is hidden."""
         return tuple(dict.fromkeys(parted(path)[0] for path in self.hidden))
-
-    @property
-    def size(self) -> float:
-        """The least of the effects' sizes, 0 where nothing is hidden."""
-        return min(self.sizes.values(), default=0.0)
-
-    @property
-    def confusability(self) -> float:
-        """The largest gamma, 1 where nothing is hidden."""
-        return max(self.gamma.values(), default=1.0)
 
 
 def dirty_outcome(number: int, commit: str, code: str) -> DirtyOutcome:
@@ -124,18 +95,7 @@ def dirty_outcome(number: int, commit: str, code: str) -> DirtyOutcome:
 
 def measured(number: int) -> tuple[DirtyCase, list[Readings], list[Readings]]:
     """The case with loads that its bench bears, and exact readings of the true rig with and without what is hidden."""
-    for share in SHARES:
-        it = dirty_case(number, share)
-        plan, rig = it.bench.plan, true_rig(it.bench.rig, it.dirt.bar)
-        try:
-            without = true_readings(rig, plan, {}, GAUGES)
-            found = true_readings(rig, plan, it.hidden, GAUGES) if it.hidden else without
-            if it.fault:
-                found = FAULTS[it.fault[0]](it.bench, found, it.fault[1])
-            return it, found, without
-        except RuntimeError as error:
-            last = error
-    raise RuntimeError(f"case {number} at {SHARES[-1]:g} of its loads: {last}")
+    return borne(partial(dirty_case, number), lambda it: true_rig(it.bench.rig, it.dirt.bar))
 
 
 def _of_readings(it: DirtyCase, answer: Diagnosis, knocks: tuple[Knock, ...]) -> dict[str, Any]:

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from typing import get_args
 
 from pipeline.challenge.dirty.cases import SEED
 from pipeline.challenge.dirty.judged import Score
 from pipeline.challenge.dirty.score import DirtyScored
+from pipeline.challenge.page import by_score
 from pipeline.challenge.score import Scored
 
 SCORES = tuple(get_args(Score))
@@ -37,9 +37,9 @@ def dirty_page(it: DirtyScored, clean: Scored | None) -> str:
         "missed: nothing was named · undecided: unknown · doctor: a mistake of the table is told that is not there · "
         "wrong: a name of what was not there, certain included.",
         "",
-        *_table("kind", it.kinds),
-        *_table("hidden", it.effects),
-        *_table("nothing known explains it", it.faults),
+        *by_score("kind", it.kinds, SCORES),
+        *by_score("hidden", it.effects, SCORES),
+        *by_score("nothing known explains it", it.faults, SCORES),
         f"A case took {it.seconds_median:.0f} s of one processor in the median, {it.seconds_95:.0f} s at most in 95 %. "
         f"Wrong names and false alarms: {', '.join(f'case {n}' for n in it.wrong) or 'none'}.",
         "",
@@ -52,13 +52,3 @@ def dirty_page(it: DirtyScored, clean: Scored | None) -> str:
             "",
         ]
     return "\n".join(lines)
-
-
-def _table(name: str, rows: Mapping[str, Mapping[str, int]]) -> list[str]:
-    if not rows:
-        return []
-    head = [f"| {name} | {' | '.join(SCORES)} |", f"|---|{'---|' * len(SCORES)}"]
-    body = (
-        f"| {row} | {' | '.join(str(counts.get(s, '')) for s in SCORES)} |" for row, counts in rows.items()
-    )
-    return [*head, *body, ""]

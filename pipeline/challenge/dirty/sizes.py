@@ -13,15 +13,15 @@ from pipeline.campaign import Campaign
 from pipeline.challenge.cases import ALWAYS
 from pipeline.challenge.dirty.cases import DirtyCase
 from pipeline.challenge.dirty.dirt import true_rig
+from pipeline.challenge.outcome import difference, each_alone
 from pipeline.diagnose.apart import multiple_correlation
 from pipeline.diagnose.diagnosis import Diagnosis
 from pipeline.inference.model import Model
 from pipeline.inference.nominals import linearised, nominals
 from pipeline.inference.prediction import predict
-from pipeline.inference.program import Program, program
-from pipeline.inference.residual import Whitening, whitening
-from pipeline.parameter_names import parted
-from pipeline.virtual.bench import read_out, true_readings
+from pipeline.inference.program import program
+from pipeline.inference.residual import whitening
+from pipeline.virtual.bench import read_out
 from pipeline.virtual.plan import GAUGES
 from vjm.effects import catalogue
 
@@ -33,7 +33,7 @@ def sizes_after_tolerances(
 ) -> tuple[dict[str, float], dict[str, float]]:
     """mu and gamma of each hidden effect after what was written about the rig is known to its tolerances."""
     whole, model = answer.campaign, Model().with_effects([catalogue()[ALWAYS]])
-    clean, changed = (program(_exact(whole, it, readings)) for readings in (without, found))
+    clean = program(_exact(whole, it, without))
     reference = predict(model, clean, slopes=False)
     white = whitening(clean, reference)
     used = clean.predicted & clean.fitted[:, None]
@@ -44,36 +44,21 @@ def sizes_after_tolerances(
         if line is None
         else white.apply(np.where(used[..., None], line, 0.0))[used]
     )
-    sizes, gamma, signatures = {}, {}, {}
-    for name in it.effects or ((it.fault[0],) if it.fault else ()):
-        there = changed
-        if len(it.effects) > 1:
-            own = {path: value for path, value in it.hidden.items() if parted(path)[0] == name}
-            try:
-                alone = true_readings(true_rig(it.bench.rig, it.dirt.bar), it.bench.plan, own, GAUGES)
-                there = program(_exact(whole, it, alone))
-            except RuntimeError:
-                there = changed
-        signatures[name] = after(given, _difference(clean, there, reference.by_inputs, white, used))
-        sizes[name] = float(np.linalg.norm(signatures[name]))
-    for name in it.effects:
-        gamma[name] = _confusable(answer, name, it.effects, signatures[name], given, used)
+    alone = each_alone(it, found, true_rig(it.bench.rig, it.dirt.bar))
+    signatures = {
+        name: after(given, difference(clean, program(_exact(whole, it, only)), reference, white))
+        for name, only in alone.items()
+    }
+    sizes = {name: float(np.linalg.norm(mine)) for name, mine in signatures.items()}
+    gamma = {
+        name: _confusable(answer, name, it.effects, signatures[name], given, used) for name in it.effects
+    }
     return sizes, gamma
 
 
 def _exact(whole: Campaign, it: DirtyCase, found: list[Readings]) -> Campaign:
     """The campaign with readings as they would be without any noise, its sigmas as they were told."""
     return read_out(whole.name, it.bench.rig, it.bench.plan, whole.noise, None, found, GAUGES)
-
-
-def _difference(
-    clean: Program, changed: Program, by_inputs: Array, white: Whitening, used: NDArray[np.bool_]
-) -> Array:
-    """(N,) whitened, less what differs in the prescribed readings."""
-    change = changed.measured - clean.measured
-    inputs = np.take_along_axis(change, clean.channels, axis=1)
-    change = change - np.einsum("rck,rk->rc", by_inputs[..., :6], inputs)
-    return np.asarray(white.apply(np.where(used, change, 0.0))[used])
 
 
 def after(given: Array, values: Array) -> Array:

@@ -13,7 +13,6 @@ from pipeline.doctor.mistakes.base import (
     Array,
     Mistake,
     columns_of,
-    readings,
     sigmas_of,
     verb,
     with_readings,
@@ -44,7 +43,7 @@ def mistakes(campaign: Campaign) -> Iterator[Mistake]:
 
 def _begins(campaign: Campaign) -> dict[str, bool]:
     sigmas, names = sigmas_of(campaign), columns_of(campaign)
-    firsts = np.array([readings(test)[0] for test in campaign.tests if test.zero == "nominal"])
+    firsts = np.array([test.data.readings[0] for test in campaign.tests if test.zero == "nominal"])
     if not firsts.size:
         return {}
     size = np.abs(np.nan_to_num(firsts))

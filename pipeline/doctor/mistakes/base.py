@@ -9,7 +9,7 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
-from pipeline.campaign import Campaign, Test
+from pipeline.campaign import Campaign
 from pipeline.campaign.names import DISPLACEMENTS, WRENCHES, channel_columns
 from pipeline.sensor_noise import from_roughness
 
@@ -34,16 +34,11 @@ def columns_of(campaign: Campaign) -> tuple[str, ...]:
     return tuple(channel_columns(campaign.gauges))
 
 
-def readings(test: Test) -> Array:
-    """(N, C) of a test."""
-    return np.hstack([test.data.displacement, test.data.wrench, test.data.gauges])
-
-
 def read(campaign: Campaign) -> list[str]:
     """Columns that have readings which are not all zero."""
     there = np.zeros(len(columns_of(campaign)), dtype=bool)
     for test in campaign.tests:
-        there |= np.any(np.nan_to_num(readings(test)) != 0.0, axis=0)
+        there |= np.any(np.nan_to_num(test.data.readings) != 0.0, axis=0)
     return [name for name, known in zip(columns_of(campaign), there, strict=True) if known]
 
 
@@ -53,7 +48,7 @@ def with_readings(
     """The campaign with the readings (N, C) of each test changed; sigmas: (C,) default as they are."""
     tests = []
     for test in campaign.tests:
-        new = change(readings(test))
+        new = change(test.data.readings)
         data = replace(test.data, displacement=new[:, :6], wrench=new[:, 6:12], gauges=new[:, 12:])
         tests.append(replace(test, data=data))
     noise = campaign.noise
@@ -85,7 +80,7 @@ def times(campaign: Campaign, columns: tuple[str, ...], factor: float) -> Campai
 def _scatters(campaign: Campaign) -> tuple[float | None, ...]:
     """Of the readings of every channel beyond a smooth path, in their unit; None where that cannot be told."""
     out = []
-    every = [readings(test) for test in campaign.tests]
+    every = [test.data.readings for test in campaign.tests]
     for channel in range(every[0].shape[1]):
         columns = [values[np.isfinite(values[:, channel]), channel] for values in every]
         paths = [(np.arange(column.size, dtype=float), column) for column in columns]

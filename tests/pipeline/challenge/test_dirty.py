@@ -129,7 +129,7 @@ def test_sizes_after_tolerances_are_those_of_the_covariance() -> None:
 
 def a_case(kind: str, *hidden: str, fault: str = "") -> DirtyCase:
     values = {f"{name}.scale": 1.0 for name in hidden}
-    return DirtyCase(0, kind, BENCH, values, (fault, 1.0) if fault else None, CLEAN, 0)
+    return DirtyCase(0, kind, BENCH, values, (fault, 1.0) if fault else None, 0, CLEAN)
 
 
 @pytest.mark.parametrize(
