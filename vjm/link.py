@@ -21,7 +21,8 @@ def _rigid() -> Array:
 class Link:
     """A bar along x from the axis of its base hinge to that of its tip hinge.
 
-    length: mm. stiffness: (6, 6) at the tip, base clamped, of the bar alone and straight.
+    length: mm. stiffness: (6, 6) at the tip, base clamped, of the bar alone and straight. like: (6, 6) of the bar by
+    whose segments it bends, which it differs from by little; None where that is its own.
     base_give, tip_give: (6, 6) compliance between a hinge axis and the bar's end there, bar frame.
     bow: amplitudes, mm, of the half sines along y and z of the bar frame that the unloaded bar has; the frames
     of its hinges stay where they are without.
@@ -38,6 +39,7 @@ class Link:
     slides: tuple[Law, ...] = ()
     elongation: tuple[tuple[str, float], ...] = ()
     fibres: Fibres | None = None
+    like: Array | None = None
 
     def lengthened(self, change: float) -> Link:
         """The bar with `change`, mm, added to its length at the same section: a uniform bar's 6x6 follows it.
@@ -47,22 +49,33 @@ class Link:
         length = self.length + change
         ratio = self.length / length
         powers = np.sqrt(ratio ** np.array([1.0, 3.0, 3.0, 1.0, 1.0, 1.0]))
-        stiffness = powers[:, None] * self.stiffness * powers
         elongation = tuple((name, rate / ratio) for name, rate in self.elongation)
-        return replace(self, length=length, stiffness=stiffness, elongation=elongation)
+        return replace(self.scaled(powers), length=length, elongation=elongation)
 
     def stiffened(self, scale: float) -> Link:
         """The bar with its stiffness scaled."""
-        return self.with_stiffness(scale * self.stiffness)
+        return self.scaled(np.full(6, np.sqrt(scale)))
 
-    def with_stiffness(self, stiffness: Array) -> Link:
-        """The bar with another 6x6 of its own."""
-        return replace(self, stiffness=stiffness)
+    def scaled(self, roots: Array) -> Link:
+        """The bar with its 6x6 multiplied by (6,) from the left and from the right."""
+        like = None if self.like is None else roots[:, None] * self.like * roots
+        return replace(self, stiffness=roots[:, None] * self.stiffness * roots, like=like)
+
+    def with_little_more(self, compliance: Array) -> Link:
+        """The bar with a compliance (6, 6) at its tip more, of either sign, small against its own.
+
+        It bends by the segments of the bar without that: whether what is added is shear or makes the ends stiffer is
+        not known, and where it changes its sign nothing jumps.
+        """
+        whole = np.linalg.inv(self.stiffness) + compliance
+        stiffness = np.asarray(np.linalg.inv(0.5 * (whole + whole.T)), dtype=np.float64)
+        return replace(self, stiffness=stiffness, like=self.stiffness if self.like is None else self.like)
 
     @cached_property
     def by_value(self) -> ByValue:
         """The bar as a key, equal to that of every bar of the same shape and stiffness."""
-        arrays = (self.stiffness, self.base_give, self.tip_give)
+        like = self.stiffness if self.like is None else self.like
+        arrays = (self.stiffness, like, self.base_give, self.tip_give)
         return ByValue((self.length, *(each.tobytes() for each in arrays), *self.bow, self.fibres), self)
 
     @property

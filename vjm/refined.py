@@ -44,9 +44,12 @@ from vjm.yielding import Yielding, strain_rates
 SEGMENTS = 6
 """Default refinement; see `Refined` for what it is good for."""
 
+SAME = 1e-12
+"""Of its numbers, by which the series of the segments of a bar without other couplings is off by rounding."""
 _PLANES = ((1, 5, 1.0), (2, 4, -1.0))
 # Within a chain a segment's coordinates are numbered as its joints come: rotations first.
 _ORDER = np.array([3, 4, 5, 0, 1, 2])
+_PLAIN = np.arange(6)
 
 
 @dataclass(frozen=True)
@@ -78,7 +81,7 @@ class Refined:
 
     def shares(self, link: Link) -> Shares:
         """What each segment gets, with the ends of the bar as they give."""
-        parts = share_out(link.length, link.stiffness, self.segments)
+        parts = share_out(link.length, link.stiffness, self.segments, link.like)
         parts.curvature[:, 3] = self.polar_radius**2 * self.segments / link.length
         _give_way(parts, link)
         return parts
@@ -132,9 +135,10 @@ class Shares:
     flexible: Array
 
 
-def share_out(length: float, stiffness: Array, segments: int) -> Shares:
-    """Segments whose series is the bar: stiffness (6, 6) at the tip, symmetric positive definite, to rounding."""
-    whole = _inverse(stiffness)
+def share_out(length: float, stiffness: Array, segments: int, like: Array | None = None) -> Shares:
+    """Segments whose series is the bar: stiffness (6, 6) at the tip, symmetric positive definite, to rounding. like:
+    that of a bar from whose segments they differ by as much as the bars do."""
+    whole = _inverse(stiffness if like is None else like)
     size = length / segments
     lever = length - (np.arange(segments) + 0.5) * size
     parts, curvature, softening = np.zeros((segments, 6, 6)), np.zeros((segments, 6)), np.zeros((segments, 6))
@@ -157,7 +161,10 @@ def share_out(length: float, stiffness: Array, segments: int) -> Shares:
         softening[:, shift] = amount / (350 * (1 + number) ** 2)
     gj, ei_y, ei_z = (length / whole[i, i] for i in (3, 4, 5))
     coupling = np.array([gj - ei_y + ei_z, gj - ei_z + ei_y]) / ((1 + shear) * size**2)
-    parts = _with_all_couplings(parts, whole, lever[:, None] + offset)
+    parts = _summing_to(parts, whole, lever[:, None] + offset)
+    if like is not None:
+        # Rotations first: turns stay where they are, and shifts are scaled about the centres of flexibility.
+        parts = _summing_to(parts, _inverse(stiffness), lever[:, None] + offset, _ORDER)
     return Shares(
         size,
         np.stack([_inverse(part) for part in parts]),
@@ -235,20 +242,25 @@ def _stations(
     return (Mark(int(nodes[0]), sixth), 0.5 * share), *inner, (Mark(int(nodes[-1]), -sixth), 0.5 * share)
 
 
-def _with_all_couplings(parts: Array, whole: Array, lever: Array) -> Array:
+def _summing_to(parts: Array, whole: Array, lever: Array, order: Array = _PLAIN) -> Array:
     """The compliances (n, 6, 6) changed by a congruence at the tip, so that their sum there is `whole`.
 
-    lever: (n, 2) distance of the centres from the tip. The sum has the couplings of two planes only;
-    whole = S sum S^T with S from the Cholesky factors.
+    lever: (n, 2) distance of the centres from the tip. The sum has the couplings of two planes only, of a bar that is
+    perhaps another one; whole = S sum S^T with S from the Cholesky factors of the coordinates in this order.
     """
     move = np.broadcast_to(np.eye(6), parts.shape).copy()
     for plane, (shift, turn, sign) in enumerate(_PLANES):
         move[:, shift, turn] = sign * lever[:, plane]
     total = np.sum(move @ parts @ np.swapaxes(move, -1, -2), axis=0)
-    if not np.any(whole[total == 0]):
+    if np.allclose(whole, total, rtol=SAME, atol=0.0):
         return parts
     scale = 1.0 / np.sqrt(np.diag(whole))
-    factors = [np.linalg.cholesky(scale[:, None] * m * scale) / scale[:, None] for m in (whole, total)]
+    some = np.ix_(order, order)
+    factors = []
+    for matrix in (whole, total):
+        factor = np.zeros((6, 6))
+        factor[order] = np.linalg.cholesky((scale[:, None] * matrix * scale)[some])
+        factors.append(factor / scale[:, None])
     local = np.linalg.inv(move) @ factors[0] @ np.linalg.inv(factors[1]) @ move
     return local @ parts @ np.swapaxes(local, -1, -2)
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import partial
 from time import perf_counter
 
@@ -118,6 +118,7 @@ def diagnose(
     begin = perf_counter()
     shelf, refused = _prepared(campaign, model, known, say, criteria)
     attempts = Attempts()
+    beginning(shelf)
     doctor = attempts.get("the look for mistakes of the table", lambda: suspicions(shelf), ())
     if doctor:
         return _unsettled(shelf, doctor, refused, attempts, _since(begin))
@@ -130,7 +131,8 @@ def diagnose(
             break
         say("with the readings as they are")
         readings, attempts = new, Attempts()
-        shelf, refused = _prepared(readings.applied(given.campaign), model, known, say, criteria)
+        applied = readings.applied(given.campaign)
+        shelf, refused = _prepared(applied, model, known, say, criteria, it.found.shelf)
         it = chosen(shelf, attempts)
     it = attempts.get("whether a sensor is at fault", partial(_with_faults, it, known, attempts), it)
     shelf, whole = it.found.shelf, shelf.whole.campaign
@@ -143,7 +145,7 @@ def diagnose(
     next_test = None
     if len(ruling.sets) > 1:
         say("the next test")
-        fits = [shelf.fit(n) for n in ruling.sets[: criteria.next_test_sets]]
+        fits = [shelf.with_own_line(n) for n in ruling.sets[: criteria.next_test_sets]]
         next_test = attempts.get("the next test", lambda: best_next_test(fits, shelf.whole), None)
     say("what is certain")
     sure = attempts.get("what is certain", lambda: certain(found, ruling.sets), ())
@@ -220,14 +222,23 @@ def fit_cache(
 
 
 def _prepared(
-    campaign: Campaign, model: Model, known: Mapping[str, Effect], say: Say, criteria: Criteria
+    campaign: Campaign,
+    model: Model,
+    known: Mapping[str, Effect],
+    say: Say,
+    criteria: Criteria,
+    before: Shelf | None = None,
 ) -> tuple[Shelf, dict[str, str]]:
-    """The empty fit cache, and the effects that are refused and why."""
+    """The empty fit cache, and the effects that are refused and why. before: of other readings of the same tests."""
     model, known = sized_model(model, campaign), all_sized(known, scale_for(campaign))
     check_suitable([term.effect for term in model.terms], campaign)
-    whole = trusted(completed(campaign), model)
+    whole = trusted(completed(campaign), model, _fit_of_nothing(before))
     candidates, refused = suitable(whole, model, known)
-    return Shelf(program(whole), model, candidates, say, criteria), refused
+    return Shelf(program(whole), model, candidates, say, criteria, before=before), refused
+
+
+def _fit_of_nothing(shelf: Shelf | None) -> Fit | None:
+    return None if shelf is None else shelf.fits.get(frozenset())
 
 
 @dataclass(frozen=True, eq=False)
@@ -257,11 +268,7 @@ def beginning(shelf: Shelf) -> Fit:
     whole = shelf.whole
     if not (whole.predicted & whole.fitted[:, None]).any():
         shelf.fits[frozenset()] = unfitted(shelf.base, whole)
-    found = shelf.fit(frozenset())
-    if found.prediction.nominal.size:
-        # The line along which what was written is eliminated, until a fit has its own.
-        shelf.whole = replace(whole, by_nominal=found.prediction.by_nominal)
-    return found
+    return shelf.fit(frozenset())
 
 
 def _agreements(shelf: Shelf, best: Names) -> dict[str, float]:

@@ -51,7 +51,7 @@ def suspicions(shelf: Shelf) -> tuple[Suspicion, ...]:
     if not (some.predicted & some.fitted[:, None]).any():
         return ()
     plain = {name: it for name, it in shelf.candidates.items() if it.smooth}
-    table = Table.of(Shelf(some, shelf.base, plain, shelf.say, criteria))
+    table = Table.of(Shelf(some, shelf.base, plain, shelf.say, criteria, before=shelf))
     if (
         table.fit.degrees < criteria.few_readings
         or _near(table.fit, criteria)
@@ -163,7 +163,7 @@ def _promising(table: Table) -> list[Mistake]:
     out: list[tuple[float, Mistake]] = []
     for mistake in possible(whole.campaign):
         mended = mistake.mended(whole.campaign)
-        cases = _like(whole, program(mended))
+        cases = program(mended)
         moved = _moved(whole, cases, linear)
         there = replace(base.prediction, values=base.prediction.values + moved)
         found = Fit(base.model, there, residual(cases, there), 0)
@@ -184,10 +184,6 @@ def _moved(whole: Program, cases: Program, linear: Prediction) -> Array:
         [b.inputs(other.gauges) - a.inputs(one.gauges) for a, b in zip(one.tests, other.tests, strict=True)]
     )
     return np.einsum("rci,ri->rc", linear.by_inputs[..., :6], np.nan_to_num(more))
-
-
-def _like(whole: Program, cases: Program) -> Program:
-    return cases if whole.by_nominal is None else replace(cases, by_nominal=whole.by_nominal)
 
 
 def _near(found: Fit, criteria: Criteria) -> bool:

@@ -18,6 +18,7 @@ from pipeline.adequacy.scatter import Scatter, scatters
 from pipeline.adequacy.tails import Tails, tails_of, without_tails
 from pipeline.campaign import Campaign
 from pipeline.inference.fit import Fit, fit, unfitted
+from pipeline.inference.parts import carried
 from pipeline.inference.program import Program, program
 from pipeline.selection.criteria import Criteria
 
@@ -55,18 +56,18 @@ class Readings:
         """What the readings are about another fit. given: all of them as they were declared."""
         if not self.may_be_asked(found, criteria):
             return self
-        whole = found if self.plain else unfitted(found.model, given)
+        whole = found if self.plain else _of(given, found)
         tails = tails_of(whole, criteria)
         if tails is not None:
             return Readings(tails=tails, normal=without_tails(whole, tails))
         bad = bad_readings(whole, criteria)
-        rest = whole if not bad else unfitted(found.model, program(set_aside(given.campaign, bad)))
+        rest = whole if not bad else _of(program(set_aside(given.campaign, bad)), found)
         return Readings(bad, tuple(_other(rest, criteria)))
 
     def leaves_noise(self, found: Fit, given: Program, criteria: Criteria) -> bool:
         """Whether a model explains all but what they set aside."""
         rest = program(self.applied(given.campaign))
-        return judge(fit(found.model, rest, None, None, criteria.plausible), criteria).noise
+        return judge(_refitted(rest, found, criteria), criteria).noise
 
     def applied(self, campaign: Campaign) -> Campaign:
         """A campaign as these readings are."""
@@ -79,6 +80,17 @@ class Readings:
 
 
 AS_DECLARED = Readings()
+
+
+def _of(cases: Program, found: Fit) -> Fit:
+    """A fitted model as it is beside other readings of the same tests."""
+    return unfitted(found.model, cases, carried(found.prediction, cases, found.residual.program))
+
+
+def _refitted(cases: Program, found: Fit, criteria: Criteria) -> Fit:
+    """A model fitted to other readings of the same tests."""
+    start = carried(found.prediction, cases, found.residual.program)
+    return fit(found.model, cases, start, None, criteria.plausible)
 
 
 def _ordered(found: Fit, criteria: Criteria) -> bool:

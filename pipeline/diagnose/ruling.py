@@ -46,7 +46,7 @@ class Ruling:
 def ruled(found: Found, judgement: Judgement, attempts: Attempts) -> Ruling:
     """The ruling. What is optional and fails is said in the attempts."""
     shelf, best = found.shelf, found.best
-    here = shelf.fit(best)
+    here = shelf.with_own_line(best)
     alike = tuple(attempts.get("what could be taken for what", lambda: likenesses(shelf, best), []))
     zero = attempts.get("whether a sensor was not zeroed", lambda: zero_first(found, judgement.noise), None)
     bounded = at_bound(here.model)
@@ -72,7 +72,7 @@ def ruled(found: Found, judgement: Judgement, attempts: Attempts) -> Ruling:
         return Ruling(
             "ambiguous",
             sets,
-            shelf.fit(sets[0]),
+            shelf.with_own_line(sets[0]),
             instead,
             zero,
             alike,

@@ -10,9 +10,10 @@ import numpy as np
 
 from pipeline.diagnose.picture import Picture, picture
 from pipeline.diagnose.signatures import Look, Probe, Say, hidden, look, probed, probes, signatures
-from pipeline.inference.fit import Fit, fit, unfitted
+from pipeline.inference.fit import Fit, fit, unfitted, with_own_line
 from pipeline.inference.model import Model, Term
-from pipeline.inference.parts import at_rows
+from pipeline.inference.nominals import beside
+from pipeline.inference.parts import at_rows, carried, rows_in
 from pipeline.inference.predicted import Prediction
 from pipeline.inference.prediction import predict
 from pipeline.inference.program import Program
@@ -36,6 +37,7 @@ class Shelf:
     candidates: by name, in the order in which they enter a model. tried: sets that were fitted from where a larger one
     stands, and that one. looks: what `left_without` found. ends: work (`vjm.work`) after which nothing new is
     begun, but `TooMuch` raised. known: fits of the same campaign, model and candidates that need not be made again.
+    before: fits of the same sets to other readings of the same tests, from which these begin.
     """
 
     whole: Program
@@ -49,6 +51,8 @@ class Shelf:
     looks: dict[tuple[Names, str], float] = field(default_factory=dict)
     ends: float = np.inf
     known: Shelf | None = None
+    before: Shelf | None = None
+    own_lines: set[Names] = field(default_factory=set)
     at: Look = field(init=False)
 
     def __post_init__(self) -> None:
@@ -94,6 +98,14 @@ class Shelf:
         if names not in self._all_known([names]):
             self._begun(self._title(names))
             self.fits[names] = self._no_worse(names, self._fitted(names, begin or {}))
+        return self.fits[names]
+
+    def with_own_line(self, names: Names) -> Fit:
+        """The fit along its own line of what was written about the rig: for error bars, and for what could be added."""
+        found = self.fit(names)
+        if names not in self.own_lines and found.prediction.nominal.size:
+            self.own_lines.add(names)
+            self.fits[names] = with_own_line(found, self.whole, self.criteria.plausible)
         return self.fits[names]
 
     def fit_all(self, wanted: Mapping[Names, Mapping[str, float]]) -> None:
@@ -216,7 +228,8 @@ class Shelf:
             found = self.fit(names)
             rows, own = self.whole.by_role[0]
             start = at_rows(found.prediction, self.whole, own, rows)
-            self.looks[names, name] = height(found.model.without(name), own, start) / self.least(names)
+            left = height(*beside(found.model.without(name), own, start), start)
+            self.looks[names, name] = left / self.least(names)
         return self.looks[names, name]
 
     def least(self, names: Names) -> float:
@@ -230,7 +243,7 @@ class Shelf:
             return self.pictures.setdefault(names, self.known.picture(names))
         if names not in self.pictures:
             self._begun(f"what could be added to {self._title(names)}")
-            found = self.fit(names)
+            found = self.with_own_line(names)
             every = signatures(found, list(self.candidates.values()), self._probes, self.at, self.say)
             plausible = self.criteria.plausible
             self.pictures[names] = picture(found, every, self.at, self._rescues(found), plausible)
@@ -256,6 +269,10 @@ class Shelf:
     def _probes(self) -> list[Probe]:
         if self.known is not None:
             return self.known._probes
+        rows = None if self.before is None else rows_in(self.whole, self.before.whole)
+        if self.before is not None and rows is not None:
+            # What an effect does hangs on the tests, not on what was read.
+            return [replace(it, change=it.change[rows]) for it in self.before._probes]
         return probes(
             self.base, list(self.candidates.values()), self.whole, self.criteria.plain_probe, self.say
         )
@@ -264,7 +281,7 @@ class Shelf:
         effects = [self.candidates[name] for name in self.order(names)]
         model, start, known = self._begin(names)
         if not model.free:
-            return unfitted(model, self.whole)
+            return unfitted(model, self.whole, start)
         effects = [e for e in effects if e.name not in known]
         kinked = [e for e in effects if not e.smooth]
         new = [e.name for e in effects]
@@ -298,6 +315,11 @@ class Shelf:
         """The model with values of the best of the largest sets that were fitted already, where that one stood, and
         the set."""
         model = self._model(names)
+        if self.before is not None and names in self.before.fits:
+            old = self.before.fits[names]
+            start = carried(old.prediction, self.whole, self.before.whole)
+            if start is not None:
+                return _valued(model, old.model), start, names
         inside = [each for each in self.fits if each < names]
         if not inside:
             return model, None, frozenset()

@@ -18,6 +18,7 @@ from pipeline.campaign import Campaign
 from pipeline.campaign.names import channel_columns
 from pipeline.inference.fit import Fit, unfitted
 from pipeline.inference.model import Model
+from pipeline.inference.parts import carried
 from pipeline.inference.program import program
 from pipeline.inference.residual import whitening
 from pipeline.sensor_noise import from_roughness
@@ -34,12 +35,14 @@ CHANCE = 1e-4
 """Chance that noise leaves so little, where the series are too short for a scatter."""
 
 
-def trusted(whole: Campaign, model: Model) -> Campaign:
-    """The campaign with sigmas that its own scatter allows; each that was lowered is said in a remark."""
+def trusted(whole: Campaign, model: Model, near: Fit | None = None) -> Campaign:
+    """The campaign with sigmas that its own scatter allows; each that was lowered is said in a remark. near: a fit of
+    the model to other readings of the same tests."""
     cases = program(whole)
     if not (cases.predicted & cases.fitted[:, None]).any():
         return whole
-    found = unfitted(model, cases)
+    start = None if near is None else carried(near.prediction, cases, near.residual.program)
+    found = unfitted(model, cases, start)
     least = dict(_by_scatter(found)) or _by_size(found)
     if not least:
         return whole

@@ -9,9 +9,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pipeline.inference.levenberg_marquardt import levenberg_marquardt
-from pipeline.inference.lines import along_its_own_line, with_line
+from pipeline.inference.lines import along_a_line, with_line
 from pipeline.inference.model import Model
-from pipeline.inference.nominals import nominals
+from pipeline.inference.nominals import lined, nominals
 from pipeline.inference.objective import Objective
 from pipeline.inference.parts import at_rows, joined
 from pipeline.inference.predicted import Prediction
@@ -127,8 +127,27 @@ def fit(
 
     plausible: typical sizes from null that stand for one sigma of a weak pull towards null: numbers that the data
     say nothing about stay there. Chi-square is that of the data alone. share: of the work that a fit may take.
-    solver: `pipeline.inference.solvers`.
+    solver: `pipeline.inference.solvers`. What was written about the rig is eliminated along the line of the start;
+    without one along the fit's own.
     """
+    known = (start is not None and start.nominal.size > 0) or not nominals(program.campaign)
+    begin = start if known else lined(model, program, start)
+    found = _fit(model, program, begin, watch, plausible, share, solver)
+    if known:
+        return found
+    own = with_own_line(found, program, plausible, solver)
+    return replace(own, evaluations=own.evaluations + 2)
+
+
+def _fit(
+    model: Model,
+    program: Program,
+    start: Prediction | None,
+    watch: Watch | None,
+    plausible: float,
+    share: float,
+    solver: Solver,
+) -> Fit:
     (rows, own), *others = program.by_role
     begin = start if start is None or not others else at_rows(start, program, own, rows)
 
@@ -138,7 +157,7 @@ def fit(
         there = aim.at(aim.model.values, begin)
         return End(there, there.rounds, ended=False)
 
-    end = along_its_own_line(model, own, begin, solve)
+    end = along_a_line(model, own, begin, solve)
     values, there, model = end.there.values, end.there.with_slopes, end.there.objective.model
     if not others:
         return Fit(model.at(values), there.prediction, there.residual, end.evaluations, end.ended)
@@ -146,17 +165,29 @@ def fit(
     for rest, apart in others:
         near = None if start is None else at_rows(start, program, apart, rest)
         # Tests that are held out say nothing of what was written: it is where the others leave it.
-        found = Objective(model, apart.plain).at(values, near).with_slopes.prediction
-        pieces.append((rest, apart, with_line(model.at(values), apart, found)))
+        found = Objective(model, apart).at(values, near).with_slopes.prediction
+        pieces.append((rest, apart, with_line(model.at(values), found, near, apart)))
     whole = joined(program, pieces)
     return Fit(model.at(values), whole, residual(program, whole), end.evaluations, end.ended)
 
 
-def unfitted(model: Model, cases: Program) -> Fit:
+def with_own_line(
+    found: Fit, program: Program, plausible: float = np.inf, solver: Solver = levenberg_marquardt
+) -> Fit:
+    """A fit along its own line, from where it is; the same where all is exact."""
+    if not found.prediction.nominal.size:
+        return found
+    line = lined(found.model, program, found.prediction)
+    start = replace(found.prediction, by_nominal=line.by_nominal)
+    new = _fit(found.model, program, start, None, plausible, 1.0, solver)
+    return replace(new, evaluations=found.evaluations + new.evaluations + 2, ended=found.ended or new.ended)
+
+
+def unfitted(model: Model, cases: Program, start: Prediction | None = None) -> Fit:
     """A model as it is: nothing is fitted but the inputs, which were measured as well, and what was written about the
-    rig."""
+    rig. start: a prediction of a like model."""
     fixed = replace(model, fixed=frozenset(each.name for each in model.free) | model.fixed)
     if nominals(cases.campaign):
-        return fit(fixed, cases)
-    there = Objective(fixed, cases).at(fixed.values)
+        return fit(fixed, cases, start)
+    there = Objective(fixed, cases).at(fixed.values, start)
     return Fit(fixed, there.prediction, there.residual, there.rounds)

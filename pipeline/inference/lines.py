@@ -1,8 +1,10 @@
-"""A fit whose line, along which what was written about the rig is eliminated, is its own.
+"""A fit beside what was written about the rig, which is eliminated along a line.
 
 About the nominal values chi-square is too high by what the line misses: 18 to 38 where the bar is off by 2 %. So the
-numbers that were written go where the fit wants them, the line is drawn anew there, and the fit goes on, until
-chi-square stays (Gauss and Newton's steps of these numbers).
+numbers that were written go where the fit wants them, and the fit goes on from there, until chi-square stays (steps of
+Gauss and Newton in these numbers). The line itself may be that of a like model: where these numbers fit best the sum of
+squares does not depend on it to first order, and a chord leads there nearly as soon as a tangent; where it does not,
+the line is drawn anew. Error bars do depend on it, so that a model of which they are asked has its own line.
 """
 
 from __future__ import annotations
@@ -13,7 +15,7 @@ from dataclasses import replace
 import numpy as np
 
 from pipeline.inference.model import Model
-from pipeline.inference.nominals import FARTHEST, departed, departures, linearised, nominals
+from pipeline.inference.nominals import FARTHEST, beside, departed, departures, lined, nominals
 from pipeline.inference.objective import Evaluation, Objective
 from pipeline.inference.predicted import Prediction
 from pipeline.inference.program import Program
@@ -21,29 +23,31 @@ from pipeline.inference.solvers import End
 
 Solve = Callable[[Objective, Prediction | None], End]
 SAME = 0.1
-"""Of chi-square, or of its mean square where that is more: a line that changes it by no more is the fit's own."""
+"""Of chi-square, or of its mean square where that is more: numbers that change it by no more are where they fit
+best."""
 ROUNDS = 4
-"""Lines of a fit, at most: far above noise they need not settle."""
+"""Steps of these numbers, at most: far above noise they need not settle."""
+CHORDS = 1
+"""Of them along a line that may be another model's."""
 
 
-def along_its_own_line(model: Model, cases: Program, begin: Prediction | None, solve: Solve) -> End:
-    """The end of a fit, with what was written where it fits best and the line there."""
-    numbers = nominals(cases.campaign)
-    if not numbers:
-        return solve(Objective(model, cases), begin)
-    if cases.by_nominal is None:
-        cases = replace(cases, by_nominal=linearised(model, cases, begin, numbers))
+def along_a_line(model: Model, cases: Program, begin: Prediction | None, solve: Solve) -> End:
+    """The end of a fit with what was written where it fits best, along the line of the prediction where it begins."""
+    model, cases = beside(model, cases, begin)
     end = solve(Objective(model, cases), begin)
-    count = end.evaluations
-    for _ in range(ROUNDS):
+    if cases.by_nominal is None:
+        return end
+    numbers, count = nominals(cases.campaign), end.evaluations
+    for number in range(ROUNDS):
         there = end.there
         at = np.clip(there.residual.estimate, -FARTHEST, FARTHEST)
-        moved = departed(there.objective.model.at(there.values), numbers, at)
-        # Two solutions: the line, and chi-square along it.
-        line = linearised(moved, cases, there.prediction, numbers)
-        aim = Objective(moved, replace(cases, by_nominal=line))
-        new = aim.at(there.values, there.prediction)
-        count += 1 + new.rounds
+        moved, near = departed(there.objective.model.at(there.values), numbers, at), there.prediction
+        if number > CHORDS:
+            near = lined(moved, cases, near)
+            cases, count = replace(cases, by_nominal=near.by_nominal), count + 2
+        aim = Objective(moved, cases)
+        new = aim.at(there.values, near)
+        count += new.rounds
         if end.ended or _same(there, new):
             return replace(end, there=new, evaluations=count)
         end = solve(aim, new.prediction)
@@ -51,16 +55,12 @@ def along_its_own_line(model: Model, cases: Program, begin: Prediction | None, s
     return replace(end, evaluations=count)
 
 
-def with_line(model: Model, cases: Program, found: Prediction) -> Prediction:
-    """A prediction with its derivative by what was written; as it is where all is exact."""
-    numbers = nominals(cases.campaign)
-    if not numbers:
+def with_line(model: Model, found: Prediction, line: Prediction | None, cases: Program) -> Prediction:
+    """A prediction with the line of another one; as it is where that has none."""
+    if line is None or not line.nominal.size:
         return found
-    return replace(
-        found,
-        nominal=departures(model, numbers),
-        by_nominal=linearised(model, cases, found, numbers),
-    )
+    nominal = departures(model, nominals(cases.campaign))
+    return replace(found, nominal=nominal, by_nominal=line.by_nominal)
 
 
 def _same(old: Evaluation, new: Evaluation) -> bool:

@@ -104,10 +104,12 @@ def departures(model: Model, numbers: tuple[Nominal, ...]) -> Array:
     )
 
 
-def linearised(model: Model, cases: Program, near: Prediction | None, numbers: tuple[Nominal, ...]) -> Array:
-    """(R, C, K) derivative of the predictions of a model by each number in standard deviations, at the inputs of a
-    prediction near by."""
-    here = departed(model, numbers, departures(model, numbers)).nominals
+def lined(model: Model, cases: Program, near: Prediction | None) -> Prediction:
+    """The readings of a model with their derivative by each number that was written, in its standard deviations, at the
+    inputs of a prediction near by."""
+    numbers = nominals(cases.campaign)
+    at = departures(model, numbers)
+    here = departed(model, numbers, at).nominals
     own = {each.path for each in numbers}
     moved = Model((*here, *model.terms), _fixed(here, own) | _fixed(model.terms, set()))
     shift = None if near is None else near.shift
@@ -118,11 +120,19 @@ def linearised(model: Model, cases: Program, near: Prediction | None, numbers: t
     out = np.asarray(found.by_free[..., order] * deviations)
     for k in [k for k, each in enumerate(numbers) if each.parameter.name == POSTURE]:
         # No number of the mechanism: the tests are solved again at another angle.
-        there = departed(model, numbers, departures(model, numbers) + STEP * np.eye(len(numbers))[k])
+        there = departed(model, numbers, at + STEP * np.eye(len(numbers))[k])
         other = predict(there, cases, slopes=False, start=found, shift=shift, order=0)
         both = ~(other.lost | found.lost)
         out[both, :, k] = (other.values - found.values)[both] / STEP
-    return out
+    return replace(found, by_free=found.by_free[..., :0], nominal=at, by_nominal=out)
+
+
+def beside(model: Model, cases: Program, near: Prediction | None) -> tuple[Model, Program]:
+    """A model with what was written as it is in a prediction of a like one, and the program along the line of that; as
+    they are where it has none."""
+    if near is None or not near.nominal.size:
+        return model, cases
+    return departed(model, nominals(cases.campaign), near.nominal), replace(cases, by_nominal=near.by_nominal)
 
 
 def _fixed(terms: tuple[Term, ...], free: set[str]) -> frozenset[str]:

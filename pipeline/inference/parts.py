@@ -31,6 +31,20 @@ def at_rows(found: Prediction, cases: Program, part: Program, rows: Rows) -> Pre
     return replace(found, states=states_at(found, cases, part, rows), reasons=reasons, **arrays)
 
 
+def rows_in(cases: Program, other: Program) -> Rows | None:
+    """The rows of another program that are those of cases, by test and step; None where some are not there."""
+    names = [(test.id, int(step)) for test in other.campaign.tests for step in test.data.steps]
+    places = {name: row for row, name in enumerate(names)}
+    wanted = [(test.id, int(step)) for test in cases.campaign.tests for step in test.data.steps]
+    return np.array([places[name] for name in wanted]) if all(name in places for name in wanted) else None
+
+
+def carried(found: Prediction, cases: Program, other: Program) -> Prediction | None:
+    """A prediction of another program at the rows of cases; None where some are not there."""
+    rows = rows_in(cases, other)
+    return None if rows is None else at_rows(found, other, cases, rows)
+
+
 def states_at(found: Prediction, cases: Program, part: Program, rows: Rows) -> tuple[Equilibrium, ...]:
     """The states of a prediction of all cases at these rows."""
     out = []

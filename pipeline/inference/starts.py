@@ -12,6 +12,7 @@ from scipy.optimize import lsq_linear
 
 from pipeline.inference.fit import Fit, fit
 from pipeline.inference.model import Free, Model
+from pipeline.inference.nominals import beside
 from pipeline.inference.objective import Objective
 from pipeline.inference.parts import at_rows
 from pipeline.inference.predicted import Prediction
@@ -55,11 +56,13 @@ def best_fit(
     start: a prediction of a like model.
     plausible: see `fit`.
     """
-    begins, spent = [model], 0
+    spent = 0
     kinked = [t.effect for t in model.terms if t.effect.name in new and not t.effect.smooth]
     rows, own = program.by_role[0]
     near = None if start is None else at_rows(start, program, own, rows)
+    model, own = beside(model, own, near)
     look = thinned(own, near) if kinked else (own, near)
+    begins = [model]
     for effect in kinked:
         ladders = [_ladder(begin, effect, *look, watch) for begin in begins]
         begins = [each for found, _ in ladders for each in found][:MINIMA]

@@ -5,7 +5,6 @@ from __future__ import annotations
 import numpy as np
 
 from vjm.effects.base import Effect, Parameter, Rig, Values, for_bars
-from vjm.link import Link
 
 _OF = {"ea": "axial stiffness EA", "eiy": "bending stiffness EI_y", "eiz": "bending stiffness EI_z"}
 _TURNS = "torsional stiffness GJ"
@@ -31,8 +30,4 @@ class BarSectionError(Effect):
     def change(self, rig: Rig, values: Values) -> Rig:
         ea, eiy, eiz, gj = (np.sqrt(values[p.name]) for p in self.parameters)
         scales = np.array([ea, eiz, eiy, gj, eiy, eiz])
-        return for_bars(rig, lambda link: _scaled(link, scales))
-
-
-def _scaled(link: Link, scales: np.ndarray) -> Link:
-    return link.with_stiffness(scales[:, None] * link.stiffness * scales)
+        return for_bars(rig, lambda link: link.scaled(scales))

@@ -41,5 +41,4 @@ def _softened(link: Link, shares: np.ndarray) -> Link:
     ends = np.diag(shares * np.diag(compliance))
     lever = np.eye(6)
     lever[1, 5], lever[2, 4] = link.length, -link.length
-    whole = compliance + ends + lever @ ends @ lever.T
-    return link.with_stiffness(np.asarray(np.linalg.inv(0.5 * (whole + whole.T)), dtype=np.float64))
+    return link.with_little_more(ends + lever @ ends @ lever.T)

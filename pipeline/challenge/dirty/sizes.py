@@ -17,7 +17,7 @@ from pipeline.challenge.outcome import difference, each_alone
 from pipeline.diagnose.apart import multiple_correlation
 from pipeline.diagnose.diagnosis import Diagnosis
 from pipeline.inference.model import Model
-from pipeline.inference.nominals import linearised, nominals
+from pipeline.inference.nominals import lined, nominals
 from pipeline.inference.prediction import predict
 from pipeline.inference.program import program
 from pipeline.inference.residual import whitening
@@ -37,8 +37,7 @@ def sizes_after_tolerances(
     reference = predict(model, clean, slopes=False)
     white = whitening(clean, reference)
     used = clean.predicted & clean.fitted[:, None]
-    numbers = nominals(whole)
-    line = linearised(model, clean, None, numbers) if numbers else None
+    line = lined(model, clean, None).by_nominal if nominals(whole) else None
     given = (
         np.zeros((int(used.sum()), 0))
         if line is None

@@ -13,7 +13,7 @@ from pipeline.campaign import Campaign
 from pipeline.campaign.tolerance import usual
 from pipeline.inference.fit import Fit, fit, unfitted
 from pipeline.inference.model import Model
-from pipeline.inference.nominals import departed, departures, linearised, nominals
+from pipeline.inference.nominals import departed, departures, lined, nominals
 from pipeline.inference.objective import Objective
 from pipeline.inference.prediction import predict
 from pipeline.inference.program import Program, program
@@ -48,7 +48,7 @@ def test_derivatives_are_those_of_central_differences(effects: tuple[str, ...]) 
     numbers = nominals(cases.campaign)
     model = Model().with_effects([catalogue()[name] for name in effects])
     here = predict(model, cases)
-    line = linearised(model, cases, here, numbers)
+    line = lined(model, cases, here).by_nominal
     sigma = np.where(cases.predicted, cases.sigma, np.inf)
     for k, each in enumerate(numbers):
         step = 0.2 * np.eye(len(numbers))[k]
