@@ -31,6 +31,7 @@ from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
+from numpy.typing import NDArray
 
 from vjm.bars import Limb, X, Y, Z, check_station
 from vjm.chain import Element, Fixed, Joint, Mark, Role
@@ -49,7 +50,7 @@ SAME = 1e-12
 _PLANES = ((1, 5, 1.0), (2, 4, -1.0))
 # Within a chain a segment's coordinates are numbered as its joints come: rotations first.
 _ORDER = np.array([3, 4, 5, 0, 1, 2])
-_PLAIN = np.arange(6)
+_PLAIN: NDArray[np.int64] = np.arange(6)
 
 
 @dataclass(frozen=True)
@@ -242,7 +243,7 @@ def _stations(
     return (Mark(int(nodes[0]), sixth), 0.5 * share), *inner, (Mark(int(nodes[-1]), -sixth), 0.5 * share)
 
 
-def _summing_to(parts: Array, whole: Array, lever: Array, order: Array = _PLAIN) -> Array:
+def _summing_to(parts: Array, whole: Array, lever: Array, order: NDArray[np.int64] = _PLAIN) -> Array:
     """The compliances (n, 6, 6) changed by a congruence at the tip, so that their sum there is `whole`.
 
     lever: (n, 2) distance of the centres from the tip. The sum has the couplings of two planes only, of a bar that is

@@ -27,7 +27,7 @@ from pipeline.diagnose.sensor_faults import Instead, asked_about, plain_zero
 from pipeline.diagnose.shelf import Names, Shelf
 from pipeline.diagnose.signatures import Say
 from pipeline.errors import InputError
-from pipeline.inference.claims import trusted
+from pipeline.inference.claims import trusted_and_fit
 from pipeline.inference.fit import Fit, unfitted
 from pipeline.inference.model import Model
 from pipeline.inference.program import Program, program
@@ -232,9 +232,12 @@ def _prepared(
     """The empty fit cache, and the effects that are refused and why. before: of other readings of the same tests."""
     model, known = sized_model(model, campaign), all_sized(known, scale_for(campaign))
     check_suitable([term.effect for term in model.terms], campaign)
-    whole = trusted(completed(campaign), model, _fit_of_nothing(before))
+    whole, found = trusted_and_fit(completed(campaign), model, _fit_of_nothing(before))
     candidates, refused = suitable(whole, model, known)
-    return Shelf(program(whole), model, candidates, say, criteria, before=before), refused
+    if found is None or model.free:
+        return Shelf(program(whole), model, candidates, say, criteria, before=before), refused
+    fits = {frozenset[str](): found}
+    return Shelf(found.residual.program, model, candidates, say, criteria, fits, before=before), refused
 
 
 def _fit_of_nothing(shelf: Shelf | None) -> Fit | None:

@@ -52,7 +52,6 @@ class Shelf:
     ends: float = np.inf
     known: Shelf | None = None
     before: Shelf | None = None
-    own_lines: set[Names] = field(default_factory=set)
     at: Look = field(init=False)
 
     def __post_init__(self) -> None:
@@ -102,10 +101,7 @@ class Shelf:
 
     def with_own_line(self, names: Names) -> Fit:
         """The fit along its own line of what was written about the rig: for error bars, and for what could be added."""
-        found = self.fit(names)
-        if names not in self.own_lines and found.prediction.nominal.size:
-            self.own_lines.add(names)
-            self.fits[names] = with_own_line(found, self.whole, self.criteria.plausible)
+        self.fits[names] = with_own_line(self.fit(names), self.whole, self.criteria.plausible)
         return self.fits[names]
 
     def fit_all(self, wanted: Mapping[Names, Mapping[str, float]]) -> None:
@@ -325,7 +321,11 @@ class Shelf:
             return model, None, frozenset()
         largest = max(inside, key=lambda each: (len(each), -self.fits[each].chi_square))
         known = self.fits[largest]
-        return _valued(model, known.model), known.prediction, largest
+        start = known.prediction
+        if known.rms > self.criteria.far and start.nominal.size:
+            # As a model that is far off wants what was written, it is not.
+            start = replace(start, nominal=np.zeros(0), by_nominal=start.by_nominal[..., :0])
+        return _valued(model, known.model), start, largest
 
 
 def _free_numbers(effect: Effect, fixed: frozenset[str]) -> int:

@@ -35,17 +35,22 @@ CHANCE = 1e-4
 """Chance that noise leaves so little, where the series are too short for a scatter."""
 
 
-def trusted(whole: Campaign, model: Model, near: Fit | None = None) -> Campaign:
-    """The campaign with sigmas that its own scatter allows; each that was lowered is said in a remark. near: a fit of
-    the model to other readings of the same tests."""
+def trusted(whole: Campaign, model: Model) -> Campaign:
+    """The campaign with sigmas that its own scatter allows; each that was lowered is said in a remark."""
+    return trusted_and_fit(whole, model)[0]
+
+
+def trusted_and_fit(whole: Campaign, model: Model, near: Fit | None = None) -> tuple[Campaign, Fit | None]:
+    """The same, and the model as it is beside what was written; None where a sigma was lowered, or nothing is compared.
+    near: a fit of the model to other readings of the same tests."""
     cases = program(whole)
     if not (cases.predicted & cases.fitted[:, None]).any():
-        return whole
+        return whole, None
     start = None if near is None else carried(near.prediction, cases, near.residual.program)
     found = unfitted(model, cases, start)
     least = dict(_by_scatter(found)) or _by_size(found)
     if not least:
-        return whole
+        return whole, found
     noise = whole.noise
     sigmas = noise.sigmas
     names = channel_columns(whole.gauges)
@@ -57,7 +62,7 @@ def trusted(whole: Campaign, model: Model, near: Fit | None = None) -> Campaign:
         remarks.append(
             f"{names[k]}: a sigma of {sigmas[k]:.3g} is given, but the readings scatter far less: {new[k]:.3g} counts"
         )
-    return replace(whole, noise=noise.of(new), remarks=(*whole.remarks, *remarks))
+    return replace(whole, noise=noise.of(new), remarks=(*whole.remarks, *remarks)), None
 
 
 def _by_scatter(found: Fit) -> Iterator[tuple[int, float]]:

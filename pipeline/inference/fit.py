@@ -17,7 +17,7 @@ from pipeline.inference.parts import at_rows, joined
 from pipeline.inference.predicted import Prediction
 from pipeline.inference.program import Program
 from pipeline.inference.residual import Residual, residual
-from pipeline.inference.solvers import End, Solver, Watch
+from pipeline.inference.solvers import End, Solver, Watch, far
 
 Array = NDArray[np.float64]
 
@@ -26,7 +26,8 @@ Array = NDArray[np.float64]
 class Fit:
     """A model at its best fit to the tests that may be fitted.
 
-    prediction, residual: there. evaluations: of the whole campaign. ended: whether its work ran out before.
+    prediction, residual: there. evaluations: of the whole campaign. ended: whether its work ran out before. own_line:
+    whether what was written about the rig is eliminated along the line of this model.
     """
 
     model: Model
@@ -34,6 +35,7 @@ class Fit:
     residual: Residual
     evaluations: int
     ended: bool = False
+    own_line: bool = False
 
     @cached_property
     def whitened(self) -> Array:
@@ -133,7 +135,8 @@ def fit(
     known = (start is not None and start.nominal.size > 0) or not nominals(program.campaign)
     begin = start if known else lined(model, program, start)
     found = _fit(model, program, begin, watch, plausible, share, solver)
-    if known:
+    if known or far(found.chi_square, found.whitened.size):
+        # No verdict hangs on the error bars of a model that is far off.
         return found
     own = with_own_line(found, program, plausible, solver)
     return replace(own, evaluations=own.evaluations + 2)
@@ -175,12 +178,13 @@ def with_own_line(
     found: Fit, program: Program, plausible: float = np.inf, solver: Solver = levenberg_marquardt
 ) -> Fit:
     """A fit along its own line, from where it is; the same where all is exact."""
-    if not found.prediction.nominal.size:
+    if not found.prediction.nominal.size or found.own_line:
         return found
     line = lined(found.model, program, found.prediction)
     start = replace(found.prediction, by_nominal=line.by_nominal)
     new = _fit(found.model, program, start, None, plausible, 1.0, solver)
-    return replace(new, evaluations=found.evaluations + new.evaluations + 2, ended=found.ended or new.ended)
+    count, ended = found.evaluations + new.evaluations + 2, found.ended or new.ended
+    return replace(new, evaluations=count, ended=ended, own_line=True)
 
 
 def unfitted(model: Model, cases: Program, start: Prediction | None = None) -> Fit:
