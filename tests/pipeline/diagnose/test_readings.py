@@ -7,11 +7,16 @@ from functools import cache
 
 import numpy as np
 
+from pipeline.adequacy.bad_readings import BadReading, set_aside
 from pipeline.answer import Answer
 from pipeline.campaign import Campaign
-from pipeline.diagnose.diagnosis import diagnose
+from pipeline.campaign.names import channel_columns
+from pipeline.diagnose.diagnosis import diagnose, fit_cache
+from pipeline.diagnose.shelf import Shelf
 from pipeline.diagnose.words import answered
+from pipeline.inference.driving import driving
 from pipeline.inference.model import Model
+from pipeline.inference.program import program
 from tests.pipeline.diagnose.bench import bench
 from vjm.effects import catalogue
 
@@ -63,3 +68,22 @@ def test_a_sigma_that_is_wrong_by_two_does_not_decide() -> None:
     for each in found.noise:
         assert abs(np.log(each.found / each.declared / 2.0)) < 4.0 * (each.relative_error or 0.0)
     assert any("scatters by" in said for said in found.sentences)
+
+
+def test_a_search_without_a_reading_begins_where_the_one_with_it_ended() -> None:
+    """A controlled reading at that, whose row is gone."""
+    it, base, nothing = plain(), frozenset({"bar_geometric_nonlinearity"}), Model()
+    wanted = [base, base | {"modulus_error"}]
+    known = {name: catalogue()[name] for name in ("bar_geometric_nonlinearity", "modulus_error")}
+    before = fit_cache(it, nothing, known)
+    for names in wanted:
+        before.fit(names)
+    test = it.tests[1]
+    (column, *_) = driving(test, it.gauges)
+    bad = BadReading(test.id, int(test.data.steps[4]), channel_columns(it.gauges)[column], 20.0)
+    cases = program(set_aside(before.whole.campaign, (bad,)))
+    assert len(cases.test) == len(before.whole.test) - 1
+    here, anew = (Shelf(cases, nothing, known, str, before=given) for given in (before, None))
+    for names in wanted:
+        assert here.fit(names).chi_square <= anew.fit(names).chi_square + 0.2
+    assert here.evaluations < anew.evaluations

@@ -11,7 +11,7 @@ from scipy.optimize import least_squares
 
 from pipeline.campaign import Campaign
 from pipeline.campaign.tolerance import usual
-from pipeline.inference.fit import Fit, fit, unfitted
+from pipeline.inference.fit import Fit, fit, unfitted, with_own_line
 from pipeline.inference.model import Model
 from pipeline.inference.nominals import departed, departures, lined, nominals
 from pipeline.inference.objective import Objective
@@ -88,6 +88,30 @@ def test_the_line_of_a_fit_gives_what_free_numbers_give() -> None:
     off = "modulus_error.scale", 1.04
     found = fitted(*off)
     assert found.chi_square == pytest.approx(explicit(found, program(campaign(*off))), abs=0.15)
+
+
+def test_the_line_of_a_like_model_leads_where_the_own_one_does() -> None:
+    """Chi-square and what was written within a part of what noise moves them by; along its own line to rounding."""
+    off = "modulus_error.scale", 1.04
+    cases, start = program(campaign(*off)), fitted(*off)
+    model = start.model.with_effects([catalogue()[name] for name in ("mounting_tilt", "load_offset")])
+    chord, own = fit(model, cases, start.prediction), fitted(*off, more=("mounting_tilt", "load_offset"))
+    assert not chord.own_line and own.own_line
+    assert chord.chi_square == pytest.approx(own.chi_square, abs=0.3)
+    lined_anew = with_own_line(chord, cases)
+    assert lined_anew.own_line
+    assert lined_anew.chi_square == pytest.approx(own.chi_square, abs=0.02)
+    np.testing.assert_allclose(lined_anew.std, own.std, rtol=0.02)
+
+
+def test_a_line_that_leads_nowhere_is_drawn_anew() -> None:
+    """That of bars without geometric stiffness, far off: the fit with it begins there and ends near where it should."""
+    off = "modulus_error.scale", 1.04
+    cases = program(campaign(*off))
+    straight = unfitted(Model(), cases)
+    found = fit(Model().with_effects([catalogue()[BENT]]), cases, straight.prediction)
+    assert straight.chi_square > 1e4 and found.chi_square == pytest.approx(fitted(*off).chi_square, abs=3.0)
+    assert with_own_line(found, cases).chi_square == pytest.approx(fitted(*off).chi_square, abs=0.1)
 
 
 def test_a_bar_that_is_off_within_its_tolerance_is_no_misfit() -> None:

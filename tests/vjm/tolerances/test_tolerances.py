@@ -6,9 +6,12 @@ import numpy as np
 import pytest
 
 from fem.beam import uniform_stiffness
+from tests.vjm.test_refined import entrywise
 from vjm.effects.bar_section_error import BarSectionError
 from vjm.mechanisms.bar import Bar
 from vjm.mechanisms.parallelogram import Parallelogram
+from vjm.refined import Refined
+from vjm.stiffness import unloaded_stiffness
 from vjm.tolerances import tolerances
 from vjm.tolerances.angle import Angle
 from vjm.tolerances.end_softness import EndSoftness
@@ -73,6 +76,28 @@ def test_ends_may_be_stiffer_than_the_bar_says_and_no_spring_is_negative() -> No
     assert np.all(np.diag(found) > np.diag(stiffness(bar())))
     softer = EndSoftness().apply(bar(), shares).refined(4)
     assert np.all(np.linalg.eigvalsh(softer.chains[0].stiffness) > 0.0)
+
+
+@pytest.mark.parametrize("direction", EndSoftness().nulls)
+def test_nothing_jumps_where_the_ends_are_as_written(direction: str) -> None:
+    """A uniform bar stands on the border between one with shear and one with rigid ends: its segments take a give of
+    either sign alike, so that a line through them says what both do."""
+
+    def compliances(share: float) -> np.ndarray:
+        (link,) = EndSoftness().apply(bar(), EndSoftness().nulls | {direction: share}).links
+        return np.asarray(np.linalg.inv(Refined(6).shares(link).stiffness))
+
+    sizes = np.sqrt(np.diagonal(compliances(0.0)[0]))
+    less, same, more = (compliances(share) / np.outer(sizes, sizes) for share in (-1e-4, 0.0, 1e-4))
+    slope = np.abs(more - less).max()
+    assert slope > 1e-5
+    assert np.abs(more - 2.0 * same + less).max() < 0.01 * slope
+
+
+@pytest.mark.parametrize("share", [-0.02, 0.02])
+def test_the_segments_of_a_bar_with_other_ends_are_that_bar(share: float) -> None:
+    of = EndSoftness().apply(bar(), dict.fromkeys(EndSoftness().nulls, share))
+    assert entrywise(unloaded_stiffness(of.refined(4)), stiffness(of)) < 1e-9
 
 
 def test_an_angle_is_of_the_tests_and_no_change_of_a_mechanism() -> None:
