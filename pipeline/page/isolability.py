@@ -44,6 +44,8 @@ def isolability_anew(
     whole = completed(campaign)
     candidates, _ = suitable(whole, model, known)
     shelf = Shelf(program(whole), model, candidates, say)
+    # All fits begin where those of a diagnosis do.
+    shelf.fit(frozenset())
     return _of(shelf, [name for name in added if name in candidates]).model_copy(update={"anew": True})
 
 

@@ -28,11 +28,13 @@ class Detail:
 
 
 # Travel of a load path in units of that at the linear critical load: close-set where the branches part.
-FEW = (0.4, 0.8, 0.92, 0.97, 1.0, 1.03, 1.1, 1.4)
+LOOK = (0.4, 0.8, 0.97, 1.0, 1.1)
 SOME = (0.3, 0.6, 0.8, 0.9, 0.95, 0.98, 1.0, 1.02, 1.05, 1.1, 1.2, 1.4, 1.7)
 MANY = tuple(
     sorted({*SOME, 0.15, 0.45, 0.7, 0.85, 0.93, 0.965, 0.99, 1.01, 1.035, 1.075, 1.15, 1.3, 1.55, 1.85, 2.0})
 )
-COARSE = Detail("coarse", working=1, study=(1, 2, 3), path=1, travel=FEW, path_angles=1, path_sets=2)
+COARSE = Detail(
+    "coarse", working=1, study=(1, 2, 3), path=1, travel=LOOK, steps=(5, 10), path_angles=1, path_sets=1
+)
 DEFAULT = Detail("default", working=2, study=(1, 2, 3, 4), path=1, travel=SOME)
 FINE = Detail("fine", working=3, study=(1, 2, 3, 4, 5), path=2, travel=MANY, steps=(10, 20, 40))
