@@ -65,7 +65,7 @@ def scaled(it: Campaign, force: float, length: float) -> Campaign:
 @pytest.mark.parametrize(
     ("force", "length"),
     [
-        (1000.0, 1.0),
+        pytest.param(1000.0, 1.0, marks=pytest.mark.long),
         pytest.param(1.0, 10.0, marks=pytest.mark.long),
         pytest.param(0.01, 0.1, marks=pytest.mark.long),
     ],
@@ -79,6 +79,7 @@ def test_units_and_scale_change_no_verdict(force: float, length: float) -> None:
     np.testing.assert_allclose(other.model.values, plain().model.values, rtol=1e-4)
 
 
+@pytest.mark.long
 def test_the_order_of_the_tests_changes_no_verdict() -> None:
     for order in list(permutations(soft().tests))[3:5]:
         other = found(replace(soft(), tests=order))
@@ -112,7 +113,11 @@ def test_a_shifted_channel_is_first_a_zero(channel: int) -> None:
 
 @pytest.mark.parametrize(
     "name",
-    ["c04_dial_softer", "t09_identified_undetermined", pytest.param("n_B_s4", marks=pytest.mark.long)],
+    [
+        "c04_dial_softer",
+        pytest.param("t09_identified_undetermined", marks=pytest.mark.long),
+        pytest.param("n_B_s4", marks=pytest.mark.long),
+    ],
 )
 def test_a_larger_set_never_leaves_more_than_one_that_it_contains(name: str) -> None:
     shelf = found(read(DATA / name)).shelf

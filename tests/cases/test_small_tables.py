@@ -140,8 +140,10 @@ def test_without_a_sigma_what_can_be_said_is_said_in_units() -> None:
     [
         ("t08_offset_identified_as_dimension", 'x starts at 2.95 mm: zero = "fitted"?'),
         ("t01_next_test_lstsq", 'rz starts at 0.001 rad: zero = "fitted"?'),
-        ("n_f_gauge", 'x starts at 3.21 mm: zero = "fitted"?'),
-        ("t09_identified_undetermined", 'fz starts at 898 N: zero = "fitted"?'),
+        pytest.param("n_f_gauge", 'x starts at 3.21 mm: zero = "fitted"?', marks=pytest.mark.long),
+        pytest.param(
+            "t09_identified_undetermined", 'fz starts at 898 N: zero = "fitted"?', marks=pytest.mark.long
+        ),
     ],
 )
 def test_a_constant_of_one_channel_is_first_a_zero(name: str, first: str) -> None:

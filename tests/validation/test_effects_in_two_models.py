@@ -164,6 +164,7 @@ def test_effects_together() -> None:
     check("six effects", DRAWINGS["bar P"], effects, programme([0.0, 30.0, -30.0], 8))
 
 
+@pytest.mark.long
 def test_the_two_models_are_not_one() -> None:
     """An effect in one of them and not in the other is seen: the comparison can fail."""
     trials = programme([0.0, 30.0], 3)

@@ -145,6 +145,7 @@ def run(linkages: int, count: int) -> int:
     return solved
 
 
+@pytest.mark.long
 def test_random_load_cases() -> None:
     assert run(4, 20) >= 48
 

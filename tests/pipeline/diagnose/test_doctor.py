@@ -101,6 +101,7 @@ def test_nothing_is_named_before_it_is_settled() -> None:
     assert any("Doctor: it looks as if all forces are in kgf" in line for line in _examined(wrong))
 
 
+@pytest.mark.long
 def test_a_zero_of_one_column_is_told_as_a_zero() -> None:
     wrong = WRONG["x_mm was not zeroed: absolute positions or loads"](bench(*LACKS))
     it = diagnose(wrong, Model(), catalogue())

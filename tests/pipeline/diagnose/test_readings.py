@@ -6,6 +6,7 @@ from dataclasses import replace
 from functools import cache
 
 import numpy as np
+import pytest
 
 from pipeline.adequacy.bad_readings import BadReading, set_aside
 from pipeline.answer import Answer
@@ -57,6 +58,7 @@ def test_a_knocked_reading_is_set_aside_and_told() -> None:
     assert "Set aside" in said and "mz_Nmm at step 3" in said and "the verdict would be unknown" in said
 
 
+@pytest.mark.long
 def test_a_sigma_that_is_wrong_by_two_does_not_decide() -> None:
     it = plain()
     wrench = it.noise.wrench.copy()

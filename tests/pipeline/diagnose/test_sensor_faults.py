@@ -42,6 +42,7 @@ def test_a_gauge_that_creeps_a_little_is_no_tilt(seed: int) -> None:
     assert not any("No test of these kinds" in each for each in said)
 
 
+@pytest.mark.long
 def test_what_no_sensor_does_is_named() -> None:
     it = diagnose(bench("mounting_tilt.rz_rad", 2e-3), Model(), catalogue())
     assert it.verdict == "identified" and it.sets == ((ALWAYS, "mounting_tilt"),) and not it.instead

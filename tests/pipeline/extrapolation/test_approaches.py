@@ -81,6 +81,7 @@ def test_what_is_not_fitted_would_not_have_been_the_best() -> None:
     assert len(shelf.fits) < 2 * len(whole.fits) / 3
 
 
+@pytest.mark.long
 def test_every_approach_answers(book: Book) -> None:
     assert set(book.errors) == set(book.seconds) == set(APPROACHES) and not book.failed
     assert book.verdict == "identified" and set(book.sets[0]) == {ALWAYS, "modulus_error"}

@@ -70,6 +70,7 @@ def test_the_first_cases_that_hide_effects() -> None:
     assert {ROUND[n % len(ROUND)] for n in numbers(300)} == {"single", "pair"}
 
 
+@pytest.mark.long
 def test_a_whole_case_runs_and_is_not_run_again(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     store = tmp_path / "deep" / "trials.jsonl"
     done: list[Trial] = []

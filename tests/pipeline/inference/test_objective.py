@@ -37,7 +37,7 @@ def total(there: Evaluation) -> float:
         ("base_compliance",),
         ("joint_friction",),
         ("joint_clearance",),
-        ("joint_clearance", "joint_friction"),
+        pytest.param(("joint_clearance", "joint_friction"), marks=pytest.mark.long),
     ],
 )
 @pytest.mark.parametrize("size", [0.03, pytest.param(1.0, marks=pytest.mark.long)])

@@ -103,6 +103,7 @@ def test_laws_are_not_sent(two: None, monkeypatch: pytest.MonkeyPatch) -> None:
     assert len(fits()) == 3 > len(made)
 
 
+@pytest.mark.long
 def test_intervals_are_those_of_one_processor(two: None) -> None:
     best = fits()[0]
     both = landscape(best, CASES)
