@@ -57,7 +57,9 @@ def main() -> None:
 @app.command()
 def run(
     case: CaseName = "orthoglide",
-    coarse: Annotated[bool, typer.Option("--coarse", help="Coarse meshes: a look in a minute or two.")] = False,
+    coarse: Annotated[
+        bool, typer.Option("--coarse", help="Coarse meshes: a look in a minute or two.")
+    ] = False,
     fine: Annotated[bool, typer.Option("--fine", help="Fine meshes: the last digit, in minutes.")] = False,
     out: Out = None,
     quiet: Quiet = False,

@@ -16,7 +16,7 @@ from pipeline.diagnose.apart import Likeness
 from pipeline.diagnose.beyond import with_what_held_out_tests_need
 from pipeline.diagnose.certain import certain
 from pipeline.diagnose.doctor import Suspicion, suspicions
-from pipeline.diagnose.faulty import has_fault, with_promising_faults
+from pipeline.diagnose.faulty import has_one_fault, with_promising_faults
 from pipeline.diagnose.folds import agreement
 from pipeline.diagnose.next_test import NextTest, best_next_test
 from pipeline.diagnose.readings import AS_DECLARED, Readings
@@ -195,7 +195,7 @@ def _with_faults(it: Chosen, known: Mapping[str, Effect], attempts: Attempts) ->
     shelf.say("whether a sensor is at fault")
     new = chosen(more, attempts)
     explained = judge(more.fit(new.found.best), shelf.criteria).noise
-    return new if explained and has_fault(more, new.found.best) else it
+    return new if explained and has_one_fault(more, new.found.best) else it
 
 
 def _unsettled(

@@ -1,8 +1,8 @@
 """A sensor's fault among the effects, where those of the mechanism leave what is no noise.
 
 Every fault of every sensor that was read is looked at to first order, beside the best set and beside none; with those
-that promise most the search is made again. Where its best set leaves noise the answer is that, else the first one: a
-fault that explains a part is no better than an effect that does.
+that promise most the search is made again. Where its best set has one of them and leaves noise the answer is that, else
+the first one: a fault that explains a part is no better than an effect that does.
 """
 
 from __future__ import annotations
@@ -39,9 +39,9 @@ def with_promising_faults(shelf: Shelf, known: Iterable[Effect], best: Names) ->
     )
 
 
-def has_fault(shelf: Shelf, names: Names) -> bool:
-    """Whether a set has a fault of a sensor."""
-    return any(isinstance(shelf.candidates[name], SensorFault) for name in names)
+def has_one_fault(shelf: Shelf, names: Names) -> bool:
+    """Whether a set has the fault of one sensor: two at once explain nearly anything, and are no name."""
+    return sum(isinstance(shelf.candidates[name], SensorFault) for name in names) == 1
 
 
 def _gains(shelf: Shelf, names: Names, every: Mapping[str, Effect]) -> dict[str, float]:

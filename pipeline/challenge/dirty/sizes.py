@@ -52,7 +52,8 @@ def sizes_after_tolerances(
     gamma = {
         name: _confusable(answer, name, it.effects, signatures[name], given, used) for name in it.effects
     }
-    return sizes, gamma
+    # Beside a mistake of the table, or of what does nothing, it is not known.
+    return sizes, {name: value for name, value in gamma.items() if np.isfinite(value)}
 
 
 def _exact(whole: Campaign, it: DirtyCase, found: list[Readings]) -> Campaign:
