@@ -59,7 +59,7 @@ class SetAside(Record):
 class FoundNoise(Record):
     """The noise of a sensor where it is not as declared; sigmas in the unit of its column. relative_error: standard
     error of what was found, of itself. tails: degrees of freedom of Student's law, None where noise is normal.
-    correlation: of neighbours in a column, None where there is none."""
+    correlation: of neighbouring rows of a test, then that is what was found; None where there is none."""
 
     column: str
     declared: float

@@ -29,12 +29,14 @@ FLAT = 1e-3
 
 @dataclass(frozen=True)
 class Pattern:
-    """A pattern that the residual follows. score: in sigmas. amplitude: largest error of the reading, its unit."""
+    """A pattern that the residual follows. score: in sigmas, without the reading that says most for it. amplitude:
+    largest error of the reading, its unit. takes: chi-square that it takes off, all readings counted."""
 
     channel: int
     words: str
     score: float
     amplitude: float
+    takes: float
 
 
 @dataclass(frozen=True, eq=False)
@@ -83,7 +85,8 @@ def scores(found: Fit, criteria: Criteria) -> list[Pattern]:
     out = []
     for it in shapes(found, criteria):
         score = steady(it.column, found.whitened)
-        out.append(Pattern(it.channel, it.words, score, score / it.size * it.largest))
+        takes = float(it.column @ found.whitened / it.size) ** 2
+        out.append(Pattern(it.channel, it.words, score, score / it.size * it.largest, takes))
     return sorted(out, key=lambda it: -abs(it.score))
 
 

@@ -12,6 +12,7 @@ from pipeline.adequacy.untested import untested
 from pipeline.answer import Verdict
 from pipeline.attempt import Attempts
 from pipeline.campaign import Campaign
+from pipeline.diagnose.alike_rows import NONE, AlikeRows, alike_rows
 from pipeline.diagnose.apart import Likeness
 from pipeline.diagnose.beyond import with_what_held_out_tests_need
 from pipeline.diagnose.certain import certain
@@ -46,7 +47,7 @@ class Diagnosis:
     refused: effects that the rig or the campaign cannot have, and why. failed: optional parts that failed, and why.
     doctor: mistakes of the table, one of which comes before all physics. readings: what they are about the first set;
     given: the campaign with all of them as they were declared; with_all: the verdict by those. certain: effects that
-    are there whatever the verdict.
+    are there whatever the verdict. alike_rows: sensors whose noise is correlated from row to row.
     """
 
     campaign: Campaign
@@ -64,6 +65,7 @@ class Diagnosis:
     given: Campaign | None = None
     with_all: Verdict = "unknown"
     certain: tuple[str, ...] = ()
+    alike_rows: AlikeRows = NONE
 
     @property
     def verdict(self) -> Verdict:
@@ -150,6 +152,7 @@ def diagnose(
     say("what is certain")
     sure = attempts.get("what is certain", lambda: certain(found, ruling.sets), ())
     stable = attempts.get("whether folds of the tests agree", lambda: _agreements(shelf, found.best), {})
+    alike = attempts.get("whether rows are alike", lambda: alike_rows(shelf, ruling), NONE)
     return Diagnosis(
         whole,
         found,
@@ -166,6 +169,7 @@ def diagnose(
         given.campaign,
         with_all,
         sure,
+        alike,
     )
 
 

@@ -74,7 +74,7 @@ def answer_of(it: Diagnosis, sentences: tuple[str, ...] = (), found: Fit | None 
         set_aside=tuple(
             SetAside(test=b.test, step=b.step, column=b.column, sigma=b.sigmas) for b in it.readings.bad
         ),
-        noise=() if it.given is None else tuple(found_noise(it.readings, it.given, whole.predicted)),
+        noise=(*_other_noise(it), *_correlated(it)),
         as_declared=None if it.readings.plain else it.with_all,
         certain=tuple(Certain(effect=name, parameters=_values(found.model, name)) for name in it.certain),
         doctor=tuple(doctor_finding(each) for each in it.doctor),
@@ -93,6 +93,25 @@ def answer_of(it: Diagnosis, sentences: tuple[str, ...] = (), found: Fit | None 
         versions=versions(),
         data=dict(it.campaign.digests),
     )
+
+
+def _other_noise(it: Diagnosis) -> Iterator[FoundNoise]:
+    if it.given is not None:
+        yield from found_noise(it.readings, it.given, it.shelf.whole.predicted)
+
+
+def _correlated(it: Diagnosis) -> Iterator[FoundNoise]:
+    """Sensors whose noise is correlated from row to row, of the sigmas that count."""
+    sigmas, names = sigmas_of(it.campaign), columns_of(it.campaign)
+    for each in it.alike_rows.sensors:
+        here = float(sigmas[each.channel])
+        yield FoundNoise(
+            column=names[each.channel],
+            declared=here,
+            found=here,
+            relative_error=each.error / each.correlation,
+            correlation=each.correlation,
+        )
 
 
 def found_noise(it: Readings, given: Campaign, predicted: np.ndarray) -> Iterator[FoundNoise]:

@@ -58,8 +58,9 @@ def _faults(shelf: Shelf, name: str, without: Names, gain: float) -> Iterator[In
         # One test alone that was not zeroed is a choice among many: it has to do better than the effect.
         if zero.everywhere or zero.gain >= gain:
             yield Instead(name, without, zero.words, zero.gain, gain, zero)
-    for pattern in scores(fit, shelf.criteria)[:1]:
-        yield Instead(name, without, pattern.words, pattern.score**2, gain)
+    # An effect is no steadier than a fault: a few large loads may say all that is known of either.
+    for pattern in sorted(scores(fit, shelf.criteria), key=lambda it: -it.takes)[:1]:
+        yield Instead(name, without, pattern.words, pattern.takes, gain)
 
 
 def plain_zero(found: Fit, criteria: Criteria) -> bool:

@@ -55,6 +55,7 @@ def sentences(it: Diagnosis, answer: Answer | None = None) -> tuple[str, ...]:
             "the limits in words": lambda: tuple(limits(record)),
             "what was written, in words": lambda: tuple(written(record, it.shelf.criteria.nominal_moved)),
             "what is left in words": lambda: tuple(_left(it)),
+            "noise from row to row, in words": lambda: tuple(_from_row_to_row(it, record)),
             "the rivals in words": lambda: tuple(_rivals(it)),
             "the next test in words": lambda: tuple(_next(it)),
         }
@@ -169,7 +170,7 @@ def _aside(answer: Answer) -> Iterator[str]:
             f"The noise has long tails (Student's law of {law:.1f} degrees of freedom): readings far out "
             "count less, none is set aside."
         )
-    for it in (it for it in answer.noise if it.tails is None):
+    for it in (it for it in answer.noise if it.tails is None and it.correlation is None):
         error = "" if it.relative_error is None else f" (± {percent(it.relative_error)})"
         yield (
             f"{it.column} scatters by {short(it.found)}{error}, not by the {short(it.declared)} that is declared: "
@@ -177,6 +178,27 @@ def _aside(answer: Answer) -> Iterator[str]:
         )
     if answer.as_declared is not None:
         yield f"With all readings and sigmas as they are declared the verdict would be {answer.as_declared}."
+
+
+def _from_row_to_row(it: Diagnosis, answer: Answer) -> Iterator[str]:
+    """What noise that is correlated explains, or does to intervals."""
+    mine = [each for each in answer.noise if each.correlation is not None]
+    if not mine:
+        return
+    told = _listed([f"{each.column} ({each.correlation:.2f})" for each in mine])
+    largest = max(each.correlation or 0.0 for each in mine)
+    wider = np.sqrt((1.0 + largest) / (1.0 - largest))
+    if it.verdict == "unknown":
+        beside = _and(it.shelf.order(it.alike_rows.beside))
+        yield (
+            f"One explanation of the rest is noise that is correlated from row to row, of {told}: beside {beside} it "
+            "explains all. Hold one load and read it thirty times: if neighbours are alike there too, it is noise."
+        )
+        return
+    yield (
+        f"The noise of {told} is correlated from row to row. Intervals are for noise that is not: of numbers that "
+        f"this column alone tells they may be up to {wider:.1f} times as wide."
+    )
 
 
 def _left(it: Diagnosis) -> Iterator[str]:

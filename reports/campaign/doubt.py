@@ -91,8 +91,16 @@ def noise(page: Json) -> Table:
             channel_label(it["column"].rpartition("_")[0]),
             number(it["declared"], 3),
             number(it["found"], 3),
-            "normal" if it["tails"] is None else f"Student's t, {number(it['tails'], 2)} degrees",
+            _law(it),
         ]
         for it in page["noise"]
     ]
     return table("Noise that is not as declared, one sigma", columns, rows)
+
+
+def _law(noise: Json) -> str:
+    if noise["tails"] is not None:
+        return f"Student's t, {number(noise['tails'], 2)} degrees"
+    if noise["correlation"] is not None:
+        return f"normal, neighbouring rows correlated by {number(noise['correlation'], 2)}"
+    return "normal"

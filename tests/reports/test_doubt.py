@@ -26,8 +26,9 @@ PAGE = {
     ],
     "set_aside": [{"test": "axial", "step": 5, "column": "x_mm", "sigma": 31.2}],
     "noise": [
-        {"column": "fy_N", "declared": 0.5, "found": 1.02, "tails": None},
-        {"column": "x_mm", "declared": 0.001, "found": 0.001, "tails": 3.1},
+        {"column": "fy_N", "declared": 0.5, "found": 1.02, "tails": None, "correlation": None},
+        {"column": "x_mm", "declared": 0.001, "found": 0.001, "tails": 3.1, "correlation": None},
+        {"column": "z_mm", "declared": 0.001, "found": 0.001, "tails": None, "correlation": 0.62},
     ],
 }
 
@@ -48,6 +49,7 @@ def test_all_of_it_in_order() -> None:
     assert texts(aside) == [["axial", "5", "x_mm", "31.2"]]
     assert texts(noise)[0] == ["Fy", "0.500", "1.02", "normal"]
     assert texts(noise)[1][3] == "Student's t, 3.1 degrees"
+    assert texts(noise)[2][3] == "normal, neighbouring rows correlated by 0.62"
 
 
 def test_nothing_is_no_section() -> None:

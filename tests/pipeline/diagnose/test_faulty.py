@@ -5,8 +5,8 @@ from __future__ import annotations
 import pytest
 
 from pipeline.campaign import Campaign
-from pipeline.diagnose.diagnosis import diagnose
-from pipeline.diagnose.faulty import faults_of
+from pipeline.diagnose.diagnosis import diagnose, fit_cache
+from pipeline.diagnose.faulty import faults_of, has_one_fault
 from pipeline.inference.model import Model
 from pipeline.inference.suitable import columns_read
 from pipeline.simulate import bench_rig
@@ -46,6 +46,39 @@ def test_the_sensor_is_named_beside_the_effect(name: str) -> None:
 def test_a_fault_of_another_form_is_not_named_as_one_of_these(fault: object) -> None:
     campaign = with_fault(bench("modulus_error.scale", 0.93), fault)  # type: ignore[arg-type]
     assert diagnose(campaign, Model(), catalogue()).verdict == "unknown"
+
+
+@pytest.mark.long
+def test_two_sensors_at_fault_at_once_are_no_name() -> None:
+    plan = [test for test in bench_plan(12) if test.id in MIXED]
+    hidden = {"sensor_drift@fz_N.size": 15.0, "sensor_gain@fx_N.share": 0.02}
+    found = diagnose(measure("two", bench_rig(), plan, SENSORS, hidden, 5, GAUGES), Model(), catalogue())
+    assert found.verdict == "unknown"
+
+
+def test_only_one_fault_of_a_sensor_may_be_named() -> None:
+    shelf = fit_cache(bench(), Model(), catalogue())
+    drift, gain = (catalogue()[kind].at("fz_N") for kind in ("sensor_drift", "sensor_gain"))  # type: ignore[attr-defined]
+    it = shelf.with_candidates({**shelf.candidates, drift.name: drift, gain.name: gain})
+    assert has_one_fault(it, frozenset({drift.name, "modulus_error"}))
+    assert not has_one_fault(it, frozenset({drift.name, gain.name}))
+    assert not has_one_fault(it, frozenset({"modulus_error"}))
+
+
+@pytest.mark.parametrize(
+    ("column", "named"), [("fy_N<fx_N", "load_misalignment"), ("fz_N<fx_N", "sensor_cross_talk@fz_N<fx_N")]
+)
+def test_cross_talk_is_no_turn_of_the_cell(column: str, named: str) -> None:
+    """Into fy it is one with a turn of the cell about z, where no side force is large: then both are told."""
+    plan = [test for test in bench_plan(12) if test.id in MIXED]
+    hidden = {f"sensor_cross_talk@{column}.share": 0.005}
+    found = diagnose(measure("talk", bench_rig(), plan, SENSORS, hidden, 5, GAUGES), Model(), catalogue())
+    assert found.sets == ((ALWAYS, named),)
+    told = [fault.words for fault in found.instead]
+    if named == "load_misalignment":
+        assert found.verdict == "ambiguous" and told == ["fy answers to fx"]
+    else:
+        assert found.verdict == "identified" and not told
 
 
 def test_every_sensor_that_was_read_may_have_every_fault() -> None:

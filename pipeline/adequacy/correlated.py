@@ -1,0 +1,227 @@
+"""Whether noise that is correlated from row to row explains what a fit leaves: one correlation a sensor.
+
+A sensor whose errors follow e_i = rho e_{i-1} + sqrt(1 - rho²) w_i within a test has correlations rho^|i-j| between
+rows i and j. With v_i what an error of one standard deviation does to the whitened residual of row i, and
+V_s = (v_1, v_2, ...) of sensor s, those of a test have the covariance
+
+    S = 1 + sum over sensors s of  V_s (R_s - 1) V_s^T,     (R_s)_ij = rho_s^|i-j|.
+
+Sensors are taken one after the other, the one with the largest score d(log L)/d(rho_s) at rho_s = 0, in its standard
+deviations, as long as noise without a correlation seldom has one so large; rho_s is that of the largest likelihood. The
+numbers of the fit are then fitted anew, to first order, by generalised least squares, and what is left is looked at
+like any residual. G. E. P. Box, G. M. Jenkins, G. C. Reinsel, Time Series Analysis, 4th ed., Wiley 2008, section 3.2.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.linalg import solve_triangular
+from scipy.optimize import minimize
+from scipy.stats import chi2, norm
+
+from pipeline.adequacy.patterns import shapes, steady
+from pipeline.adequacy.reading_errors import ReadingErrors
+from pipeline.inference.fit import Fit
+from pipeline.inference.span import basis
+from pipeline.noise import lag_one
+from pipeline.selection.criteria import Criteria
+
+Array = NDArray[np.float64]
+LARGEST = 0.98
+"""Correlation of neighbours at most: beyond, noise is a zero that wanders, which is a fault of a sensor."""
+STEP = 1e-3
+"""Of a correlation, over which the second derivative of the likelihood is differenced."""
+
+
+@dataclass(frozen=True)
+class Correlated:
+    """A sensor by the number of its channel. correlation: of neighbouring rows of a test; error: standard error."""
+
+    channel: int
+    correlation: float
+    error: float
+
+
+@dataclass(frozen=True, eq=False)
+class _Test:
+    """A test's part of the residuals: where it is among all; errors (S, n, r) of each sensor in each of its r rows."""
+
+    where: slice
+    errors: Array
+
+    def root(self, correlations: Array) -> Array:
+        """(n, n) lower Cholesky factor of the covariance."""
+        count = self.errors.shape[2]
+        apart = np.abs(np.subtract.outer(np.arange(count), np.arange(count)))
+        out = np.eye(self.errors.shape[1])
+        for errors, r in zip(self.errors, correlations, strict=True):
+            if r:
+                out += errors @ (r**apart - np.eye(count)) @ errors.T
+        return np.asarray(np.linalg.cholesky(out), dtype=float)
+
+    def scored(self, whitened: Array, root: Array) -> tuple[Array, Array]:
+        """Score (S,) of each sensor's correlation beside those that are there, and its variance."""
+        errors = np.linalg.solve(root, self.errors)
+        pulls = np.einsum("snr,n->sr", errors, whitened)
+        inner = np.einsum("snr,snr->sr", errors, errors)
+        along = np.einsum("snr,snr->sr", errors[..., 1:], errors[..., :-1])
+        score = np.sum(pulls[:, 1:] * pulls[:, :-1] - along, axis=1)
+        return score, np.sum(inner[:, 1:] * inner[:, :-1] + along**2, axis=1)
+
+
+@dataclass(frozen=True, eq=False)
+class _Residual:
+    """What a fit leaves (N,), what it can still move (N, K), and its tests. sensors: channels of the errors' rows."""
+
+    left: Array
+    moved: Array
+    tests: tuple[_Test, ...]
+    sensors: NDArray[np.int64]
+
+    def loss(self, correlations: Array) -> float:
+        """Minus twice the log likelihood, but for a constant."""
+        out = 0.0
+        for test in self.tests:
+            root = test.root(correlations)
+            z = solve_triangular(root, self.left[test.where], lower=True)
+            out += float(z @ z) + 2.0 * float(np.log(np.diag(root)).sum())
+        return out
+
+    def whitened(self, columns: Array, correlations: Array) -> Array:
+        """Columns (N, ...) in units of the correlated noise."""
+        out = columns.copy()
+        for test in self.tests:
+            out[test.where] = solve_triangular(test.root(correlations), columns[test.where], lower=True)
+        return out
+
+    def scores(self, correlations: Array) -> Array:
+        """(S,) of each sensor's correlation beside those that are there, in standard deviations."""
+        score, variance = np.zeros(len(self.sensors)), np.zeros(len(self.sensors))
+        z = self.whitened(self.left, correlations)
+        for test in self.tests:
+            more, wider = test.scored(z[test.where], test.root(correlations))
+            score, variance = score + more, variance + wider
+        return np.asarray(score / np.sqrt(np.maximum(variance, 1e-300)))
+
+
+def correlated(found: Fit, criteria: Criteria) -> tuple[Correlated, ...]:
+    """Sensors whose noise is correlated from row to row, where that explains all that a fit leaves; else none."""
+    if found.lost or found.degrees < criteria.few_readings:
+        return ()
+    it = _residual(found)
+    correlations = _fitted(it, criteria)
+    if not correlations.any() or not _explains(found, it, correlations, criteria):
+        return ()
+    return tuple(_each(it, correlations))
+
+
+def _residual(found: Fit) -> _Residual:
+    residual, of = found.residual, ReadingErrors.of(found)
+    rows = residual.rows
+    sensors = np.unique(of.channels[of.there])
+    tests = []
+    for k in np.unique(residual.program.test[rows[:, 0]]).tolist():
+        mine = np.flatnonzero(residual.program.test[rows[:, 0]] == k)
+        where = slice(int(mine[0]), int(mine[-1]) + 1)
+        first, last = int(residual.program.first[k]), int(residual.program.first[k + 1])
+        errors = np.zeros((len(sensors), mine.size, last - first))
+        for n, (row, channel) in enumerate(rows[where]):
+            own = of.there[row] * of.columns[row, channel]
+            for m in np.flatnonzero(own).tolist():
+                errors[np.searchsorted(sensors, of.channels[row, m]), n, row - first] += own[m]
+        tests.append(_Test(where, errors))
+    moved = [residual.flat(each) for each in (residual.slopes, residual.offsets, residual.nominal)]
+    return _Residual(residual.without_zeros(residual.left), np.hstack(moved), tuple(tests), sensors)
+
+
+def _fitted(it: _Residual, criteria: Criteria) -> Array:
+    """(S,) correlations of the largest likelihood, zero of sensors whose noise shows none."""
+    out = np.zeros(len(it.sensors))
+    enough = float(norm.isf(criteria.check_level / max(len(it.sensors), 1)))
+    while True:
+        scores = np.where(out > 0.0, -np.inf, it.scores(out))
+        best = int(np.argmax(scores)) if scores.size else 0
+        if not scores.size or scores[best] < enough:
+            return out
+        free = np.flatnonzero((out > 0.0) | (np.arange(out.size) == best))
+        out = _most_likely(it, out, free)
+        if out[best] <= 0.0:
+            return out
+
+
+def _most_likely(it: _Residual, start: Array, free: NDArray[np.int64]) -> Array:
+    def loss(values: Array) -> float:
+        return it.loss(_with(start, free, values))
+
+    first = np.where(start[free] > 0.0, start[free], 0.3)
+    found = minimize(loss, first, bounds=[(0.0, LARGEST)] * free.size, method="L-BFGS-B")
+    return _with(start, free, np.asarray(found.x))
+
+
+def _with(correlations: Array, at: NDArray[np.int64], values: Array) -> Array:
+    out = correlations.copy()
+    out[at] = values
+    return out
+
+
+def _each(it: _Residual, correlations: Array) -> Iterator[Correlated]:
+    for k in np.flatnonzero(correlations > 0.0).tolist():
+        middle = min(float(correlations[k]), LARGEST - STEP)
+        near = [_with(correlations, np.array([k]), np.array([middle + d])) for d in (-STEP, 0.0, STEP)]
+        low, here, high = (it.loss(each) for each in near)
+        # Twice the log likelihood has twice the information.
+        information = max(0.5 * (low - 2.0 * here + high) / STEP**2, 1e-12)
+        yield Correlated(int(it.sensors[k]), float(correlations[k]), float(1.0 / np.sqrt(information)))
+
+
+def _explains(found: Fit, it: _Residual, correlations: Array, criteria: Criteria) -> bool:
+    """Whether what is left in units of the correlated noise is noise, the numbers of the fit fitted anew."""
+    level, taken = criteria.check_level, basis(it.whitened(it.moved, correlations))
+    z = _beside(it.whitened(it.left, correlations), taken)
+    size = float(z @ z)
+    degrees = max(it.left.size - taken.shape[1] - int(np.sum(correlations > 0.0)), 1)
+    scatter = 1.0
+    if chi2.sf(size, degrees) < level:
+        scatter = float(np.sqrt(size / degrees))
+        if scatter > criteria.scatter_factor:
+            return False
+    series = _series(found, z)
+    worst = min(float(chi2.sf(float(r @ r) / scatter**2, r.size)) for r in series) * len(series)
+    if worst < level or not _without_order(series, level):
+        return False
+    return _no_pattern(found, it, correlations, z, scatter, criteria)
+
+
+def _no_pattern(
+    found: Fit, it: _Residual, correlations: Array, z: Array, scatter: float, criteria: Criteria
+) -> bool:
+    every = list(shapes(found, criteria))
+    if not every:
+        return True
+    taken = basis(it.whitened(it.moved, correlations))
+    columns = _beside(it.whitened(np.stack([each.column for each in every], axis=1), correlations), taken)
+    sizes = np.linalg.norm(columns, axis=0)
+    largest = max(abs(steady(columns[:, k] / sizes[k], z)) for k in np.flatnonzero(sizes > 0.0))
+    return 2.0 * float(norm.sf(largest / scatter)) * len(every) >= criteria.check_level
+
+
+def _beside(columns: Array, taken: Array) -> Array:
+    return np.asarray(columns - taken @ (taken.T @ columns))
+
+
+def _series(found: Fit, z: Array) -> list[Array]:
+    """Of each test and channel, in the order of the rows."""
+    rows = found.residual.rows
+    keys = np.stack([found.residual.program.test[rows[:, 0]], rows[:, 1]], axis=1)
+    return [z[np.all(keys == key, axis=1)] for key in np.unique(keys, axis=0)]
+
+
+def _without_order(series: Sequence[Array], level: float) -> bool:
+    try:
+        return lag_one(series).p_value >= level
+    except ValueError:
+        return True
