@@ -16,10 +16,11 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.linalg import solve_triangular
+from scipy.linalg import cho_solve, solve_triangular
 from scipy.optimize import minimize
 from scipy.stats import chi2, norm
 
@@ -34,7 +35,7 @@ Array = NDArray[np.float64]
 LARGEST = 0.98
 """Correlation of neighbours at most: beyond, noise is a zero that wanders, which is a fault of a sensor."""
 STEP = 1e-3
-"""Of a correlation, over which the second derivative of the likelihood is differenced."""
+"""Of a correlation, over which the derivative of the likelihood is differenced."""
 
 
 @dataclass(frozen=True)
@@ -53,15 +54,34 @@ class _Test:
     where: slice
     errors: Array
 
+    @cached_property
+    def apart(self) -> Array:
+        """(r, r) rows from one to the other."""
+        count = self.errors.shape[2]
+        return np.abs(np.subtract.outer(np.arange(count), np.arange(count))).astype(float)
+
     def root(self, correlations: Array) -> Array:
         """(n, n) lower Cholesky factor of the covariance."""
-        count = self.errors.shape[2]
-        apart = np.abs(np.subtract.outer(np.arange(count), np.arange(count)))
         out = np.eye(self.errors.shape[1])
-        for errors, r in zip(self.errors, correlations, strict=True):
-            if r:
-                out += errors @ (r**apart - np.eye(count)) @ errors.T
+        for k in np.flatnonzero(correlations).tolist():
+            alike = correlations[k] ** self.apart
+            np.fill_diagonal(alike, 0.0)
+            out += self.errors[k] @ alike @ self.errors[k].T
         return np.asarray(np.linalg.cholesky(out), dtype=float)
+
+    def loss(self, left: Array, correlations: Array, free: NDArray[np.int64]) -> tuple[float, Array]:
+        """Minus twice the log likelihood of residuals (n,), but for a constant, and its derivative by some
+        correlations."""
+        root = self.root(correlations)
+        inverse = cho_solve((root, True), np.eye(left.size))
+        pulled = inverse @ left
+        slopes = []
+        for k in free.tolist():
+            errors, apart = self.errors[k], self.apart
+            by = apart * correlations[k] ** np.maximum(apart - 1.0, 0.0)
+            pull = errors.T @ pulled
+            slopes.append(float(np.sum(by * (errors.T @ inverse @ errors))) - float(pull @ by @ pull))
+        return float(left @ pulled) + 2.0 * float(np.log(np.diag(root)).sum()), np.array(slopes)
 
     def scored(self, whitened: Array, root: Array) -> tuple[Array, Array]:
         """Score (S,) of each sensor's correlation beside those that are there, and its variance."""
@@ -82,14 +102,10 @@ class _Residual:
     tests: tuple[_Test, ...]
     sensors: NDArray[np.int64]
 
-    def loss(self, correlations: Array) -> float:
-        """Minus twice the log likelihood, but for a constant."""
-        out = 0.0
-        for test in self.tests:
-            root = test.root(correlations)
-            z = solve_triangular(root, self.left[test.where], lower=True)
-            out += float(z @ z) + 2.0 * float(np.log(np.diag(root)).sum())
-        return out
+    def loss(self, correlations: Array, free: NDArray[np.int64]) -> tuple[float, Array]:
+        """Minus twice the log likelihood, but for a constant, and its derivative by some correlations."""
+        each = [test.loss(self.left[test.where], correlations, free) for test in self.tests]
+        return sum(value for value, _ in each), np.sum([slopes for _, slopes in each], axis=0)
 
     def whitened(self, columns: Array, correlations: Array) -> Array:
         """Columns (N, ...) in units of the correlated noise."""
@@ -110,7 +126,8 @@ class _Residual:
 
 def correlated(found: Fit, criteria: Criteria) -> tuple[Correlated, ...]:
     """Sensors whose noise is correlated from row to row, where that explains all that a fit leaves; else none."""
-    if found.lost or found.degrees < criteria.few_readings:
+    # A correlation makes no residual larger.
+    if found.lost or found.degrees < criteria.few_readings or found.rms > criteria.scatter_factor:
         return ()
     it = _residual(found)
     correlations = _fitted(it, criteria)
@@ -154,11 +171,11 @@ def _fitted(it: _Residual, criteria: Criteria) -> Array:
 
 
 def _most_likely(it: _Residual, start: Array, free: NDArray[np.int64]) -> Array:
-    def loss(values: Array) -> float:
-        return it.loss(_with(start, free, values))
+    def loss(values: Array) -> tuple[float, Array]:
+        return it.loss(_with(start, free, values), free)
 
     first = np.where(start[free] > 0.0, start[free], 0.3)
-    found = minimize(loss, first, bounds=[(0.0, LARGEST)] * free.size, method="L-BFGS-B")
+    found = minimize(loss, first, jac=True, bounds=[(0.0, LARGEST)] * free.size, method="L-BFGS-B")
     return _with(start, free, np.asarray(found.x))
 
 
@@ -170,11 +187,10 @@ def _with(correlations: Array, at: NDArray[np.int64], values: Array) -> Array:
 
 def _each(it: _Residual, correlations: Array) -> Iterator[Correlated]:
     for k in np.flatnonzero(correlations > 0.0).tolist():
-        middle = min(float(correlations[k]), LARGEST - STEP)
-        near = [_with(correlations, np.array([k]), np.array([middle + d])) for d in (-STEP, 0.0, STEP)]
-        low, here, high = (it.loss(each) for each in near)
+        at, middle = np.array([k]), min(float(correlations[k]), LARGEST - STEP)
+        low, high = (it.loss(_with(correlations, at, at * 0.0 + middle + d), at)[1][0] for d in (-STEP, STEP))
         # Twice the log likelihood has twice the information.
-        information = max(0.5 * (low - 2.0 * here + high) / STEP**2, 1e-12)
+        information = max(0.25 * (high - low) / STEP, 1e-12)
         yield Correlated(int(it.sensors[k]), float(correlations[k]), float(1.0 / np.sqrt(information)))
 
 

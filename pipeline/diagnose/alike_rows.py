@@ -27,10 +27,11 @@ NONE = AlikeRows()
 
 def alike_rows(shelf: Shelf, ruling: Ruling) -> AlikeRows:
     """Beside the first set of a verdict; where that is `unknown`, beside the smallest part of it that will do."""
-    best = ruling.sets[0]
-    parts = [n for n in shelf.fits if n < best] if ruling.verdict == "unknown" else []
-    for names in (*sorted(parts, key=len), best):
-        found = ruling.fit if names == best else shelf.fit(names)
-        if sensors := correlated(found, shelf.criteria):
-            return AlikeRows(sensors, names)
-    return NONE
+    best, criteria = ruling.sets[0], shelf.criteria
+    sensors = correlated(ruling.fit, criteria)
+    if not sensors or ruling.verdict != "unknown":
+        return AlikeRows(sensors, best)
+    for names in sorted((n for n in shelf.fits if n < best), key=len):
+        if fewer := correlated(shelf.fit(names), criteria):
+            return AlikeRows(fewer, names)
+    return AlikeRows(sensors, best)
