@@ -186,9 +186,10 @@ def _readings(it: Chosen, before: Readings, given: Program) -> Readings:
 
 
 def _with_faults(it: Chosen, known: Mapping[str, Effect], attempts: Attempts) -> Chosen:
-    """With faults of sensors among the effects, where that leaves noise and nothing else does."""
+    """With faults of sensors among the effects, where that leaves noise and nothing else does; none of sensors that
+    are vouched for."""
     shelf, best = it.found.shelf, it.found.best
-    if it.untested or it.ruling.verdict != "unknown":
+    if it.untested or it.ruling.verdict != "unknown" or shelf.whole.campaign.vouched:
         return it
     if judge(shelf.fit(best), shelf.criteria).noise:
         return it

@@ -58,9 +58,13 @@ def _faults(shelf: Shelf, name: str, without: Names, gain: float) -> Iterator[In
         # One test alone that was not zeroed is a choice among many: it has to do better than the effect.
         if zero.everywhere or zero.gain >= gain:
             yield Instead(name, without, zero.words, zero.gain, gain, zero)
-    # An effect is no steadier than a fault: a few large loads may say all that is known of either.
-    for pattern in sorted(scores(fit, shelf.criteria), key=lambda it: -it.takes)[:1]:
-        yield Instead(name, without, pattern.words, pattern.takes, gain)
+    vouched = shelf.whole.campaign.vouched
+    # An effect is no steadier than a fault: a few large loads may say all that is known of either. Of a sensor that is
+    # vouched for it takes more than one reading.
+    every = ((p.score**2 if vouched else p.takes, p.words) for p in scores(fit, shelf.criteria))
+    explains, words = max(every, default=(0.0, ""))
+    if words:
+        yield Instead(name, without, words, explains, gain)
 
 
 def plain_zero(found: Fit, criteria: Criteria) -> bool:

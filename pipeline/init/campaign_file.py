@@ -47,7 +47,7 @@ NOISE = """
 """
 TOLERANCE = """
 [tolerance]                  # one standard deviation of what is written above; what is left out has its usual one
-# all = "exact"              # nothing is off
+# all = "exact"              # nothing is off, and no sensor is at fault
 # bar = 0.02                 # share of its stiffness; or { EA = 0.02, EIy = 0.02, EIz = 0.02, GJ = 0.02, ends = 0.005 }
 # length_mm = 0.05           # of the drawing; width_mm and q_mrad = 0.5 (the angle that was set up) of a parallelogram
 """
