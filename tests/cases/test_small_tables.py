@@ -108,6 +108,7 @@ def test_one_reading_cannot_tell_why() -> None:
     assert "z is 60 % more than the model says" in first and "one reading cannot tell why" in first
 
 
+@pytest.mark.long
 def test_the_unit_of_force_changes_no_verdict() -> None:
     one, thousand = (answer(f"c04_dial_softer/scale_{k}") for k in (1, 1000))
     assert one.verdict == thousand.verdict and sets(one) == sets(thousand)
@@ -155,6 +156,7 @@ def test_a_constant_of_one_channel_is_first_a_zero(name: str, first: str) -> Non
     assert f"{column} starts at" in usual.sentences[0] and usual.verdict == found.verdict
 
 
+@pytest.mark.long
 def test_a_dial_that_was_not_zeroed_names_no_effect() -> None:
     found = answer("n_f_gauge")
     assert found.verdict == "unknown" and found.effects == ()

@@ -139,7 +139,8 @@ def test_processes_and_what_was_pickled_know_it_by_its_name(bench: Path) -> None
     assert said(bench, "-c", AGAIN) == "parastiff.pipeline.campaign.model joint_friction"
 
 
-@pytest.mark.parametrize("spelling", ["parastiff", pytest.param("checkout", marks=pytest.mark.long)])
+@pytest.mark.long
+@pytest.mark.parametrize("spelling", ["parastiff", "checkout"])
 def test_an_effect_of_ones_own_loads_in_either_spelling(bench: Path, spelling: str) -> None:
     face = spelling == "parastiff"
     module, laws = ("parastiff", "parastiff") if face else ("vjm.effects.base", "vjm")

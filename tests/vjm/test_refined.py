@@ -168,7 +168,7 @@ def test_load_of_an_independent_geometrically_exact_rod(section: Section, motion
     assert np.all(np.abs(found - expected)[3:] < slack + 6.0)
 
 
-@pytest.mark.parametrize("degrees", [0, 30])
+@pytest.mark.parametrize("degrees", [pytest.param(0, marks=pytest.mark.long), 30])
 @pytest.mark.parametrize("k", [BAR_P.stiffness(LENGTH), paper.BAR_STIFFNESS], ids=["bar P", "Eq. 12"])
 def test_default_refinement_is_converged_at_bench_size(k: np.ndarray, degrees: int) -> None:
     """4 kN along x, rotations to 0.06 rad, held and loaded coordinates at random: 1 µm, 20 µrad, 1 N."""

@@ -75,6 +75,7 @@ def test_of_what_is_not_measured_yet_nothing_is_tested() -> None:
     )
 
 
+@pytest.mark.long
 def test_friction_is_named() -> None:
     it = found(bench("joint_friction.torque_Nmm", 200.0, ("swing_q+0", "axial_held_q+0", "axial_held_q+15")))
     assert it.verdict == "identified"

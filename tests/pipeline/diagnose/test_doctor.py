@@ -57,7 +57,13 @@ def test_a_mistake_is_told(mistake: str) -> None:
 
 
 @pytest.mark.parametrize(
-    "path", ["", "modulus_error.scale", "joint_clearance.play_mm", "base_compliance.x_mm_per_N"]
+    "path",
+    [
+        "",
+        "modulus_error.scale",
+        pytest.param("joint_clearance.play_mm", marks=pytest.mark.long),
+        "base_compliance.x_mm_per_N",
+    ],
 )
 def test_a_right_table_has_none(path: str) -> None:
     name, _, parameter = path.rpartition(".")
@@ -65,7 +71,10 @@ def test_a_right_table_has_none(path: str) -> None:
     assert not words(bench(path, typical))
 
 
-@pytest.mark.parametrize("fault", [growing_gain, creeping_gauge, cross_talk])
+@pytest.mark.parametrize(
+    "fault",
+    [creeping_gauge, *(pytest.param(it, marks=pytest.mark.long) for it in (growing_gain, cross_talk))],
+)
 def test_a_fault_of_a_sensor_is_no_mistake_of_the_table(fault: object) -> None:
     assert not words(with_fault(bench(*LACKS), fault))  # type: ignore[arg-type]
 

@@ -19,6 +19,8 @@ from vjm.effects import catalogue
 
 ALWAYS = "bar_geometric_nonlinearity"
 QUICK = "sensor_drift@fz_N"
+SOME = (ALWAYS, "modulus_error", "load_misalignment", "self_weight", "mounting_tilt", "dimension_error")
+"""Effects that could do some of what a sensor does; the whole catalogue is that of the challenge."""
 HIDDEN = {
     "sensor_gain@fx_N": {"share": 0.02},
     QUICK: {"size": 15.0},
@@ -48,7 +50,8 @@ def measured(name: str) -> Campaign:
     "name", [pytest.param(it, marks=[] if it == QUICK else pytest.mark.long) for it in HIDDEN]
 )
 def test_the_sensor_is_named_beside_the_effect(name: str) -> None:
-    found = diagnose(measured(name), Model(), catalogue())
+    known = {key: it for key, it in catalogue().items() if key in SOME or key.startswith("sensor_")}
+    found = diagnose(measured(name), Model(), known)
     assert found.verdict == "identified" and found.ruling.sets[0] == {ALWAYS, "modulus_error", name}
     assert all(name in each for each in found.ruling.sets)
 

@@ -25,7 +25,10 @@ def small() -> Shelf:
     return fit_cache(campaign_of(it, found, it.seed), Model(), known)
 
 
-@pytest.mark.parametrize("name", ["exclusion", "false_alarm", "far", "plausible"])
+@pytest.mark.parametrize(
+    "name",
+    ["exclusion", *(pytest.param(it, marks=pytest.mark.long) for it in ("false_alarm", "far", "plausible"))],
+)
 def test_fits_that_are_kept_lead_to_the_answer_of_fits_made_anew(name: str) -> None:
     criteria = CRITERIA.times(name, 2.0)
     first_time = small()
