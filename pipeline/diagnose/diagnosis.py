@@ -144,11 +144,7 @@ def diagnose(
             whole, found, it.ruling, judgement, {}, None, refused, it.untested, (), _since(begin)
         )
     found, ruling = it.found, it.ruling
-    next_test = None
-    if len(ruling.sets) > 1:
-        say("the next test")
-        fits = [shelf.with_own_line(n) for n in ruling.sets[: criteria.next_test_sets]]
-        next_test = attempts.get("the next test", lambda: best_next_test(fits, shelf.whole), None)
+    next_test = attempts.get("the next test", lambda: _next_test(shelf, ruling), None)
     say("what is certain")
     sure = attempts.get("what is certain", lambda: certain(found, ruling.sets), ())
     stable = attempts.get("whether folds of the tests agree", lambda: _agreements(shelf, found.best), {})
@@ -171,6 +167,15 @@ def diagnose(
         sure,
         alike,
     )
+
+
+def _next_test(shelf: Shelf, ruling: Ruling) -> NextTest | None:
+    """What tells the sets of a verdict apart, where there are several."""
+    if len(ruling.sets) < 2:
+        return None
+    shelf.say("the next test")
+    fits = [shelf.with_own_line(n) for n in ruling.sets[: shelf.criteria.next_test_sets]]
+    return best_next_test(fits, shelf.whole)
 
 
 def _readings(it: Chosen, before: Readings, given: Program) -> Readings:

@@ -114,7 +114,8 @@ def test_a_shifted_channel_is_first_a_zero(channel: int) -> None:
 @pytest.mark.parametrize(
     "name",
     [
-        "c04_dial_softer",
+        pytest.param("c04_dial_softer", marks=pytest.mark.long),
+        "c05_one_point",
         pytest.param("t09_identified_undetermined", marks=pytest.mark.long),
         pytest.param("n_B_s4", marks=pytest.mark.long),
     ],

@@ -82,7 +82,7 @@ VERDICTS = {
 }
 
 
-SLOW = ("n_B_s4", "t10_add_unsolvable", "t09_identified_undetermined")
+SLOW = ("c04_dial_softer", "n_B_s4", "t10_add_unsolvable", "t09_identified_undetermined")
 
 
 @pytest.mark.parametrize(
@@ -189,7 +189,12 @@ def test_the_next_test_reads_sensors_that_exist() -> None:
 
 
 @pytest.mark.parametrize(
-    "name", ["t02_plan_unknown_zero", "t03_identified_without_degrees", "t06_plan_zero_division"]
+    "name",
+    [
+        "t02_plan_unknown_zero",
+        pytest.param("t03_identified_without_degrees", marks=pytest.mark.long),
+        "t06_plan_zero_division",
+    ],
 )
 def test_a_plan_with_unknown_zeros_or_a_number_at_its_bound(name: str) -> None:
     found = plan(name)
@@ -213,6 +218,7 @@ def test_three_readings_far_off_are_not_called_noise() -> None:
     assert "being within its tolerances; x is -0.00237 mm off on average" in usual
 
 
+@pytest.mark.long
 def test_a_sigma_far_too_large_is_a_claim_that_the_scatter_refutes() -> None:
     campaign = read(DATA / "t15_sigma_far_too_large")
     result = compare_models(replace(campaign, tolerance={}))

@@ -28,7 +28,7 @@ def straight(lengths: tuple[int, ...]) -> np.ndarray:
     )
 
 
-@pytest.mark.parametrize(("fit", "scale"), [(False, 1.0), (True, 5.0)])
+@pytest.mark.parametrize(("fit", "scale"), [pytest.param(False, 1.0, marks=pytest.mark.long), (True, 5.0)])
 def test_p_values_of_noise_are_uniform(fit: bool, scale: float) -> None:
     """Short series, where an asymptotic formula fails; with and without a fit, whatever the sigmas."""
     lengths, rng = (4, 6, 9), np.random.default_rng(2)
@@ -125,6 +125,7 @@ def readings(rng: np.random.Generator, sigma: float) -> list[tuple[np.ndarray, n
     return paths
 
 
+@pytest.mark.long
 def test_sigma_of_roughness_is_unbiased_with_an_honest_error_bar() -> None:
     rng = np.random.default_rng(10)
     found = [from_roughness(readings(rng, 0.02)) for _ in range(200)]
@@ -134,6 +135,7 @@ def test_sigma_of_roughness_is_unbiased_with_an_honest_error_bar() -> None:
     assert np.mean([one.std for one in found if one.std]) == pytest.approx(values.std(), rel=0.15)
 
 
+@pytest.mark.long
 def test_the_bias_of_few_differences_is_removed() -> None:
     """Nine differences: the uncorrected median is 8 % too high on average."""
     rng = np.random.default_rng(11)

@@ -117,6 +117,7 @@ def test_a_campaign_that_is_edited_is_read_again_and_the_work_is_kept(session: S
     assert it.page.effects == ("bar_geometric_nonlinearity",) and it.dirty and not it.complaint
 
 
+@pytest.mark.long
 def test_two_studios_do_not_overwrite_each_other_unsaid(session: Session, folder: Path) -> None:
     other = Session()
     try:
@@ -134,6 +135,7 @@ def test_two_studios_do_not_overwrite_each_other_unsaid(session: Session, folder
         other.close()
 
 
+@pytest.mark.long
 def test_a_cancelled_diagnosis_changes_nothing_and_the_next_task_works(
     session: Session, folder: Path
 ) -> None:

@@ -150,6 +150,7 @@ def test_bars_are_to_scale() -> None:
     assert bar(0.01, 0.01, 100.0, 24).plain == ""
 
 
+@pytest.mark.long
 def test_a_model_without_any_prediction_is_no_answer() -> None:
     """1 MN of compression is thirty times what the straight bars carry; lumped springs do not mind."""
     campaign = bench()

@@ -99,7 +99,11 @@ def test_a_run_is_none() -> None:
 
 
 @pytest.mark.parametrize(
-    ("effect", "value"), [("joint_friction.torque_Nmm", 150.0), ("joint_clearance.play_mm", 0.01)]
+    ("effect", "value"),
+    [
+        ("joint_friction.torque_Nmm", 150.0),
+        pytest.param("joint_clearance.play_mm", 0.01, marks=pytest.mark.long),
+    ],
 )
 def test_friction_and_play_are_none_once_they_are_in_the_model(effect: str, value: float) -> None:
     assert not found(campaign(effect, value), effect.split(".")[0])

@@ -59,6 +59,7 @@ def of(it: Campaign) -> Fit:
     return unfitted(Model().with_effects([catalogue()["bar_geometric_nonlinearity"]]), program(it))
 
 
+@pytest.mark.long
 def test_students_noise_is_found_in_most_campaigns_and_normal_noise_never_taken_for_it() -> None:
     """Of 336 readings few of eight campaigns may look as if single readings were bad: then nothing is said."""
     found = [it for seed in range(1, 9) if (it := tails_of(of(noisy(3.0, seed)), CRITERIA)) is not None]

@@ -70,6 +70,7 @@ def test_a_saved_model_stands_beside_the_base_models() -> None:
     assert result.model_of("saved").effects == ("joint_torsional_stiffness",)
 
 
+@pytest.mark.long
 def test_a_saved_play_is_compared_as_it_is_fitted() -> None:
     """A force near zero, read with more noise than the play needs, puts each row on the side where it was."""
     known = catalogue()

@@ -50,13 +50,14 @@ def test_an_effect_is_certain_where_the_rest_is_not_explained() -> None:
     assert "is certain" in answer.sentences[0]
 
 
+@pytest.mark.long
 def test_what_the_zero_of_a_sensor_would_do_as_well_is_not_certain() -> None:
     """A weight along z is a constant of the cell, which may have a zero of its own in each test."""
     found = diagnose(rippled(bench("self_weight.platform_z_N", -14.0)), Model(), KNOWN)
     assert "self_weight" in found.sets[0] and not found.certain
 
 
-@pytest.mark.parametrize("fault", [growing_gain, creeping_gauge])
+@pytest.mark.parametrize("fault", [growing_gain, pytest.param(creeping_gauge, marks=pytest.mark.long)])
 def test_what_only_takes_up_the_fault_of_a_sensor_is_not(fault: object) -> None:
     assert not diagnose(with_fault(bench(), fault), Model(), KNOWN).certain  # type: ignore[arg-type]
 

@@ -38,7 +38,7 @@ def fitted(steps: int, seed: int) -> Fit:
     return fit(Model().with_effects(known).at(np.array([PLAY])), cases(steps, seed))
 
 
-@pytest.mark.parametrize("seed", [1, pytest.param(2, marks=pytest.mark.long)])
+@pytest.mark.parametrize("seed", [pytest.param(it, marks=pytest.mark.long) for it in (1, 2)])
 def test_readings_by_which_rows_chose_their_sides_are_no_pattern(seed: int) -> None:
     assert abs(scores(fitted(10, seed), CRITERIA)[0].score) < 4.0
 

@@ -45,6 +45,7 @@ def test_small_loads_need_nothing() -> None:
     assert sentences(it)[0].startswith("within_noise: the model explains the measurements")
 
 
+@pytest.mark.long
 def test_held_out_tests_tell_of_physics_that_the_fitted_ones_do_not_show() -> None:
     """6 mm sideways shorten the linkage by 70 µm; under axial loads nothing tells of it."""
     it = found(bench(ids=("axial_held_q+0", "lateral_q-15")))

@@ -16,6 +16,7 @@ from pipeline.virtual.bench import measure
 from pipeline.virtual.plan import GAUGES, SENSORS, bench_plan
 from tests.pipeline.diagnose.bench import MIXED, bench, creeping_gauge, growing_gain, with_fault
 from vjm.effects import catalogue
+from vjm.effects.base import Effect
 
 ALWAYS = "bar_geometric_nonlinearity"
 QUICK = "sensor_drift@fz_N"
@@ -27,6 +28,10 @@ HIDDEN = {
     "sensor_settling@fy_N": {"size": 8.0, "steps": 2.5},
     "sensor_lag@x_mm": {"keeps": 0.1},
 }
+
+
+def some() -> dict[str, Effect]:
+    return {key: it for key, it in catalogue().items() if key in SOME or key.startswith("sensor_")}
 
 
 def doubted(campaign: Campaign) -> Campaign:
@@ -50,8 +55,7 @@ def measured(name: str) -> Campaign:
     "name", [pytest.param(it, marks=[] if it == QUICK else pytest.mark.long) for it in HIDDEN]
 )
 def test_the_sensor_is_named_beside_the_effect(name: str) -> None:
-    known = {key: it for key, it in catalogue().items() if key in SOME or key.startswith("sensor_")}
-    found = diagnose(measured(name), Model(), known)
+    found = diagnose(measured(name), Model(), some())
     assert found.verdict == "identified" and found.ruling.sets[0] == {ALWAYS, "modulus_error", name}
     assert all(name in each for each in found.ruling.sets)
 
@@ -88,7 +92,7 @@ def test_only_one_fault_of_a_sensor_may_be_named() -> None:
 )
 def test_cross_talk_is_no_turn_of_the_cell(column: str, named: str) -> None:
     """Into fy it is one with a turn of the cell about z, where no side force is large: then both are told."""
-    found = diagnose(read({f"sensor_cross_talk@{column}.share": 0.005}), Model(), catalogue())
+    found = diagnose(read({f"sensor_cross_talk@{column}.share": 0.005}), Model(), some())
     assert found.sets == ((ALWAYS, named),)
     told = [fault.words for fault in found.instead]
     if named == "load_misalignment":

@@ -26,6 +26,7 @@ def shelf(play: float) -> Shelf:
     return Shelf(cases, Model(), catalogue(), lambda _: None)
 
 
+@pytest.mark.long
 def test_a_kink_in_one_set_alone_asks_for_more() -> None:
     it = shelf(6e-4)
     assert needed(it, CONTACT, SOFT) == CRITERIA.exclusion
@@ -35,6 +36,7 @@ def test_a_kink_in_one_set_alone_asks_for_more() -> None:
     assert needed(it, PLAY, CONTACT) == needed(it, CONTACT, PLAY) == CRITERIA.exclusion + choices.spread
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(("play", "plain"), [(6e-4, False), (6e-3, True)])
 def test_a_play_is_not_excluded_by_what_looks_like_it(play: float, plain: bool) -> None:
     """Nor does one near the noise exclude that; one of six times the noise does."""

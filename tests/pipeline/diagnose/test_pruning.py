@@ -107,6 +107,7 @@ def test_a_fit_from_there_that_shows_nothing_is_made_anew(monkeypatch: pytest.Mo
     assert shelf.fit(SMALL).chi_square == pytest.approx(best, abs=0.01)
 
 
+@pytest.mark.long
 def test_a_play_that_is_certain_is_not_left_out_to_see() -> None:
     """Of a hundred times the noise; one of a fifth of it may be needless, and a set without it is fitted."""
     tried = {}

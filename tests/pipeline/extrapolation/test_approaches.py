@@ -29,6 +29,8 @@ from tests.pipeline.extrapolation.stiff import stiff
 from vjm.effects import catalogue
 from vjm.effects.base import Effect
 
+pytestmark = pytest.mark.long
+
 FEW = (ALWAYS, "modulus_error", "joint_torsional_stiffness", "load_offset")
 
 MANY = (

@@ -171,6 +171,7 @@ def test_a_play_that_is_not_there_takes_up_little(seed: int, beside: tuple[str, 
     assert least.residual.charged > 1.0
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("begin", [3e-3, pytest.param(1e-2, marks=pytest.mark.long)])
 def test_from_too_large_a_play_a_fit_ends_as_from_below(begin: float) -> None:
     """Rows do not stay on the sides that belong to the play that the fit began with."""

@@ -90,6 +90,7 @@ def test_the_line_of_a_fit_gives_what_free_numbers_give() -> None:
     assert found.chi_square == pytest.approx(explicit(found, program(campaign(*off))), abs=0.15)
 
 
+@pytest.mark.long
 def test_the_line_of_a_like_model_leads_where_the_own_one_does() -> None:
     """Chi-square and what was written within a part of what noise moves them by; along its own line to rounding."""
     off = "modulus_error.scale", 1.04

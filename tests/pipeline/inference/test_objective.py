@@ -34,9 +34,9 @@ def total(there: Evaluation) -> float:
     [
         ("modulus_error",),
         ("thermal_expansion",),
-        ("base_compliance",),
+        pytest.param(("base_compliance",), marks=pytest.mark.long),
         ("joint_friction",),
-        ("joint_clearance",),
+        pytest.param(("joint_clearance",), marks=pytest.mark.long),
         pytest.param(("joint_clearance", "joint_friction"), marks=pytest.mark.long),
     ],
 )

@@ -65,6 +65,7 @@ def test_a_fit_comes_back_as_it_was_made(two: None) -> None:
         np.testing.assert_array_equal(again.residual.values, same.residual.values)
 
 
+@pytest.mark.long
 def test_that_the_work_ran_out_is_sent_and_the_fit_not_begun_again(
     two: None, monkeypatch: pytest.MonkeyPatch
 ) -> None:

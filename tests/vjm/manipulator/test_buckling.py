@@ -61,6 +61,7 @@ def test_a_sharp_factor_lies_between_stable_and_unstable() -> None:
     assert found.linear == pytest.approx(found.factor, rel=0.02)
 
 
+@pytest.mark.long
 def test_a_leg_that_is_bent_as_it_is_pushed_gives_way_smoothly() -> None:
     """Away from symmetry moments bend the leg: the tangent is least stiff near the linear estimate and then stiffens
     again on a bent path; a tenth of the load takes the platform further than all the load before."""
