@@ -17,6 +17,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -36,6 +37,8 @@ Mask = NDArray[np.bool_]
 FLAT = 0.1
 """Part of a column that must be left when what the fit can move is taken out: less, and the fit follows the reading
 wherever it is."""
+FOR_NEITHER = 2.0 * float(np.log(2.0))
+"""Twice the logarithm by which one explanation of a row has to be likelier than another."""
 MEDIAN = float(norm.ppf(0.75))
 
 
@@ -63,10 +66,11 @@ class _Shifts:
     residual: Array
     taken: Array
 
-    def scores(self) -> Array:
-        """(R, M) t, zero where there is no reading or nothing of its column is left."""
+    @cached_property
+    def lengths(self) -> Array:
+        """(R, M) of the columns, what the fit can move taken out; infinite where there is no reading or nothing is
+        left."""
         it, columns = self.it, self.of.columns
-        pull = self._inner(it.weakened(self.residual)[:, None])[..., 0]
         sizes = np.sum(columns**2, axis=1)
         left = sizes - np.sum(self._inner(it.zeros) ** 2, axis=-1)
         if it.marginal is not None:
@@ -74,7 +78,12 @@ class _Shifts:
             left -= np.sum(share * self._inner(it.marginal.left) ** 2, axis=-1)
         left -= np.sum(self._inner(it.weakened(self.taken)) ** 2, axis=-1)
         seen = self.of.there & (left > FLAT**2 * sizes) & (sizes > 0.0)
-        return np.where(seen, pull / np.sqrt(np.where(seen, left, 1.0)), 0.0)
+        return np.where(seen, np.sqrt(np.where(seen, left, 1.0)), np.inf)
+
+    @cached_property
+    def scores(self) -> Array:
+        """(R, M) t, zero where there is no reading or nothing of its column is left."""
+        return np.asarray(self._inner(self.it.weakened(self.residual)[:, None])[..., 0] / self.lengths)
 
     def without(self, row: int, number: int) -> _Shifts:
         """The same with the shift of one reading taken out."""
@@ -96,8 +105,7 @@ class _Shifts:
 
 def bad_readings(found: Fit, criteria: Criteria) -> tuple[BadReading, ...]:
     """The single bad readings of the fitted tests, the worst first."""
-    it = found.residual
-    whole, taken = it.program, basis(found.jacobian)
+    it, taken = found.residual, basis(found.jacobian)
     residual = found.whitened - taken @ (taken.T @ found.whitened)
     shifts = _Shifts(it, ReadingErrors.of(found), residual, taken)
     there = shifts.of.there.copy()
@@ -106,31 +114,31 @@ def bad_readings(found: Fit, criteria: Criteria) -> tuple[BadReading, ...]:
     if count < criteria.few_readings:
         return ()
     limit = float(norm.isf(0.5 * criteria.false_alarm / count))
+    channels = it.program.measured.shape[1]
     out: list[BadReading] = []
-    scores = shifts.scores()
     while len(out) < max(1.0, criteria.bad_share * count):
-        sizes = np.where(there, np.abs(scores), 0.0)
+        sizes = np.where(there, np.abs(shifts.scores), 0.0)
         row = int(np.argmax((sizes / scale).max(axis=1)))
         if not (sizes[row] / scale[row]).max() > limit:
             break
-        number = _simplest(sizes[row], whole.measured.shape[1], criteria.exclusion)
+        number = _likeliest(sizes[row], shifts.lengths[row], channels)
         # One of a row: what was off twice was another state.
         there[row] = False
         less = shifts.without(row, number)
-        left = less.scores()
-        beside = _beside(shifts, row, number, left / scale)
-        rest = np.abs(left[row]) / np.maximum(
+        beside = _beside(shifts, row, number, less.scores / scale)
+        rest = np.abs(less.scores[row]) / np.maximum(
             criteria.bad_neighbours * scale[row], criteria.bad_rest * sizes[row].max()
         )
         if np.all(np.abs(beside) < criteria.bad_neighbours) and rest.max() < 1.0:
-            out.append(_named(found, row, int(shifts.of.channels[row, number]), float(scores[row, number])))
-            shifts, scores = less, left
+            off = float(shifts.scores[row, number] / shifts.lengths[row, number])
+            out.append(_named(found, row, int(shifts.of.channels[row, number]), off))
+            shifts = less
     return tuple(out)
 
 
 def _scales(shifts: _Shifts) -> Array:
     """(R, M) what the scores of a reading's sensor are like, at least 1."""
-    scores, of = np.abs(shifts.scores()), shifts.of
+    scores, of = np.abs(shifts.scores), shifts.of
     out = np.ones(scores.shape)
     for channel in np.unique(of.channels[of.there]):
         own = of.there & (of.channels == channel)
@@ -138,12 +146,18 @@ def _scales(shifts: _Shifts) -> Array:
     return out
 
 
-def _simplest(sizes: Array, channels: int, exclusion: float) -> int:
-    """Of the readings of a row (M,) the one that explains most; one that is only read before one that was prescribed
-    where the data do not exclude it."""
-    read = sizes[:channels]
-    near = float(read.max()) ** 2 > float(sizes.max()) ** 2 - exclusion
-    return int(np.argmax(read if near else sizes))
+def _likeliest(sizes: Array, lengths: Array, channels: int) -> int:
+    """Of the readings of a row (M,), by their t; the first so many are read only, the others were prescribed.
+
+    What is prescribed and what answers to it may say the same of a row: then it is the one that is off by fewer of its
+    own sigmas. With a shift of d = t / |c'| sigmas as rare as 1 / d², and known to 1 / |c'|, twice the logarithm of
+    what is likely is t² - 2 ln d, but for what is nearly the same for all. Where that speaks for neither it is what was
+    read only: then the row stays.
+    """
+    off = np.where(sizes > 0.0, sizes / lengths, 1.0)
+    likely = np.where(sizes > 0.0, sizes**2 - 2.0 * np.log(off), -np.inf)
+    likely[channels:] -= FOR_NEITHER
+    return int(np.argmax(likely))
 
 
 def _beside(shifts: _Shifts, row: int, number: int, scores: Array) -> Array:
@@ -154,11 +168,11 @@ def _beside(shifts: _Shifts, row: int, number: int, scores: Array) -> Array:
     return np.concatenate([scores[k][shifts.of.channels[k] == channel] for k in rows] or [np.zeros(0)])
 
 
-def _named(found: Fit, row: int, channel: int, score: float) -> BadReading:
+def _named(found: Fit, row: int, channel: int, off: float) -> BadReading:
     whole = found.residual.program
     test = whole.campaign.tests[whole.test[row]]
     step = int(test.data.steps[row - whole.first[whole.test[row]]])
-    return BadReading(test.id, step, channel_columns(whole.campaign.gauges)[channel], score)
+    return BadReading(test.id, step, channel_columns(whole.campaign.gauges)[channel], off)
 
 
 def set_aside(campaign: Campaign, bad: tuple[BadReading, ...]) -> Campaign:

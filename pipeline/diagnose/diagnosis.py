@@ -8,30 +8,28 @@ from functools import partial
 from time import perf_counter
 
 from pipeline.adequacy.judgement import Judgement, judge
-from pipeline.adequacy.untested import untested
 from pipeline.answer import Verdict
 from pipeline.attempt import Attempts
 from pipeline.campaign import Campaign
 from pipeline.diagnose.alike_rows import NONE, AlikeRows, alike_rows
 from pipeline.diagnose.apart import Likeness
-from pipeline.diagnose.beyond import with_what_held_out_tests_need
 from pipeline.diagnose.certain import certain
+from pipeline.diagnose.chosen import beginning
 from pipeline.diagnose.doctor import Suspicion, suspicions
-from pipeline.diagnose.faulty import has_one_fault, with_promising_faults
 from pipeline.diagnose.folds import agreement
 from pipeline.diagnose.next_test import NextTest, best_next_test
 from pipeline.diagnose.readings import AS_DECLARED, Readings
 from pipeline.diagnose.rivals import Found
-from pipeline.diagnose.ruling import Ruling, ruled
-from pipeline.diagnose.search import search, search_one_by_one
-from pipeline.diagnose.sensor_faults import Instead, asked_about, plain_zero
+from pipeline.diagnose.rounds import settled, with_faults
+from pipeline.diagnose.ruling import Ruling
+from pipeline.diagnose.sensor_faults import Instead, asked_about
 from pipeline.diagnose.shelf import Names, Shelf
 from pipeline.diagnose.signatures import Say
 from pipeline.errors import InputError
 from pipeline.inference.claims import trusted_and_fit
-from pipeline.inference.fit import Fit, unfitted
+from pipeline.inference.fit import Fit
 from pipeline.inference.model import Model
-from pipeline.inference.program import Program, program
+from pipeline.inference.program import program
 from pipeline.inference.sigmas import completed
 from pipeline.inference.suitable import check_suitable, scale_for, sized_model
 from pipeline.selection.criteria import CRITERIA, Criteria
@@ -124,20 +122,11 @@ def diagnose(
     doctor = attempts.get("the look for mistakes of the table", lambda: suspicions(shelf), ())
     if doctor:
         return _unsettled(shelf, doctor, refused, attempts, _since(begin))
-    it = chosen(shelf, attempts)
-    given, with_all = shelf.whole, it.ruling.verdict
-    readings = AS_DECLARED
-    for _ in range(0 if it.untested else criteria.reading_rounds):
-        new = attempts.get("what the readings are", partial(_readings, it, readings, given), readings)
-        if new.same(readings):
-            break
-        say("with the readings as they are")
-        readings, attempts = new, Attempts()
-        applied = readings.applied(given.campaign)
-        shelf, refused = _prepared(applied, model, known, say, criteria, it.found.shelf)
-        it = chosen(shelf, attempts)
-    it = attempts.get("whether a sensor is at fault", partial(_with_faults, it, known, attempts), it)
-    shelf, whole = it.found.shelf, shelf.whole.campaign
+    again = partial(_shelf_of, model, known)
+    done, kinds = settled(shelf, again, attempts), all_sized(known, scale_for(campaign)).values()
+    done = done.attempts.get("whether a sensor is at fault", partial(with_faults, done, kinds, again), done)
+    it, attempts, shelf = done.it, done.attempts, done.it.found.shelf
+    whole = shelf.whole.campaign
     if it.untested:
         found, judgement = Found(shelf, frozenset(), ()), Judgement((), 1.0)
         return Diagnosis(
@@ -161,9 +150,9 @@ def diagnose(
         tuple(attempts.failed),
         _since(begin),
         (),
-        readings,
-        given.campaign,
-        with_all,
+        done.readings,
+        done.given.campaign,
+        done.with_all,
         sure,
         alike,
     )
@@ -176,36 +165,6 @@ def _next_test(shelf: Shelf, ruling: Ruling) -> NextTest | None:
     shelf.say("the next test")
     fits = [shelf.with_own_line(n) for n in ruling.sets[: shelf.criteria.next_test_sets]]
     return best_next_test(fits, shelf.whole)
-
-
-def _readings(it: Chosen, before: Readings, given: Program) -> Readings:
-    """What the readings are about the first set; about a part of it where that explains all but single bad ones: an
-    effect that only explains those is none."""
-    shelf, best = it.found.shelf, it.ruling.sets[0]
-    criteria = shelf.criteria
-    for names in sorted((n for n in shelf.fits if n < best), key=len):
-        new = before.again(shelf.fit(names), given, criteria)
-        if new.bad and new.leaves_noise(shelf.fit(names), given, criteria):
-            return new
-    return before.again(it.ruling.fit, given, criteria)
-
-
-def _with_faults(it: Chosen, known: Mapping[str, Effect], attempts: Attempts) -> Chosen:
-    """With faults of sensors among the effects, where that leaves noise and nothing else does; none of sensors that
-    are vouched for."""
-    shelf, best = it.found.shelf, it.found.best
-    if it.untested or it.ruling.verdict != "unknown" or shelf.whole.campaign.vouched:
-        return it
-    if judge(shelf.fit(best), shelf.criteria).noise:
-        return it
-    kinds = all_sized(known, scale_for(shelf.whole.campaign))
-    more = with_promising_faults(shelf, kinds.values(), best)
-    if more is None:
-        return it
-    shelf.say("whether a sensor is at fault")
-    new = chosen(more, attempts)
-    explained = judge(more.fit(new.found.best), shelf.criteria).noise
-    return new if explained and has_one_fault(more, new.found.best) else it
 
 
 def _unsettled(
@@ -250,38 +209,13 @@ def _prepared(
     return Shelf(found.residual.program, model, candidates, say, criteria, fits, before=before), refused
 
 
+def _shelf_of(model: Model, known: Mapping[str, Effect], campaign: Campaign, before: Shelf) -> Shelf:
+    """The empty fit cache of a campaign that is another's with other readings."""
+    return _prepared(campaign, model, known, before.say, before.criteria, before)[0]
+
+
 def _fit_of_nothing(shelf: Shelf | None) -> Fit | None:
     return None if shelf is None else shelf.fits.get(frozenset())
-
-
-@dataclass(frozen=True, eq=False)
-class Chosen:
-    """What the criteria choose of all fits. untested: why nothing can be tested, or ""."""
-
-    found: Found
-    ruling: Ruling
-    untested: str = ""
-
-
-def chosen(shelf: Shelf, attempts: Attempts) -> Chosen:
-    """The verdict and what it rests on. What is optional and fails is said in the attempts."""
-    before = beginning(shelf)
-    if why := untested(before):
-        found = Found(shelf, frozenset(), ())
-        return Chosen(found, Ruling("nothing_tested", (frozenset(),), before), why)
-    plain = plain_zero(before, shelf.criteria)
-    found = search_one_by_one(shelf) if plain else with_what_held_out_tests_need(search(shelf))
-    judgement = judge(shelf.fit(found.best), shelf.criteria)
-    shelf.say("what else could explain it")
-    return Chosen(found, ruled(found, judgement, attempts))
-
-
-def beginning(shelf: Shelf) -> Fit:
-    """The base model fitted, or as it is where no fitted test has a reading to fit it to."""
-    whole = shelf.whole
-    if not (whole.predicted & whole.fitted[:, None]).any():
-        shelf.fits[frozenset()] = unfitted(shelf.base, whole)
-    return shelf.fit(frozenset())
 
 
 def _agreements(shelf: Shelf, best: Names) -> dict[str, float]:

@@ -13,7 +13,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from pipeline.adequacy.bad_readings import BadReading, bad_readings, set_aside
-from pipeline.adequacy.judgement import ORDER, SIZE, judge
+from pipeline.adequacy.judgement import HELD_OUT, ORDER, SIZE, judge
 from pipeline.adequacy.scatter import Scatter, scatters
 from pipeline.adequacy.tails import Tails, tails_of, without_tails
 from pipeline.campaign import Campaign
@@ -60,7 +60,7 @@ class Readings:
         tails = tails_of(whole, criteria)
         if tails is not None:
             return Readings(tails=tails, normal=without_tails(whole, tails))
-        bad = bad_readings(whole, criteria)
+        bad = (*bad_readings(whole, criteria), *_held_out(whole, criteria))
         rest = whole if not bad else _of(program(set_aside(given.campaign, bad)), found)
         return Readings(bad, tuple(_other(rest, criteria)))
 
@@ -80,6 +80,16 @@ class Readings:
 
 
 AS_DECLARED = Readings()
+
+
+def _held_out(found: Fit, criteria: Criteria) -> tuple[BadReading, ...]:
+    """Single bad ones of the tests that were held out, where these are off: as if they had been fitted."""
+    if all(check.passed for check in judge(found, criteria).checks if check.name == HELD_OUT):
+        return ()
+    campaign = found.residual.program.campaign
+    held = {test.id for test in campaign.tests if test.role != "fit"}
+    every = replace(campaign, tests=tuple(replace(test, role="fit") for test in campaign.tests))
+    return tuple(each for each in bad_readings(_of(program(every), found), criteria) if each.test in held)
 
 
 def _of(cases: Program, found: Fit) -> Fit:

@@ -23,12 +23,17 @@ from pipeline.inference.solvers import allowance
 from vjm.work import TooMuch, spent
 
 
-def search_one_by_one(shelf: Shelf) -> Found:
-    """The best single effect and those that may as well be true: enough where something else comes before physics."""
-    empty: Names = frozenset()
-    starts = [empty, *(e.names for e in _competing(shelf, empty, 1))]
+def search_one_by_one(shelf: Shelf, root: Names) -> Found:
+    """The best single effect beside a set, and those that may as well be true: enough where something else comes before
+    physics."""
+    starts = [root, *(e.names for e in _competing(shelf, root, 1))]
     best = _best(shelf, starts)
     return Found(shelf, best, tuple(possible(shelf, starts, best)))
+
+
+def first_root(shelf: Shelf) -> Names:
+    """The first set of effects that are there or not from which a search looks on."""
+    return _roots(shelf)[0]
 
 
 def search(shelf: Shelf) -> Found:

@@ -5,7 +5,8 @@ from __future__ import annotations
 from pipeline.attempt import Attempts
 from pipeline.challenge.cases import ALWAYS, Case
 from pipeline.challenge.outcome import Score, campaign_of, judged, measured
-from pipeline.diagnose.diagnosis import chosen, fit_cache
+from pipeline.diagnose.chosen import chosen
+from pipeline.diagnose.diagnosis import fit_cache
 from pipeline.diagnose.shelf import Shelf
 from pipeline.inference.model import Model
 from pipeline.record import Record

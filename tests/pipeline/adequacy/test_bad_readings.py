@@ -80,8 +80,15 @@ def test_a_score_is_that_of_a_fit_with_the_shift_as_a_number() -> None:
     factors = whitening(it.residual.program, it.prediction).factors
     column[row] = factors[row][:, 0]
     flat = it.residual.free(column)
-    expected = flat @ it.whitened / np.linalg.norm(flat)
+    expected = flat @ it.whitened / (flat @ flat) / it.residual.program.campaign.noise.displacement[0]
     assert bad.cell == cell and bad.sigmas == pytest.approx(float(expected), rel=1e-6)
+
+
+def test_of_two_that_say_the_same_it_is_what_is_off_less() -> None:
+    """A moment answers to a rotation that is prescribed: misread by 40 of its sigmas that is 400 of the moment's."""
+    cell = (IDS[0], 6, "ry_rad")
+    (bad,) = bad_readings(fitted(knocked(campaign(), {cell: 40.0})), CRITERIA)
+    assert bad.cell == cell and bad.sigmas == pytest.approx(40.0, abs=4.0)
 
 
 def test_what_was_prescribed_may_be_misread_as_well() -> None:

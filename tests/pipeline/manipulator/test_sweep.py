@@ -89,6 +89,7 @@ def test_killed_and_resumed_is_the_same_file(orthoglide: Description, whole: Pat
     assert sweep(orthoglide, GRID, tmp_path, Killed(0), chunk=10).computed == 0
 
 
+@pytest.mark.long
 def test_two_processes_write_the_same_file(orthoglide: Description, whole: Path, tmp_path: Path) -> None:
     with executor(workers=2) as (pool, count):
         assert count == 2

@@ -6,7 +6,8 @@ import pytest
 
 from pipeline.attempt import Attempts
 from pipeline.challenge.outcome import campaign_of, measured
-from pipeline.diagnose.diagnosis import chosen, fit_cache
+from pipeline.diagnose.chosen import chosen
+from pipeline.diagnose.diagnosis import fit_cache
 from pipeline.diagnose.shelf import Shelf
 from pipeline.inference.model import Model
 from pipeline.selection.criteria import CRITERIA
