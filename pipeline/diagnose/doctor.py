@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pipeline.campaign import Campaign
+from pipeline.diagnose.faulty import least_with_a_fault
 from pipeline.diagnose.merit import badness
 from pipeline.diagnose.picture import picture
 from pipeline.diagnose.shelf import Names, Shelf
@@ -28,7 +29,11 @@ from pipeline.inference.linear_prediction import predict_linear
 from pipeline.inference.predicted import Prediction
 from pipeline.inference.program import Program, program
 from pipeline.inference.residual import residual
+from pipeline.inference.suitable import scale_for
 from pipeline.selection.criteria import Criteria
+from vjm.effects import catalogue
+from vjm.effects.base import Effect
+from vjm.effects.sized import all_sized
 
 Array = NDArray[np.float64]
 
@@ -60,10 +65,19 @@ def suspicions(shelf: Shelf) -> tuple[Suspicion, ...]:
         return ()
     shelf.say("whether the table has a mistake")
     found, noise = _found(table), max(table.fit.degrees, 1)
+    if found:
+        # A faulty sensor is none of the table, and may look like one to a few of its columns.
+        fault = least_with_a_fault(shelf, table.root, _kinds(shelf.whole.campaign))
+        most = fault / max(shelf.fit(table.root).degrees, 1) * noise
+        found = [it for it in found if it.after * criteria.doctor_factor < most]
     # A factor that silences a column leaves less than noise: that explains no more than noise does.
     least = max(min((it.after for it in found), default=0.0), noise)
     kept = [it for it in found if it.after < least + criteria.doctor_tie * least / noise]
     return tuple(sorted(kept, key=lambda it: (it.after, len(it.mistake.columns))))
+
+
+def _kinds(campaign: Campaign) -> list[Effect]:
+    return list(all_sized(catalogue(), scale_for(campaign)).values())
 
 
 @dataclass(frozen=True, eq=False)

@@ -9,6 +9,8 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 
+import numpy as np
+
 from pipeline.diagnose.shelf import Names, Shelf
 from pipeline.inference.suitable import columns_read
 from vjm.effects.base import Effect
@@ -37,6 +39,20 @@ def with_promising_faults(shelf: Shelf, known: Iterable[Effect], best: Names) ->
     return shelf.with_candidates(
         {**shelf.candidates, **{name: every[name] for name in dict.fromkeys(chosen)}}
     )
+
+
+def least_with_a_fault(shelf: Shelf, names: Names, known: Iterable[Effect]) -> float:
+    """Chi-square that the fault of one sensor leaves beside a set, to first order; of a plausible size."""
+    every = faults_of(known, columns_read(shelf.whole.campaign))
+    beside = {name: shelf.candidates[name] for name in shelf.order(names)}
+    there = shelf.with_candidates({**beside, **every}).picture(names)
+    falls = [0.0]
+    for name in every:
+        if name in there.signatures:
+            fall, sizes = there.alone(name)
+            if np.abs(sizes).max(initial=0.0) <= shelf.criteria.plausible:
+                falls.append(fall)
+    return shelf.fit(names).chi_square - max(falls)
 
 
 def has_one_fault(shelf: Shelf, names: Names) -> bool:

@@ -131,6 +131,14 @@ class Picture:
                 best = Gain(value, self._probes(names, choice))
         return best
 
+    def alone(self, name: str) -> tuple[float, Array]:
+        """By how much it falls with one smooth effect, and the effect's numbers in typical sizes."""
+        residual, columns = self._weighed
+        own = columns[name][0]
+        step = np.linalg.lstsq(own, residual, rcond=RANK)[0]
+        fall = float(residual @ residual - np.sum((residual - own @ step) ** 2))
+        return fall / self.share, np.asarray(step, dtype=float)
+
     def _rescued(self, names: Sequence[str]) -> float:
         """Fall of chi-square by the best of them alone, at its typical size; 0 where none was looked at."""
         least = min((self.rescues[n] for n in names if n in self.rescues), default=self.fit.chi_square)

@@ -265,13 +265,17 @@ class Shelf:
     def _probes(self) -> list[Probe]:
         if self.known is not None:
             return self.known._probes
+        there, new = [], list(self.candidates.values())
         rows = None if self.before is None else rows_in(self.whole, self.before.whole)
         if self.before is not None and rows is not None:
             # What an effect does hangs on the tests, not on what was read.
-            return [replace(it, change=it.change[rows]) for it in self.before._probes]
-        return probes(
-            self.base, list(self.candidates.values()), self.whole, self.criteria.plain_probe, self.say
-        )
+            there = [
+                replace(it, change=it.change[rows])
+                for it in self.before._probes
+                if it.effect.name in self.candidates
+            ]
+            new = [it for it in new if it.name not in self.before.candidates]
+        return [*there, *probes(self.base, new, self.whole, self.criteria.plain_probe, self.say)]
 
     def _fitted(self, names: Names, begin: Mapping[str, float]) -> Fit:
         effects = [self.candidates[name] for name in self.order(names)]
