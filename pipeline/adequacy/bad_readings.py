@@ -176,13 +176,14 @@ def _named(found: Fit, row: int, channel: int, off: float) -> BadReading:
 
 
 def set_aside(campaign: Campaign, bad: tuple[BadReading, ...]) -> Campaign:
-    """The campaign without these readings; without the row where one of them was prescribed: what was done there is
-    not known. A test without a row is left out."""
+    """The campaign without these readings. A row where one of them was prescribed has nothing that is compared, for
+    what was done there is not known; it stays on the way, with what was prescribed before and after. A test without
+    another row is left out."""
     if not bad:
         return campaign
     names = channel_columns(campaign.gauges)
     tests = [_test_without(campaign, test, set(_of(test, bad, names))) for test in campaign.tests]
-    return replace(campaign, tests=tuple(test for test in tests if test.data.steps.size))
+    return replace(campaign, tests=tuple(test for test in tests if test is not None))
 
 
 def _of(test: Test, bad: tuple[BadReading, ...], names: list[str]) -> Iterator[tuple[int, int]]:
@@ -192,25 +193,21 @@ def _of(test: Test, bad: tuple[BadReading, ...], names: list[str]) -> Iterator[t
             yield int(np.flatnonzero(test.data.steps == each.step)[0]), names.index(each.column)
 
 
-def _test_without(campaign: Campaign, test: Test, cells: set[tuple[int, int]]) -> Test:
+def _test_without(campaign: Campaign, test: Test, cells: set[tuple[int, int]]) -> Test | None:
     if not cells:
         return test
     data = test.data
     readings = np.hstack([data.displacement, data.wrench, data.gauges])
     controls = control_channels(test, campaign.gauges)
+    rows, compared = np.arange(len(readings)), np.setdiff1d(np.arange(readings.shape[1]), controls)
     for row, channel in cells:
-        readings[row, channel] = np.nan if channel not in controls else readings[row, channel]
-    kept = np.ones(data.steps.size, dtype=bool)
-    kept[[row for row, channel in cells if channel in controls]] = False
-    return replace(
-        test,
-        data=replace(
-            data,
-            steps=data.steps[kept],
-            displacement=readings[kept, :6],
-            wrench=readings[kept, 6:12],
-            gauges=readings[kept, 12:],
-            temperature=None if data.temperature is None else data.temperature[kept],
-            lines=data.lines[kept],
-        ),
-    )
+        if channel not in controls:
+            readings[row, channel] = np.nan
+            continue
+        good = np.array([k for k in rows.tolist() if (k, channel) not in cells], dtype=int)
+        if not good.size:
+            return None
+        readings[row, channel] = np.interp(row, good, readings[good, channel])
+        readings[row, compared] = np.nan
+    data = replace(data, displacement=readings[:, :6], wrench=readings[:, 6:12], gauges=readings[:, 12:])
+    return replace(test, data=data)
