@@ -80,6 +80,12 @@ def test_a_fault_of_a_sensor_is_no_mistake_of_the_table(fault: object) -> None:
 
 
 @pytest.mark.long
+@pytest.mark.parametrize("path", ["sensor_lag@fx_N.keeps", "sensor_gain@fx_N.share"])
+def test_a_load_cell_at_fault_is_no_unit(path: str) -> None:
+    assert not words(bench(path, 0.1))
+
+
+@pytest.mark.long
 def test_a_sensor_that_reads_nothing_is_not_explained_by_a_factor() -> None:
     """Times a thousandth explains nothing: it only silences the column."""
     rng = np.random.default_rng(5)

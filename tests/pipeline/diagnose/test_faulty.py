@@ -102,6 +102,19 @@ def test_cross_talk_is_no_turn_of_the_cell(column: str, named: str) -> None:
 
 
 @pytest.mark.long
+def test_a_faulty_sensor_is_named_though_a_reading_was_knocked() -> None:
+    it = read({"sensor_lag@fx_N.keeps": 0.1})
+    test = it.tests[1]
+    wrench = test.data.wrench.copy()
+    wrench[3, 5] += 40.0 * it.noise.wrench[5]
+    tests = (it.tests[0], replace(test, data=replace(test.data, wrench=wrench)), *it.tests[2:])
+    found = diagnose(replace(it, tests=tests), Model(), some())
+    assert found.verdict == "identified" and found.sets == ((ALWAYS, "sensor_lag@fx_N"),)
+    assert [bad.cell for bad in found.readings.bad] == [(test.id, 3, "mz_Nmm")]
+    assert found.with_all == "unknown"
+
+
+@pytest.mark.long
 def test_a_sensor_that_is_vouched_for_is_not_at_fault() -> None:
     exact = replace(read({"sensor_cross_talk@fz_N<fx_N.share": 0.005}), tolerance={})
     assert exact.vouched and diagnose(exact, Model(), catalogue()).verdict == "unknown"

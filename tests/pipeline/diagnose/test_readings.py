@@ -10,9 +10,11 @@ import pytest
 
 from pipeline.adequacy.bad_readings import BadReading, set_aside
 from pipeline.answer import Answer
+from pipeline.attempt import Attempts
 from pipeline.campaign import Campaign
 from pipeline.campaign.names import channel_columns
 from pipeline.diagnose.diagnosis import diagnose, fit_cache
+from pipeline.diagnose.rounds import settled
 from pipeline.diagnose.shelf import Shelf
 from pipeline.diagnose.words import answered
 from pipeline.inference.driving import driving
@@ -35,11 +37,13 @@ def answer(it: Campaign) -> Answer:
     return answered(diagnose(it, Model(), known))
 
 
-def knocked(it: Campaign) -> Campaign:
-    test = it.tests[0]
+def knocked(it: Campaign, number: int = 0) -> Campaign:
+    test = it.tests[number]
     wrench = test.data.wrench.copy()
     wrench[3, 5] += 40.0 * it.noise.wrench[5]
-    return replace(it, tests=(replace(test, data=replace(test.data, wrench=wrench)), *it.tests[1:]))
+    tests = list(it.tests)
+    tests[number] = replace(test, data=replace(test.data, wrench=wrench))
+    return replace(it, tests=tuple(tests))
 
 
 def test_nothing_is_said_of_readings_as_declared() -> None:
@@ -73,7 +77,7 @@ def test_a_sigma_that_is_wrong_by_two_does_not_decide() -> None:
 
 
 def test_a_search_without_a_reading_begins_where_the_one_with_it_ended() -> None:
-    """A controlled reading at that, whose row is gone."""
+    """A controlled reading at that, in whose row nothing is compared any more."""
     it, base, nothing = plain(), frozenset({"bar_geometric_nonlinearity"}), Model()
     wanted = [base, base | {"modulus_error"}]
     known = {name: catalogue()[name] for name in ("bar_geometric_nonlinearity", "modulus_error")}
@@ -84,8 +88,33 @@ def test_a_search_without_a_reading_begins_where_the_one_with_it_ended() -> None
     (column, *_) = driving(test, it.gauges)
     bad = BadReading(test.id, int(test.data.steps[4]), channel_columns(it.gauges)[column], 20.0)
     cases = program(set_aside(before.whole.campaign, (bad,)))
-    assert len(cases.test) == len(before.whole.test) - 1
+    assert len(cases.test) == len(before.whole.test)
+    row = int(before.whole.first[1]) + 4
+    assert before.whole.predicted[row].any() and not cases.predicted[row].any()
+    near = before.whole.measured[row - 1 : row + 2 : 2, column]
+    assert cases.measured[row, column] == pytest.approx(near.mean(), rel=1e-12)
     here, anew = (Shelf(cases, nothing, known, str, before=given) for given in (before, None))
     for names in wanted:
         assert here.fit(names).chi_square <= anew.fit(names).chi_square + 0.2
     assert here.evaluations < anew.evaluations
+
+
+def test_a_reading_of_a_test_that_was_held_out_may_be_knocked_too() -> None:
+    it = plain()
+    held = replace(it, tests=(*it.tests[:-1], replace(it.tests[-1], role="holdout")))
+    found = answer(knocked(held, len(it.tests) - 1))
+    assert [(b.test, b.step, b.column) for b in found.set_aside] == [(it.tests[-1].id, 3, "mz_Nmm")]
+    assert found.verdict == "identified" and "modulus_error" in found.added
+
+
+def test_knocked_readings_are_set_aside_before_all_that_competes_is_fitted() -> None:
+    known = {n: catalogue()[n] for n in ("bar_geometric_nonlinearity", "modulus_error", "axis_flexibility")}
+    shelf = fit_cache(knocked(plain()), Model(), known)
+
+    def again(campaign: Campaign, before: Shelf) -> Shelf:
+        return Shelf(program(campaign), Model(), known, str, before=before)
+
+    it = settled(shelf, again, Attempts())
+    assert [b.cell for b in it.readings.bad] == [(IDS[0], 3, "mz_Nmm")] and it.with_all == "unknown"
+    assert all(len(names) <= 2 for names in shelf.fits), "no pairs beside what is there or not"
+    assert it.it.ruling.sets == (frozenset({"bar_geometric_nonlinearity", "modulus_error"}),)

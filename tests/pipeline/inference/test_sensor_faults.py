@@ -7,6 +7,7 @@ from functools import cache
 import numpy as np
 import pytest
 
+from pipeline.adequacy.patterns import shapes
 from pipeline.campaign import Campaign
 from pipeline.errors import InputError
 from pipeline.inference.fit import fit
@@ -14,6 +15,7 @@ from pipeline.inference.model import Model
 from pipeline.inference.prediction import predict
 from pipeline.inference.program import program
 from pipeline.inference.suitable import check_suitable, columns_read, named_effects
+from pipeline.selection.criteria import CRITERIA
 from pipeline.simulate import bench_rig
 from pipeline.virtual.bench import measure
 from pipeline.virtual.plan import GAUGES, SENSORS, bench_plan
@@ -112,3 +114,15 @@ def test_a_sensor_that_was_not_read_is_refused() -> None:
     ):
         with pytest.raises(InputError, match=said):
             check_suitable(named_effects([name], catalogue()), campaign)
+
+
+def test_a_gain_that_is_fitted_leaves_no_pattern_of_its_own_noise() -> None:
+    """Of a column that is prescribed in some tests and read in others: a slope at noisy inputs would follow them."""
+    plan = [test for test in bench_plan(12) if test.id in (*MIXED, "turn_z_q+0", "lateral_pushed_q+30")]
+    hidden = {"sensor_gain@mz_Nmm.share": 0.04}
+    found = fit(
+        with_fault("sensor_gain@mz_Nmm"),
+        program(measure("gain", bench_rig(), plan, SENSORS, hidden, 7, GAUGES)),
+    )
+    words = "mz reads too much or too little in proportion"
+    assert not [it for it in shapes(found, CRITERIA) if it.words == words]
