@@ -64,12 +64,12 @@ def suspicions(shelf: Shelf) -> tuple[Suspicion, ...]:
     ):
         return ()
     shelf.say("whether the table has a mistake")
-    found, noise = _found(table), max(table.fit.degrees, 1)
-    if found:
-        # A faulty sensor is none of the table, and may look like one to a few of its columns.
-        fault = least_with_a_fault(shelf, table.root, _kinds(shelf.whole.campaign))
-        most = fault / max(shelf.fit(table.root).degrees, 1) * noise
-        found = [it for it in found if it.after * criteria.doctor_factor < most]
+    noise, promising = max(table.fit.degrees, 1), _promising(table)
+    if not promising:
+        return ()
+    # A faulty sensor is none of the table, and may look like one to a few of its columns.
+    fault = least_with_a_fault(shelf, table.root, _kinds(shelf.whole.campaign))
+    found = _found(table, promising, fault / max(shelf.fit(table.root).degrees, 1) * noise)
     # A factor that silences a column leaves less than noise: that explains no more than noise does.
     least = max(min((it.after for it in found), default=0.0), noise)
     kept = [it for it in found if it.after < least + criteria.doctor_tie * least / noise]
@@ -142,18 +142,20 @@ class Table:
         return replace(self, shelf=Shelf(cases, shelf.base, shelf.candidates, shelf.say, shelf.criteria))
 
 
-def _found(table: Table) -> list[Suspicion]:
+def _found(table: Table, promising: list[Mistake], fault: float) -> list[Suspicion]:
     """Every mistake that is enough: to first order, then fitted. Fits far from an explanation are slow, so that they
-    are made of the table as it is and of what may be right alone."""
+    are made of the table as it is and of what may be right alone. fault: what the fault of one sensor leaves."""
     criteria, enough = table.shelf.criteria, []
-    for mistake in _promising(table):
+    if fault < criteria.doctor_factor * max(table.fit.degrees, 1):
+        return []
+    for mistake in promising:
         table.shelf.say(f"whether {mistake.words}")
         mended = table.mended(mistake)
-        if mended.first_order * criteria.doctor_factor < table.first_order:
+        if mended.first_order * criteria.doctor_factor < min(table.first_order, fault):
             enough.append((mistake, mended))
     if not enough:
         return []
-    before = min(table.first_order, table.plain.first_order)
+    before = min(table.first_order, table.plain.first_order, fault)
     least = min(mended.first_order for _, mended in enough)
     if before < criteria.doctor_sure * least:
         before = min(before, table.left[0])

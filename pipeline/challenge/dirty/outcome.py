@@ -113,7 +113,7 @@ def _of_readings(it: DirtyCase, answer: Diagnosis, knocks: tuple[Knock, ...]) ->
         "readings": int(np.isfinite(answer.shelf.whole.measured[answer.shelf.whole.fitted]).sum())
         + len(aside),
         "knocked_found": len(aside & made),
-        "good_aside": len(aside - made),
+        "good_aside": len(aside - {(k.test, k.row, k.channel) for k in knocks}),
         "declared_found": bool(ratios) and all(1 / 1.5 < r < 1.5 for r in ratios) if off.size else None,
     }
 
