@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
+
+import numpy as np
 
 from pipeline.adequacy.judgement import judge
 from pipeline.adequacy.untested import untested
@@ -12,7 +15,7 @@ from pipeline.diagnose.rivals import Found
 from pipeline.diagnose.ruling import Ruling, ruled
 from pipeline.diagnose.search import first_root, search, search_one_by_one
 from pipeline.diagnose.sensor_faults import plain_zero
-from pipeline.diagnose.shelf import Shelf
+from pipeline.diagnose.shelf import Names, Shelf
 from pipeline.inference.fit import Fit, unfitted
 
 
@@ -25,9 +28,9 @@ class Chosen:
     untested: str = ""
 
 
-def chosen(shelf: Shelf, attempts: Attempts, alone: bool = False) -> Chosen:
+def chosen(shelf: Shelf, attempts: Attempts, alone: bool = False, begun: Sequence[Names] = ()) -> Chosen:
     """The verdict and what it rests on. What is optional and fails is said in the attempts. alone: whether no more than
-    the best single effect is looked for."""
+    the best single effect is looked for. begun: the single effects beside the first root that were fitted, if any."""
     before = beginning(shelf)
     if why := untested(before):
         found = Found(shelf, frozenset(), ())
@@ -35,9 +38,10 @@ def chosen(shelf: Shelf, attempts: Attempts, alone: bool = False) -> Chosen:
     if plain_zero(before, shelf.criteria):
         found = search_one_by_one(shelf, frozenset())
     elif alone:
-        found = search_one_by_one(shelf, first_root(shelf))
+        shelf.ends = np.inf
+        found = search_one_by_one(shelf, first_root(shelf), begun)
     else:
-        found = with_what_held_out_tests_need(search(shelf))
+        found = with_what_held_out_tests_need(search(shelf, begun))
     judgement = judge(shelf.fit(found.best), shelf.criteria)
     shelf.say("what else could explain it")
     return Chosen(found, ruled(found, judgement, attempts))

@@ -18,10 +18,11 @@ from pipeline.attempt import Attempts
 from pipeline.campaign import Campaign
 from pipeline.diagnose.chosen import Chosen, beginning, chosen
 from pipeline.diagnose.faulty import has_one_fault, with_promising_faults
+from pipeline.diagnose.merit import cost
 from pipeline.diagnose.readings import AS_DECLARED, Readings
-from pipeline.diagnose.search import first_root, search_one_by_one
+from pipeline.diagnose.search import singles_first
 from pipeline.diagnose.sensor_faults import plain_zero
-from pipeline.diagnose.shelf import Shelf
+from pipeline.diagnose.shelf import Names, Shelf
 from pipeline.inference.program import Program
 from vjm.effects.base import Effect
 
@@ -44,10 +45,13 @@ class Settled:
 def settled(shelf: Shelf, again: Again, attempts: Attempts) -> Settled:
     """Of a fit cache of the campaign as it was declared."""
     given, what = shelf.whole, "what the readings are"
+    begun: list[Names] = []
     new = AS_DECLARED
-    if not untested(beginning(shelf)):
-        new = attempts.get(what, partial(_at_first, shelf), AS_DECLARED)
-    it = chosen(shelf, attempts, alone=not new.plain)
+    if not untested(beginning(shelf)) and not plain_zero(beginning(shelf), shelf.criteria):
+        begun = singles_first(shelf)
+        if begun:
+            new = attempts.get(what, partial(_at_first, shelf, begun), AS_DECLARED)
+    it = chosen(shelf, attempts, not new.plain, begun)
     with_all, readings = it.ruling.verdict, AS_DECLARED
     for _ in range(0 if it.untested else shelf.criteria.reading_rounds):
         if new.same(readings):
@@ -88,11 +92,9 @@ def with_faults(before: Settled, known: Iterable[Effect], again: Again) -> Settl
     return replace(new, with_all=before.with_all)
 
 
-def _at_first(shelf: Shelf) -> Readings:
-    """What the readings are beside the best single effect, where nothing but single bad ones is left then."""
-    if plain_zero(beginning(shelf), shelf.criteria):
-        return AS_DECLARED
-    found = shelf.fit(search_one_by_one(shelf, first_root(shelf)).best)
+def _at_first(shelf: Shelf, begun: list[Names]) -> Readings:
+    """What the readings are beside the best of single effects, where nothing but single bad ones is left then."""
+    found = shelf.fit(min(begun, key=lambda names: cost(shelf, names)))
     if not bad_readings(found, shelf.criteria):
         return AS_DECLARED
     new = AS_DECLARED.again(found, shelf.whole, shelf.criteria)

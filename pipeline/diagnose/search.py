@@ -23,10 +23,28 @@ from pipeline.inference.solvers import allowance
 from vjm.work import TooMuch, spent
 
 
-def search_one_by_one(shelf: Shelf, root: Names) -> Found:
+def singles(shelf: Shelf, root: Names) -> list[Names]:
+    """A set, and those with one effect more that may turn out best: fitted."""
+    return [root, *(e.names for e in _competing(shelf, root, 1))]
+
+
+def singles_first(shelf: Shelf) -> list[Names]:
+    """Those of the first root, a part of the search that follows and of what it may take; none where that is all."""
+    shelf.ends = _end(shelf)
+    try:
+        return singles(shelf, first_root(shelf))
+    except TooMuch:
+        return []
+
+
+def _end(shelf: Shelf) -> float:
+    return spent() + shelf.criteria.search_work * allowance(shelf.whole)
+
+
+def search_one_by_one(shelf: Shelf, root: Names, begun: Sequence[Names] = ()) -> Found:
     """The best single effect beside a set, and those that may as well be true: enough where something else comes before
-    physics."""
-    starts = [root, *(e.names for e in _competing(shelf, root, 1))]
+    physics. begun: what `singles` found of it."""
+    starts = list(begun) or singles(shelf, root)
     best = _best(shelf, starts)
     return Found(shelf, best, tuple(possible(shelf, starts, best)))
 
@@ -36,11 +54,12 @@ def first_root(shelf: Shelf) -> Names:
     return _roots(shelf)[0]
 
 
-def search(shelf: Shelf) -> Found:
-    """The best set, and those that may as well be true; what was fitted until then where that takes too long."""
-    shelf.ends = spent() + shelf.criteria.search_work * allowance(shelf.whole)
+def search(shelf: Shelf, begun: Sequence[Names] = ()) -> Found:
+    """The best set, and those that may as well be true; what was fitted until then where that takes too long. begun:
+    what `singles` found of the first root."""
+    shelf.ends = min(shelf.ends, _end(shelf))
     try:
-        return _searched(shelf)
+        return _searched(shelf, begun)
     except TooMuch:
         best = _best(shelf, list(shelf.fits))
         return Found(shelf, best, (), ended=True)
@@ -48,11 +67,12 @@ def search(shelf: Shelf) -> Found:
         shelf.ends = np.inf
 
 
-def _searched(shelf: Shelf) -> Found:
+def _searched(shelf: Shelf, begun: Sequence[Names]) -> Found:
     roots = _roots(shelf)
-    starts: list[Names] = list(roots)
+    starts: list[Names] = [*roots, *begun]
     for root in roots:
-        starts += [e.names for e in _competing(shelf, root, 1)]
+        if not begun or root != roots[0]:
+            starts += [e.names for e in _competing(shelf, root, 1)]
         # Where one effect leaves noise, a second is looked for about that fit: to first order about the root, the
         # curvature of a large effect looks like another.
         if not any(is_noise(shelf, names) for names in starts):
