@@ -175,8 +175,9 @@ class Answer(Record):
     sizes would be implausible. doctor: mistakes of the table, one of which comes before all physics. zeros: of sensors
     that seem not to be zeroed. nominals: what was written about the rig, none where that is exact. set_aside: single
     bad readings that were left out. noise: of sensors whose noise is not as it was declared. as_declared: the verdict
-    with all readings and sigmas as declared, where something was found of them. certain: effects that are there
-    whatever the verdict. not_done: optional parts that failed.
+    with all readings and sigmas as declared, where something was found of them; of the best single effect where single
+    bad readings were seen beside that. certain: effects that are there whatever the verdict. not_done: optional parts
+    that failed.
     """
 
     campaign: str

@@ -199,12 +199,13 @@ def _test_without(campaign: Campaign, test: Test, cells: set[tuple[int, int]]) -
     data = test.data
     readings = np.hstack([data.displacement, data.wrench, data.gauges])
     controls = control_channels(test, campaign.gauges)
-    rows, compared = np.arange(len(readings)), np.setdiff1d(np.arange(readings.shape[1]), controls)
+    compared = np.setdiff1d(np.arange(readings.shape[1]), controls)
     for row, channel in cells:
         if channel not in controls:
             readings[row, channel] = np.nan
             continue
-        good = np.array([k for k in rows.tolist() if (k, channel) not in cells], dtype=int)
+        there = np.flatnonzero(np.isfinite(readings[:, channel])).tolist()
+        good = np.array([k for k in there if (k, channel) not in cells], dtype=int)
         if not good.size:
             return None
         readings[row, channel] = np.interp(row, good, readings[good, channel])

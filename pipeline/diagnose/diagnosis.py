@@ -44,8 +44,9 @@ class Diagnosis:
 
     refused: effects that the rig or the campaign cannot have, and why. failed: optional parts that failed, and why.
     doctor: mistakes of the table, one of which comes before all physics. readings: what they are about the first set;
-    given: the campaign with all of them as they were declared; with_all: the verdict by those. certain: effects that
-    are there whatever the verdict. alike_rows: sensors whose noise is correlated from row to row.
+    given: the campaign with all of them as they were declared; with_all: the verdict by those, alone: whether
+    of the best single effect only. certain: effects that are there whatever the verdict. alike_rows: sensors whose
+    noise is correlated from row to row.
     """
 
     campaign: Campaign
@@ -62,6 +63,7 @@ class Diagnosis:
     readings: Readings = AS_DECLARED
     given: Campaign | None = None
     with_all: Verdict = "unknown"
+    alone: bool = False
     certain: tuple[str, ...] = ()
     alike_rows: AlikeRows = NONE
 
@@ -153,6 +155,7 @@ def diagnose(
         done.readings,
         done.given.campaign,
         done.with_all,
+        done.alone,
         sure,
         alike,
     )

@@ -33,12 +33,13 @@ Again = Callable[[Campaign, Shelf], Shelf]
 @dataclass(frozen=True, eq=False)
 class Settled:
     """it: the choice with the readings as they are. given: all of them as they were declared; with_all: the verdict by
-    those. attempts: what failed on the way."""
+    those, alone: whether of the best single effect only. attempts: what failed on the way."""
 
     it: Chosen
     readings: Readings
     given: Program
     with_all: Verdict
+    alone: bool
     attempts: Attempts
 
 
@@ -51,7 +52,8 @@ def settled(shelf: Shelf, again: Again, attempts: Attempts) -> Settled:
         begun = singles_first(shelf)
         if begun:
             new = attempts.get(what, partial(_at_first, shelf, begun), AS_DECLARED)
-    it = chosen(shelf, attempts, not new.plain, begun)
+    alone = not new.plain
+    it = chosen(shelf, attempts, alone, begun)
     with_all, readings = it.ruling.verdict, AS_DECLARED
     for _ in range(0 if it.untested else shelf.criteria.reading_rounds):
         if new.same(readings):
@@ -61,7 +63,7 @@ def settled(shelf: Shelf, again: Again, attempts: Attempts) -> Settled:
         shelf.say("with the readings as they are")
         readings, attempts = new, Attempts()
         it = chosen(again(readings.applied(given.campaign), it.found.shelf), attempts)
-    return Settled(it, readings, given, with_all, attempts)
+    return Settled(it, readings, given, with_all, alone, attempts)
 
 
 def with_faults(before: Settled, known: Iterable[Effect], again: Again) -> Settled:
@@ -89,7 +91,7 @@ def with_faults(before: Settled, known: Iterable[Effect], again: Again) -> Settl
         or not judge(named.shelf.fit(named.best), shelf.criteria).noise
     ):
         return before
-    return replace(new, with_all=before.with_all)
+    return replace(new, with_all=before.with_all, alone=before.alone)
 
 
 def _at_first(shelf: Shelf, begun: list[Names]) -> Readings:

@@ -51,7 +51,7 @@ def sentences(it: Diagnosis, answer: Answer | None = None) -> tuple[str, ...]:
     if it.verdict != "nothing_tested":
         parts |= {
             "the evidence in words": lambda: tuple(_evidence(it, record)),
-            "what the readings are, in words": lambda: tuple(_aside(record)),
+            "what the readings are, in words": lambda: tuple(_aside(it, record)),
             "the limits in words": lambda: tuple(limits(record)),
             "what was written, in words": lambda: tuple(written(record, it.shelf.criteria.nominal_moved)),
             "what is left in words": lambda: tuple(_left(it)),
@@ -156,7 +156,7 @@ def _values(answer: Answer, effect: Effect, before: str = " Fitted: ", after: st
     return f"{before}{', '.join(said)}{after}" if said else ""
 
 
-def _aside(answer: Answer) -> Iterator[str]:
+def _aside(diagnosis: Diagnosis, answer: Answer) -> Iterator[str]:
     """What was found of the readings themselves, and the verdict with all of them as they were declared."""
     if answer.set_aside:
         told = ", ".join(
@@ -177,7 +177,8 @@ def _aside(answer: Answer) -> Iterator[str]:
             "what it does counts."
         )
     if answer.as_declared is not None:
-        yield f"With all readings and sigmas as they are declared the verdict would be {answer.as_declared}."
+        by = ", by the best single effect" if diagnosis.alone else ""
+        yield f"With all readings and sigmas as they are declared the verdict would be {answer.as_declared}{by}."
 
 
 def _from_row_to_row(it: Diagnosis, answer: Answer) -> Iterator[str]:

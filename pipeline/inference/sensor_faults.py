@@ -53,7 +53,7 @@ def faulted(model: Model, program: Program, found: Prediction) -> Prediction:
     terms = faults(model)
     if not terms:
         return found
-    read, given = _as_read(program, found), _best_read(program, found)
+    read = _as_read(program, found)
     values, by_free = found.values.copy(), found.by_free.copy()
     for term in terms:
         channel = _channel(program, term)
@@ -61,7 +61,7 @@ def faulted(model: Model, program: Program, found: Prediction) -> Prediction:
         free = np.ones(len(values), dtype=bool)
         free[rows] = False
         values[free, channel] += _error(term, read, program)[free]
-        for number, column, done in _slopes(term, read, given, program, model) if by_free.shape[-1] else ():
+        for number, column, done in _slopes(term, read, program, model) if by_free.shape[-1] else ():
             by_free[..., number] = 0.0
             by_free[free, channel, number] = column[free]
             through = found.by_inputs[rows, :, coordinates] * done[rows][:, None]
@@ -96,15 +96,6 @@ def _error(term: Term, read: Array, program: Program) -> Array:
     return term.effect.error(read, program.rows, term.values)
 
 
-def _best_read(program: Program, found: Prediction) -> Array:
-    """(R, C) what was read, where it was prescribed without the noise of that: a slope at noisy inputs follows their
-    noise."""
-    out = np.nan_to_num(program.measured)
-    given = np.take_along_axis(out, program.channels, axis=1)
-    np.put_along_axis(out, program.channels, given + found.shift[:, :6], axis=1)
-    return out
-
-
 def _error_of_input(term: Term, read: Array, program: Program) -> Array:
     """(R,) what its column read too much where it controls a coordinate."""
     done, channel = read.copy(), _channel(program, term)
@@ -113,11 +104,9 @@ def _error_of_input(term: Term, read: Array, program: Program) -> Array:
     return np.asarray(read[:, channel] - done[:, channel])
 
 
-def _slopes(
-    term: Term, read: Array, given: Array, program: Program, model: Model
-) -> Iterator[tuple[int, Array, Array]]:
+def _slopes(term: Term, read: Array, program: Program, model: Model) -> Iterator[tuple[int, Array, Array]]:
     """Number of each free parameter of a fault, and (R,) derivatives by it: of its error where it is only read, and
-    where it controls a coordinate."""
+    where it controls a coordinate. read: without the noise of what was prescribed, which a slope would follow."""
     for number, each in enumerate(model.free):
         if each.effect != term.effect.name:
             continue
@@ -126,5 +115,5 @@ def _slopes(
             replace(term, values={**term.values, name: term.values[name] + step}) for step in (-size, size)
         ]
         low, high = (_error(end, read, program) for end in ends)
-        less, more = (_error_of_input(end, given, program) for end in ends)
+        less, more = (_error_of_input(end, read, program) for end in ends)
         yield number, (high - low) / (2.0 * size), (more - less) / (2.0 * size)
