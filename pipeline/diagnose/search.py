@@ -144,7 +144,10 @@ def _competing(shelf: Shelf, start: Names, count: int) -> list[Estimate]:
     hoped = {e.names: e.cost - doubt(shelf, e.names - start) * max(here - e.cost, 0.0) for e in every}
     within = [e for e in every if e.cost < here and hoped[e.names] < best + shelf.criteria.competing]
     within = sorted(within, key=lambda e: hoped[e.names])[: shelf.criteria.sets_fitted]
-    shelf.fit_all({e.names: e.probes for e in within})
+    # Far from an explanation the one that promises most is fitted first: others that stay far above it end soon.
+    first = within[:1] if shelf.fit(start).rms > shelf.criteria.far else []
+    for some in (first, within[len(first) :]):
+        shelf.fit_all({e.names: e.probes for e in some})
     return within
 
 

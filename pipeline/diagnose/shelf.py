@@ -10,7 +10,7 @@ import numpy as np
 
 from pipeline.diagnose.picture import Picture, picture
 from pipeline.diagnose.signatures import Look, Probe, Say, hidden, look, probed, probes, signatures
-from pipeline.inference.fit import Fit, fit, unfitted, with_own_line
+from pipeline.inference.fit import Fit, at_null, fit, unfitted, with_own_line
 from pipeline.inference.model import Model, Term
 from pipeline.inference.nominals import beside
 from pipeline.inference.parts import at_rows, carried, rows_in
@@ -19,7 +19,7 @@ from pipeline.inference.prediction import predict
 from pipeline.inference.program import Program
 from pipeline.inference.residual import residual
 from pipeline.inference.sent import fits_at_once
-from pipeline.inference.solvers import WORK, allowance
+from pipeline.inference.solvers import WORK, Effort, allowance, far
 from pipeline.inference.starts import best_fit, height
 from pipeline.inference.stops import sided
 from pipeline.parameter_names import parted, path_of
@@ -66,6 +66,11 @@ class Shelf:
     def room(self) -> int:
         """Numbers that a set may have: readings less unknown zeros and the numbers of the base model."""
         return self.fit(frozenset()).degrees
+
+    @property
+    def effort(self) -> Effort:
+        """What a further fit may take: one that stays far above the best that is known decides nothing."""
+        return Effort(known=min((it.chi_square for it in self.fits.values() if not it.lost), default=np.inf))
 
     def affords(self, names: Names) -> bool:
         """Whether a set has no more free numbers than there are readings to fit them to."""
@@ -175,7 +180,7 @@ class Shelf:
         self._begun(f"{self._title(larger)} with one less")
         self.tried |= {(names, larger) for names in models}
         calls = [
-            (m, partial(fit, m, self.whole, there.prediction, None, self.criteria.plausible))
+            (m, partial(fit, m, self.whole, there.prediction, None, self.criteria.plausible, self.effort))
             for m in models.values()
         ]
         for names, found in zip(models, fits_at_once(calls, self.whole), strict=True):
@@ -195,16 +200,16 @@ class Shelf:
         if found.order <= smaller.order:
             return found
         model = _valued(self._model(names), smaller.model)
-        # One that ran out of its work would do so again.
+        # One that ran out of its work would do so again, and beside null no row shows which side of a stop it is on.
         again = (
             found
-            if found.ended
-            else fit(model, self.whole, smaller.prediction, None, self.criteria.plausible)
+            if found.ended or any(sided(self.candidates[e]) for e in names - best)
+            else fit(model, self.whole, smaller.prediction, None, self.criteria.plausible, self.effort)
         )
         count = found.evaluations + (0 if again is found else again.evaluations)
         if again.order <= smaller.order:
             return replace(again, evaluations=count)
-        return replace(_at_null(model, smaller), evaluations=count, ended=again.ended)
+        return replace(at_null(model, smaller), evaluations=count, ended=again.ended)
 
     def _keep(self, names: Names, found: Fit) -> None:
         old = self.fits.get(names)
@@ -239,7 +244,9 @@ class Shelf:
             return self.pictures.setdefault(names, self.known.picture(names))
         if names not in self.pictures:
             self._begun(f"what could be added to {self._title(names)}")
-            found = self.with_own_line(names)
+            found = self.fit(names)
+            # No verdict hangs on the slopes of a model that is far off.
+            found = found if far(found.chi_square, found.whitened.size) else self.with_own_line(names)
             every = signatures(found, list(self.candidates.values()), self._probes, self.at, self.say)
             plausible = self.criteria.plausible
             self.pictures[names] = picture(found, every, self.at, self._rescues(found), plausible)
@@ -287,10 +294,10 @@ class Shelf:
         new = [e.name for e in effects]
         # A probe says nothing of sizes below it, and rows that chose their side from there may stay on the wrong one.
         if not kinked or any(sided(e) or e.name not in begin for e in kinked):
-            return best_fit(model, self.whole, new, start, None, self.criteria.plausible)
+            return best_fit(model, self.whole, new, start, None, self.criteria.plausible, self.effort)
         for effect in kinked:
             model = probed(model, effect, begin[effect.name])
-        return fit(model, self.whole, start, None, self.criteria.plausible)
+        return fit(model, self.whole, start, None, self.criteria.plausible, self.effort)
 
     def _begun(self, what: str) -> None:
         if spent() > self.ends:
@@ -334,15 +341,6 @@ class Shelf:
 
 def _free_numbers(effect: Effect, fixed: frozenset[str]) -> int:
     return sum(path_of(effect.name, p.name) not in fixed for p in effect.parameters)
-
-
-def _at_null(model: Model, smaller: Fit) -> Fit:
-    """The fit of a larger model whose further effects are absent, and stay so: that of the smaller one."""
-    old = {f.name: v for f, v in zip(smaller.model.free, smaller.model.values, strict=True)}
-    values = np.array([old.get(f.name, f.parameter.null) for f in model.free])
-    further = {f.name for f in model.free if f.name not in old}
-    absent = replace(model.at(values), fixed=model.fixed | further)
-    return Fit(absent, smaller.prediction, smaller.residual, 0)
 
 
 def _valued(model: Model, other: Model) -> Model:

@@ -17,7 +17,7 @@ from pipeline.inference.parts import at_rows, joined
 from pipeline.inference.predicted import Prediction
 from pipeline.inference.program import Program
 from pipeline.inference.residual import Residual, residual
-from pipeline.inference.solvers import End, Solver, Watch, far
+from pipeline.inference.solvers import ALL, Effort, End, Solver, Watch, far
 
 Array = NDArray[np.float64]
 
@@ -122,19 +122,19 @@ def fit(
     start: Prediction | None = None,
     watch: Watch | None = None,
     plausible: float = np.inf,
-    share: float = 1.0,
+    effort: Effort = ALL,
     solver: Solver = levenberg_marquardt,
 ) -> Fit:
     """The best fit that is found from the model's own values.
 
     plausible: typical sizes from null that stand for one sigma of a weak pull towards null: numbers that the data
-    say nothing about stay there. Chi-square is that of the data alone. share: of the work that a fit may take.
-    solver: `pipeline.inference.solvers`. What was written about the rig is eliminated along the line of the start;
-    without one along the fit's own.
+    say nothing about stay there. Chi-square is that of the data alone. effort, solver:
+    `pipeline.inference.solvers`. What was written about the rig is eliminated along the line of the start; without one
+    along the fit's own.
     """
     known = (start is not None and start.nominal.size > 0) or not nominals(program.campaign)
     begin = start if known else lined(model, program, start)
-    found = _fit(model, program, begin, watch, plausible, share, solver)
+    found = _fit(model, program, begin, watch, plausible, effort, solver)
     if known or far(found.chi_square, found.whitened.size):
         # No verdict hangs on the error bars of a model that is far off.
         return found
@@ -148,7 +148,7 @@ def _fit(
     start: Prediction | None,
     watch: Watch | None,
     plausible: float,
-    share: float,
+    effort: Effort,
     solver: Solver,
 ) -> Fit:
     (rows, own), *others = program.by_role
@@ -156,11 +156,11 @@ def _fit(
 
     def solve(aim: Objective, begin: Prediction | None) -> End:
         if aim.model.free:
-            return solver(aim, begin, watch, plausible, share)
+            return solver(aim, begin, watch, plausible, effort)
         there = aim.at(aim.model.values, begin)
         return End(there, there.rounds, ended=False)
 
-    end = along_a_line(model, own, begin, solve)
+    end = along_a_line(model, own, begin, solve, effort)
     values, there, model = end.there.values, end.there.with_slopes, end.there.objective.model
     if not others:
         return Fit(model.at(values), there.prediction, there.residual, end.evaluations, end.ended)
@@ -182,9 +182,19 @@ def with_own_line(
         return found
     line = lined(found.model, program, found.prediction)
     start = replace(found.prediction, by_nominal=line.by_nominal)
-    new = _fit(found.model, program, start, None, plausible, 1.0, solver)
+    new = _fit(found.model, program, start, None, plausible, ALL, solver)
     count, ended = found.evaluations + new.evaluations + 2, found.ended or new.ended
     return replace(new, evaluations=count, ended=ended, own_line=True)
+
+
+def at_null(model: Model, smaller: Fit) -> Fit:
+    """The fit of a larger model whose further effects are absent, and stay so: that of the smaller one."""
+    old = {f.name: v for f, v in zip(smaller.model.free, smaller.model.values, strict=True)}
+    values = np.array([old.get(f.name, f.parameter.null) for f in model.free])
+    further = {f.name for f in model.free if f.name not in old}
+    fixed = model.fixed | further
+    absent = replace(model.at(values), fixed=fixed, nominals=smaller.model.nominals)
+    return Fit(absent, smaller.prediction, smaller.residual, 0)
 
 
 def unfitted(model: Model, cases: Program, start: Prediction | None = None) -> Fit:

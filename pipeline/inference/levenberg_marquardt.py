@@ -11,7 +11,7 @@ from scipy.optimize import lsq_linear
 
 from pipeline.inference.objective import Evaluation, Objective
 from pipeline.inference.predicted import Prediction
-from pipeline.inference.solvers import WORK, End, Pulled, Watch, allowance, nothing
+from pipeline.inference.solvers import WORK, Effort, End, Pulled, Watch, allowance, nothing
 from vjm.effects.base import Parameter
 from vjm.work import spent
 
@@ -38,11 +38,13 @@ HELD = 0.1
 """Of the number that shows most, in typical sizes each: a damped step takes no other for less."""
 LATE = 10
 """A fit that is far above noise ends when so many evaluations took nothing."""
+PACE = 3
+"""Evaluations over which it is seen how fast a sum of squares falls."""
 TINY = 1e-12
 
 
 def levenberg_marquardt(
-    aim: Objective, start: Prediction | None, watch: Watch | None, plausible: float, share: float
+    aim: Objective, start: Prediction | None, watch: Watch | None, plausible: float, effort: Effort
 ) -> End:
     """The least chi-square near the model's values: Levenberg-Marquardt in a box.
 
@@ -54,10 +56,11 @@ def levenberg_marquardt(
     reach = np.array([_reach(each.parameter) for each in aim.model.free]).T
     pulled = Pulled.of(aim, plausible)
     scale, damping, least, losses, past = pulled.scale, 0.0, 0.0, 0, list[float]()
-    ends = spent() + share * WORK * allowance(aim.program)
+    ends = spent() + effort.share * WORK * allowance(aim.program)
     there = aim.at(np.clip(aim.model.values, *bounds), start, within=np.inf)
     here, slopes, count = pulled.residuals(there), pulled.jacobian(there), there.rounds
-    for _ in range(STEPS):
+    given_up = False
+    for left in reversed(range(STEPS)):
         room = (bounds - there.values) / scale * reach
         step = _step(slopes, here, room, damping)
         promise = here @ here - np.sum((here + slopes @ step) ** 2)
@@ -97,9 +100,10 @@ def levenberg_marquardt(
             least, losses = (damping, losses + 1) if losing else (damping / SLOWLY, losses)
         past.append(float(here @ here))
         vain = gain <= 0.0 and promise < VAIN * unit
-        if vain or damping > 1e6 or losses == LOSSES or spent() > ends or drags(past, here.size):
+        given_up = spent() > ends or beaten(past, left, here.size, effort)
+        if vain or damping > 1e6 or losses == LOSSES or given_up or drags(past, here.size):
             break
-    return End(there, count, spent() > ends)
+    return End(there, count, given_up)
 
 
 def _settled(there: Evaluation, count: int) -> tuple[Evaluation, int]:
@@ -117,6 +121,14 @@ def _reach(it: Parameter) -> tuple[float, float]:
 def drags(past: list[float], count: int) -> bool:
     """Whether sums of squares after each evaluation stay far above noise and hardly fall: no verdict hangs on them."""
     return len(past) > LATE and nothing(past[-1 - LATE] - past[-1], past[-1], count)
+
+
+def beaten(past: list[float], left: int, count: int, effort: Effort) -> bool:
+    """Whether sums of so many squares after each evaluation, should they go on to fall as over the last `PACE`, would
+    be far above what another model leaves after so many more."""
+    if len(past) <= PACE or not effort.beats(past[-1], count):
+        return False
+    return effort.beats(past[-1] * (past[-1] / past[-1 - PACE]) ** (left / PACE), count)
 
 
 def _less(damping: float) -> float:

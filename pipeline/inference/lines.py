@@ -19,7 +19,7 @@ from pipeline.inference.nominals import FARTHEST, beside, departed, departures, 
 from pipeline.inference.objective import Evaluation, Objective
 from pipeline.inference.predicted import Prediction
 from pipeline.inference.program import Program
-from pipeline.inference.solvers import End
+from pipeline.inference.solvers import ALL, Effort, End
 
 Solve = Callable[[Objective, Prediction | None], End]
 SAME = 0.1
@@ -31,8 +31,11 @@ CHORDS = 1
 """Of them along a line that may be another model's."""
 
 
-def along_a_line(model: Model, cases: Program, begin: Prediction | None, solve: Solve) -> End:
-    """The end of a fit with what was written where it fits best, along the line of the prediction where it begins."""
+def along_a_line(
+    model: Model, cases: Program, begin: Prediction | None, solve: Solve, effort: Effort = ALL
+) -> End:
+    """The end of a fit with what was written where it fits best, along the line of the prediction where it begins; near
+    there where another model leaves far less."""
     model, cases = beside(model, cases, begin)
     end = solve(Objective(model, cases), begin)
     if cases.by_nominal is None:
@@ -48,7 +51,7 @@ def along_a_line(model: Model, cases: Program, begin: Prediction | None, solve: 
         aim = Objective(moved, cases)
         new = aim.at(there.values, near)
         count += new.rounds
-        if end.ended or _same(there, new):
+        if end.ended or _same(there, new) or effort.beats(_total(new), new.residuals.size):
             return replace(end, there=new, evaluations=count)
         end = solve(aim, new.prediction)
         count += end.evaluations
@@ -64,5 +67,9 @@ def with_line(model: Model, found: Prediction, line: Prediction | None, cases: P
 
 
 def _same(old: Evaluation, new: Evaluation) -> bool:
-    before, after = (float(each.residuals @ each.residuals) for each in (old, new))
+    before, after = _total(old), _total(new)
     return abs(after - before) <= SAME * max(1.0, after / new.residuals.size)
+
+
+def _total(there: Evaluation) -> float:
+    return float(there.residuals @ there.residuals)

@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from functools import partial
 
 import numpy as np
-from numpy.typing import NDArray
 
 from pipeline.inference.fit import Fit
 from pipeline.inference.model import Model, Term
@@ -19,7 +18,9 @@ from vjm.equilibrium import Equilibrium
 
 Bare = list[np.ndarray]
 """A state without its mechanism: what laws of a user's own are made of may not be sent."""
-Numbers = tuple[NDArray[np.float64], tuple[Term, ...], Prediction, list[Bare], int, bool]
+Values = tuple[Mapping[str, float], ...]
+"""Of the effects of a model, in order."""
+Numbers = tuple[Values, frozenset[str], tuple[Term, ...], Prediction, list[Bare], int, bool]
 
 
 def fits_at_once(calls: Sequence[tuple[Model, Callable[[], Fit]]], program: Program) -> list[Fit]:
@@ -32,12 +33,14 @@ def _numbers(call: Callable[[], Fit]) -> Numbers:
     found = call()
     bare = [state.arrays for state in found.prediction.states]
     whole = replace(found.prediction, states=())
-    return found.model.values, found.model.nominals, whole, bare, found.evaluations, found.ended
+    it, values = found.model, tuple(term.values for term in found.model.terms)
+    return values, it.fixed, it.nominals, whole, bare, found.evaluations, found.ended
 
 
 def _fit(model: Model, numbers: Numbers, program: Program) -> Fit:
-    values, nominals, prediction, bare, evaluations, ended = numbers
-    model = replace(model.at(values), nominals=nominals)
+    values, fixed, nominals, prediction, bare, evaluations, ended = numbers
+    terms = tuple(replace(term, values=own) for term, own in zip(model.terms, values, strict=True))
+    model = replace(model, terms=terms, fixed=fixed, nominals=nominals)
     states = tuple(_state(model, program, *each) for each in zip(program.groups, bare, strict=True))
     prediction = replace(prediction, states=states)
     return Fit(model, prediction, residual(program, prediction), evaluations, ended)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Protocol
 
 import numpy as np
@@ -25,6 +25,8 @@ WORK, ROWS = 1000.0, 20
 """Work (`vjm.work`) after which a fit of no row ends where it is, and the rows for which it takes as many again. The
 longest fits of eleven of the slowest benches take three quarters of that; where rows have no equilibrium each
 evaluation takes a hundred times as long."""
+NO_NEARER = 10.0
+"""Times what another model leaves: far above it."""
 TOLERANCE = 1e-10
 """Of scipy's solver, for chi-square, the parameters and the gradient, each relative."""
 LARGEST = 1e9
@@ -68,20 +70,40 @@ class End:
     ended: bool
 
 
+@dataclass(frozen=True)
+class Effort:
+    """What a fit may take. share: of its work. known: chi-square that another model leaves to the same readings: one
+    that would not come near it at the pace at which it falls ends where it is."""
+
+    share: float = 1.0
+    known: float = np.inf
+
+    def beats(self, total: float, count: int) -> bool:
+        """Whether a sum of so many squares is far above what another model leaves."""
+        return total > NO_NEARER * max(self.known, count)
+
+    def of(self, count: int) -> Effort:
+        """That of each of so many fits of which the best is taken."""
+        return replace(self, share=self.share / count)
+
+
+ALL = Effort()
+"""As much as any fit may take."""
+
+
 class Solver(Protocol):
     """Finds the least chi-square near the model's own values.
 
-    start: a prediction of a like model, from which equilibria are found sooner. plausible: see `fit`. share: of the
-    work that a fit may take.
+    start: a prediction of a like model, from which equilibria are found sooner. plausible: see `fit`.
     """
 
     def __call__(
-        self, aim: Objective, start: Prediction | None, watch: Watch | None, plausible: float, share: float
+        self, aim: Objective, start: Prediction | None, watch: Watch | None, plausible: float, effort: Effort
     ) -> End: ...
 
 
 def trust_region(
-    aim: Objective, start: Prediction | None, watch: Watch | None, plausible: float, share: float
+    aim: Objective, start: Prediction | None, watch: Watch | None, plausible: float, effort: Effort
 ) -> End:
     """The trust region reflective method of scipy (M. A. Branch, T. F. Coleman, Y. Li, SIAM J. Sci. Comput. 21, 1999).
 
@@ -91,7 +113,7 @@ def trust_region(
     bounds = np.array([each.bounds for each in aim.model.free]).T
     pulled = Pulled.of(aim, plausible)
     wide = np.clip((bounds - pulled.null) / pulled.scale, -LARGEST, LARGEST)
-    ends = spent() + share * WORK * allowance(aim.program)
+    ends = spent() + effort.share * WORK * allowance(aim.program)
     here = aim.at(np.clip(aim.model.values, *bounds), start)
     count = here.rounds
 

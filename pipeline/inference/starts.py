@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import lsq_linear
 
-from pipeline.inference.fit import Fit, fit
+from pipeline.inference.fit import Fit, at_null, fit
 from pipeline.inference.model import Free, Model
 from pipeline.inference.nominals import beside
 from pipeline.inference.objective import Objective
@@ -18,7 +18,7 @@ from pipeline.inference.parts import at_rows
 from pipeline.inference.predicted import Prediction
 from pipeline.inference.program import Program
 from pipeline.inference.sent import fits_at_once
-from pipeline.inference.solvers import far
+from pipeline.inference.solvers import ALL, Effort, far
 from pipeline.inference.thinning import thinned
 from vjm.effects.base import Effect
 
@@ -46,15 +46,17 @@ def best_fit(
     start: Prediction | None = None,
     watch: Watch | None = None,
     plausible: float = np.inf,
+    effort: Effort = ALL,
 ) -> Fit:
     """The best of several fits by chi-square; `evaluations` counts those of all, in solutions of the campaign.
 
     new: names of the effects that were just added, at null. One with kinks (`smooth` False) begins at the valleys
     of a ladder of sizes of its one-sided numbers, 0.1 to 10 times typical and on while that helps, closer where all
-    at once there is too much of it. If all are smooth the fit begins at null, and again at typical sizes if it ends at
-    a bound, with lost rows, or where it says nothing about one of their numbers, and a look from there promises more.
+    at once there is too much of it; one that no size helps is absent. If all are smooth the fit begins at null, and
+    again at typical sizes if it ends at a bound, with lost rows, or where it says nothing about one of their numbers,
+    and a look from there promises more.
     start: a prediction of a like model.
-    plausible: see `fit`.
+    plausible, effort: see `fit`.
     """
     spent = 0
     kinked = [t.effect for t in model.terms if t.effect.name in new and not t.effect.smooth]
@@ -62,26 +64,29 @@ def best_fit(
     near = None if start is None else at_rows(start, program, own, rows)
     model, own = beside(model, own, near)
     look = thinned(own, near) if kinked else (own, near)
-    begins = [model]
+    begins, there = [model], model
     for effect in kinked:
         ladders = [_ladder(begin, effect, *look, watch) for begin in begins]
-        begins = [each for found, _ in ladders for each in found][:MINIMA]
+        found = [each for found, _ in ladders for each in found][:MINIMA]
         spent += sum(count for _, count in ladders)
+        if not found:
+            there = there.without(effect.name)
+        begins = found or [begin.without(effect.name) for begin in begins]
     # Another process has nobody to watch it.
-    share = 1.0 / len(begins)
     calls = [
-        partial(fit, it, program, start, None if k else watch, plausible, share)
+        partial(fit, it, program, start, None if k else watch, plausible, effort.of(len(begins)))
         for k, it in enumerate(begins)
     ]
     fits = fits_at_once(list(zip(begins, calls, strict=True)), program)
     # One that ran out of its work would do so again.
     if not kinked and not fits[0].ended and _doubtful(fits[0], program, new):
-        there = _typical(fits[0].model, new)
+        typical = _typical(fits[0].model, new)
         spent += 1
         # Where the linear step from there promises no more there is nothing to find.
-        if height(there, own, near) < fits[0].chi_square - WORTH * max(fits[0].rms, 1.0) ** 2:
-            fits.append(fit(there, program, start, watch, plausible))
+        if height(typical, own, near) < fits[0].chi_square - WORTH * max(fits[0].rms, 1.0) ** 2:
+            fits.append(fit(typical, program, start, watch, plausible, effort))
     best = min(fits, key=lambda each: each.order)
+    best = best if there.names == model.names else at_null(model, best)
     return replace(best, evaluations=spent + sum(each.evaluations for each in fits))
 
 
@@ -93,10 +98,12 @@ def _sizes(model: Model, effect: Effect) -> list[Free]:
 def _ladder(
     model: Model, effect: Effect, program: Program, start: Prediction | None, watch: Watch | None
 ) -> tuple[list[Model], int]:
-    """The model at the valleys of the ladder, best first, and the number of solutions."""
+    """The model at the valleys of the ladder, best first, and the number of solutions; no valley where no rung leaves
+    less than the model without the effect."""
     sizes = _sizes(model, effect)
     if not sizes:
         return [model], 0
+    ground = height(model.without(effect.name), program, start)
     heights: list[float] = []
     places: list[dict[str, float]] = []
 
@@ -122,7 +129,10 @@ def _ladder(
             break
         before, beyond = places[edge - 1 : edge + 1]
         look(edge, {name: 0.5 * (value + beyond[name]) for name, value in before.items()})
-    return [rung(places[k]) for k in _valleys(heights, int(np.sum(program.predicted)))[:MINIMA]], len(places)
+    if min(heights) >= ground:
+        return [], len(places) + 1
+    valleys = _valleys(heights, int(np.sum(program.predicted)))[:MINIMA]
+    return [rung(places[k]) for k in valleys], len(places) + 1
 
 
 def _valleys(heights: list[float], count: int) -> list[int]:
