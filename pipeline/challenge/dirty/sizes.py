@@ -4,6 +4,7 @@ tolerances only."""
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -57,8 +58,9 @@ def sizes_after_tolerances(
 
 
 def _exact(whole: Campaign, it: DirtyCase, found: list[Readings]) -> Campaign:
-    """The campaign with readings as they would be without any noise, its sigmas as they were told."""
-    return read_out(whole.name, it.bench.rig, it.bench.plan, whole.noise, None, found, GAUGES)
+    """The campaign with readings as they would be without any noise, its sigmas and tolerances as they were told."""
+    exact = read_out(whole.name, it.bench.rig, it.bench.plan, whole.noise, None, found, GAUGES)
+    return replace(exact, tolerance=whole.tolerance)
 
 
 def after(given: Array, values: Array) -> Array:
