@@ -200,10 +200,10 @@ class Shelf:
         if found.order <= smaller.order:
             return found
         model = _valued(self._model(names), smaller.model)
-        # One that ran out of its work would do so again, and beside null no row shows which side of a stop it is on.
+        # One that ran out of its work would do so again, and one that no size helps is absent.
         again = (
             found
-            if found.ended or any(sided(self.candidates[e]) for e in names - best)
+            if found.ended or not any(each.effect in names - best for each in found.model.free)
             else fit(model, self.whole, smaller.prediction, None, self.criteria.plausible, self.effort)
         )
         count = found.evaluations + (0 if again is found else again.evaluations)

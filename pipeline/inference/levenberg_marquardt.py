@@ -11,7 +11,7 @@ from scipy.optimize import lsq_linear
 
 from pipeline.inference.objective import Evaluation, Objective
 from pipeline.inference.predicted import Prediction
-from pipeline.inference.solvers import WORK, Effort, End, Pulled, Watch, allowance, nothing
+from pipeline.inference.solvers import WORK, Effort, End, Pulled, Watch, allowance, idle, nothing
 from vjm.effects.base import Parameter
 from vjm.work import spent
 
@@ -64,8 +64,9 @@ def levenberg_marquardt(
         room = (bounds - there.values) / scale * reach
         step = _step(slopes, here, room, damping)
         promise = here @ here - np.sum((here + slopes @ step) ** 2)
-        unit = max(1.0, float(here @ here) / here.size)
-        if not promise > PROMISE * unit:
+        total = float(here @ here)
+        unit = max(1.0, total / here.size)
+        if not promise > max(PROMISE * unit, idle(total, here.size)):
             if damping == 0.0 and there.settled:
                 break
             if damping == 0.0:

@@ -19,7 +19,7 @@ from pipeline.inference.nominals import FARTHEST, beside, departed, departures, 
 from pipeline.inference.objective import Evaluation, Objective
 from pipeline.inference.predicted import Prediction
 from pipeline.inference.program import Program
-from pipeline.inference.solvers import ALL, Effort, End
+from pipeline.inference.solvers import ALL, Effort, End, idle
 
 Solve = Callable[[Objective, Prediction | None], End]
 SAME = 0.1
@@ -68,7 +68,8 @@ def with_line(model: Model, found: Prediction, line: Prediction | None, cases: P
 
 def _same(old: Evaluation, new: Evaluation) -> bool:
     before, after = _total(old), _total(new)
-    return abs(after - before) <= SAME * max(1.0, after / new.residuals.size)
+    count = new.residuals.size
+    return abs(after - before) <= max(SAME * max(1.0, after / count), idle(after, count))
 
 
 def _total(there: Evaluation) -> float:

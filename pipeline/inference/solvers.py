@@ -150,6 +150,12 @@ def nothing(gain: float, total: float, count: int) -> bool:
     return far(total, count) and gain < DRAGGING * (total - count)
 
 
+def idle(total: float, count: int) -> float:
+    """Part of a sum of so many squares that is not worth an evaluation: none near noise, a tenth of nothing far from
+    it."""
+    return 0.1 * DRAGGING * (total - count) if far(total, count) else 0.0
+
+
 def allowance(program: Program) -> float:
     """Work that a campaign may take, as a multiple of that of a parallelogram without any rows."""
     return program.unknowns + float(program.fitted.sum()) / ROWS
