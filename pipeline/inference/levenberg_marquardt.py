@@ -66,7 +66,8 @@ def levenberg_marquardt(
         promise = here @ here - np.sum((here + slopes @ step) ** 2)
         total = float(here @ here)
         unit = max(1.0, total / here.size)
-        if not promise > max(PROMISE * unit, idle(total, here.size)):
+        # The first step is taken anyway: what is small beside all that is left is found too.
+        if not promise > max(PROMISE * unit, idle(total, here.size) if past else 0.0):
             if damping == 0.0 and there.settled:
                 break
             if damping == 0.0:

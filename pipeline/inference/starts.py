@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterator, Mapping
-from dataclasses import replace
+from dataclasses import dataclass, field, replace
 from functools import partial
 
 import numpy as np
@@ -33,6 +33,8 @@ WORTH = 1.0
 """Fall of chi-square that is worth another fit, in the mean square of what the first one leaves."""
 BETWEEN = 4
 """Looks between the last rung at which an effect does not show and the first at which there is too much of it."""
+BELOW = 3
+"""Rungs below the first one, at most."""
 MINIMA = 2
 """Valleys of the ladder that are fitted."""
 FOOT = 1.5
@@ -103,36 +105,65 @@ def _ladder(
     sizes = _sizes(model, effect)
     if not sizes:
         return [model], 0
-    ground = height(model.without(effect.name), program, start)
-    heights: list[float] = []
-    places: list[dict[str, float]] = []
 
     def rung(at: Mapping[str, float]) -> Model:
         values = [at.get(each.name, value) for each, value in zip(model.free, model.values, strict=True)]
         return model.at(np.array(values))
 
-    def look(number: int, at: dict[str, float]) -> None:
-        places.insert(number, at)
-        heights.insert(number, height(rung(at), program, start))
+    def look(at: Mapping[str, float]) -> float:
         if watch is not None:
             watch(", ".join(f"{name} = {value:.3g}" for name, value in at.items()))
+        return height(rung(at), program, start)
 
-    at = {s.name: s.parameter.null for s in sizes}
-    for size in _rungs(heights):
-        at = {s.name: _rung(s, size, at[s.name]) for s in sizes}
-        look(len(places), at)
-        if heights[-1] > HOPELESS * min(heights) and heights[-1] == max(heights[-2:]):
-            break
-    for _ in range(BETWEEN):
-        edge = _edge(heights)
-        if not edge:
-            break
-        before, beyond = places[edge - 1 : edge + 1]
-        look(edge, {name: 0.5 * (value + beyond[name]) for name, value in before.items()})
-    if min(heights) >= ground:
-        return [], len(places) + 1
-    valleys = _valleys(heights, int(np.sum(program.predicted)))[:MINIMA]
-    return [rung(places[k]) for k in valleys], len(places) + 1
+    it = _Ladder(sizes, look)
+    it.climb()
+    ground = height(model.without(effect.name), program, start)
+    it.dig(ground)
+    count = len(it.places) + 1
+    if min(it.heights) >= ground:
+        return [], count
+    valleys = _valleys(it.heights, int(np.sum(program.predicted)))[:MINIMA]
+    return [rung(it.places[k]) for k in valleys], count
+
+
+@dataclass
+class _Ladder:
+    """Places on a ladder of sizes, in order, and the height of each."""
+
+    sizes: list[Free]
+    height: Callable[[Mapping[str, float]], float]
+    places: list[dict[str, float]] = field(default_factory=list)
+    heights: list[float] = field(default_factory=list)
+
+    def climb(self) -> None:
+        """Up while that may help, and between where an effect does not show and where there is too much of it."""
+        at = {s.name: s.parameter.null for s in self.sizes}
+        for size in _rungs(self.heights):
+            at = {s.name: _rung(s, size, at[s.name]) for s in self.sizes}
+            self._look(len(self.places), at)
+            least = min(self.heights)
+            if self.heights[-1] > HOPELESS * least and self.heights[-1] == max(self.heights[-2:]):
+                break
+        for _ in range(BETWEEN):
+            edge = _edge(self.heights)
+            if not edge:
+                break
+            before, beyond = self.places[edge - 1 : edge + 1]
+            self._look(edge, {name: 0.5 * (value + beyond[name]) for name, value in before.items()})
+
+    def dig(self, ground: float) -> None:
+        """Down from the first rung where that is the best and leaves no less than the ground: a smaller one may."""
+        for _ in range(BELOW):
+            if not ground <= self.heights[0] == min(self.heights):
+                break
+            part = SIZES[0] / SIZES[1]
+            first = self.places[0]
+            nulls = {s.name: s.parameter.null for s in self.sizes}
+            self._look(0, {name: null + part * (first[name] - null) for name, null in nulls.items()})
+
+    def _look(self, number: int, at: dict[str, float]) -> None:
+        self.places.insert(number, at)
+        self.heights.insert(number, self.height(at))
 
 
 def _valleys(heights: list[float], count: int) -> list[int]:
