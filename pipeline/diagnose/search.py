@@ -20,6 +20,7 @@ from pipeline.diagnose.pruning import pruned
 from pipeline.diagnose.rivals import Found, with_rivals
 from pipeline.diagnose.shelf import Names, Shelf
 from pipeline.inference.solvers import allowance
+from pipeline.inference.stops import sided
 from vjm.work import TooMuch, spent
 
 
@@ -73,6 +74,8 @@ def _searched(shelf: Shelf, begun: Sequence[Names]) -> Found:
     for root in roots:
         if not begun or root != roots[0]:
             starts += [e.names for e in _competing(shelf, root, 1)]
+        if not any(is_noise(shelf, names) for names in starts):
+            starts += _unforeseen(shelf, root)
         # Where one effect leaves noise, a second is looked for about that fit: to first order about the root, the
         # curvature of a large effect looks like another.
         if not any(is_noise(shelf, names) for names in starts):
@@ -86,6 +89,18 @@ def _searched(shelf: Shelf, begun: Sequence[Names]) -> Found:
         one = _best(shelf, alone or [best])
         best = _built(shelf, _best(shelf, [best, *(e.names for e in _competing(shelf, one, 1))]))
     return Found(shelf, best, ()) if shelf.fit(best).rms > shelf.criteria.far else with_rivals(shelf, best)
+
+
+def _unforeseen(shelf: Shelf, start: Names) -> list[Names]:
+    """Far from an explanation, sets with one effect more of which rows choose the side, fitted where a look sees
+    anything of it: it sees least where noise moves a row within a play."""
+    if shelf.fit(start).rms <= shelf.criteria.far:
+        return []
+    here = cost(shelf, start)
+    some = [e for e in estimates(shelf, start, (1,)) if e.names != start and e.cost < here]
+    some = [e for e in some if all(sided(shelf.candidates[name]) for name in e.names - start)]
+    shelf.fit_all({e.names: e.probes for e in some})
+    return [e.names for e in some]
 
 
 def _best(shelf: Shelf, sets: Sequence[Names]) -> Names:
