@@ -78,7 +78,7 @@ def dirty_outcome(number: int, commit: str, code: str) -> DirtyOutcome:
         return out(error=str(error))
     sets = tuple(tuple(n for n in names if n != ALWAYS) for names in answer.possible)
     sure = tuple(n for n in answer.certain if n != ALWAYS)
-    sizes, gamma = sizes_after_tolerances(it, found, without, answer)
+    sizes, gamma = sizes_after_tolerances(it, found, without, answer.shelf)
     score = judged(it, answer.verdict, sets, sure, bool(answer.doctor))
     return out(
         sizes=sizes,

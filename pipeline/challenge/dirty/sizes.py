@@ -16,7 +16,7 @@ from pipeline.challenge.dirty.cases import DirtyCase
 from pipeline.challenge.dirty.dirt import true_rig
 from pipeline.challenge.outcome import difference, each_alone
 from pipeline.diagnose.apart import multiple_correlation
-from pipeline.diagnose.diagnosis import Diagnosis
+from pipeline.diagnose.shelf import Shelf
 from pipeline.inference.model import Model
 from pipeline.inference.nominals import lined, nominals
 from pipeline.inference.prediction import predict
@@ -30,10 +30,10 @@ Array = NDArray[np.float64]
 
 
 def sizes_after_tolerances(
-    it: DirtyCase, found: list[Readings], without: list[Readings], answer: Diagnosis
+    it: DirtyCase, found: list[Readings], without: list[Readings], shelf: Shelf
 ) -> tuple[dict[str, float], dict[str, float]]:
     """mu and gamma of each hidden effect after what was written about the rig is known to its tolerances."""
-    whole, model = answer.campaign, Model().with_effects([catalogue()[ALWAYS]])
+    whole, model = shelf.whole.campaign, Model().with_effects([catalogue()[ALWAYS]])
     clean = program(_exact(whole, it, without))
     reference = predict(model, clean, slopes=False)
     white = whitening(clean, reference)
@@ -50,9 +50,7 @@ def sizes_after_tolerances(
         for name, only in alone.items()
     }
     sizes = {name: float(np.linalg.norm(mine)) for name, mine in signatures.items()}
-    gamma = {
-        name: _confusable(answer, name, it.effects, signatures[name], given, used) for name in it.effects
-    }
+    gamma = {name: _confusable(shelf, name, it.effects, signatures[name], given, used) for name in it.effects}
     # Beside a mistake of the table, or of what does nothing, it is not known.
     return sizes, {name: value for name, value in gamma.items() if np.isfinite(value)}
 
@@ -76,10 +74,9 @@ def after(given: Array, values: Array) -> Array:
 
 
 def _confusable(
-    answer: Diagnosis, name: str, hidden: Sequence[str], mine: Array, given: Array, used: NDArray[np.bool_]
+    shelf: Shelf, name: str, hidden: Sequence[str], mine: Array, given: Array, used: NDArray[np.bool_]
 ) -> float:
     """1 / sqrt(1 - rho) of the candidate that looks most like it."""
-    shelf = answer.shelf
     root = frozenset({ALWAYS}) if ALWAYS in shelf.candidates else frozenset[str]()
     about, at = shelf.picture(root), shelf.at
     place = np.full(used.shape, -1)

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 from pipeline.challenge.benches import Bench, drawn_rig
+from pipeline.challenge.cases import ALWAYS
 from pipeline.challenge.command import run_dirty
 from pipeline.challenge.dirty.cases import ROUND, DirtyCase, dirty_case
 from pipeline.challenge.dirty.dirt import Dirt, read_dirty, true_rig
@@ -16,11 +17,14 @@ from pipeline.challenge.dirty.judged import judged
 from pipeline.challenge.dirty.outcome import DirtyOutcome
 from pipeline.challenge.dirty.page import dirty_page
 from pipeline.challenge.dirty.score import dirty_scored
-from pipeline.challenge.dirty.sizes import after
+from pipeline.challenge.dirty.sizes import after, sizes_after_tolerances
+from pipeline.diagnose.diagnosis import fit_cache
+from pipeline.inference.model import Model
 from pipeline.provenance import code_digest
 from pipeline.simulate import bench_rig
 from pipeline.virtual.bench import true_readings
 from pipeline.virtual.plan import GAUGES, SENSORS, bench_plan
+from vjm.effects import catalogue
 
 CHANNELS = 12 + len(GAUGES)
 CLEAN = Dirt(
@@ -125,6 +129,24 @@ def test_sizes_after_tolerances_are_those_of_the_covariance() -> None:
     assert np.sum(after(given, values) ** 2) == pytest.approx(expected, rel=1e-12)
     both = np.column_stack([values, given[:, 0]])
     np.testing.assert_allclose(after(given, both)[:, 0], after(given, values), rtol=1e-12)
+
+
+def test_a_size_after_tolerances_is_no_more_than_the_number_in_its_own() -> None:
+    """What all bars are off by cannot show by more than its tolerance allows, however good the sensors are."""
+    off = 0.03
+    case = DirtyCase(0, "single", BENCH, {"modulus_error.scale": 1.0 + off}, None, 3, CLEAN)
+    found = true_readings(BENCH.rig, BENCH.plan, case.hidden, GAUGES)
+    campaign, _ = read_dirty("it", BENCH, CLEAN, found, 3)
+    exact = replace(campaign, tolerance=dict.fromkeys(campaign.tolerance, 0.0))
+    sizes = []
+    for each in (campaign, exact):
+        shelf = fit_cache(each, Model(), {name: catalogue()[name] for name in (ALWAYS, "modulus_error")})
+        size, _ = sizes_after_tolerances(case, found, EXACT, shelf)
+        sizes.append(size["modulus_error"])
+    # A modulus moves four numbers, each with its tolerance.
+    bar = campaign.tolerance["EA"]
+    assert 0.2 * off / bar < sizes[0] < 1.01 * off / bar * 2.0
+    assert sizes[1] > 20.0 * sizes[0]
 
 
 def a_case(kind: str, *hidden: str, fault: str = "") -> DirtyCase:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from functools import cache
 from itertools import pairwise
 from typing import Any
@@ -20,7 +21,7 @@ from pipeline.inference.objective import Evaluation, Objective
 from pipeline.inference.prediction import predict
 from pipeline.inference.program import Program, program
 from pipeline.inference.residual import residual
-from pipeline.inference.starts import FOOT, SIZES, _edge, _rungs, _valleys, best_fit
+from pipeline.inference.starts import FOOT, SIZES, _edge, _Ladder, _rungs, _valleys, best_fit
 from pipeline.simulate import bench_rig
 from pipeline.virtual.bench import measure
 from pipeline.virtual.plan import SENSORS, PlannedTest
@@ -83,6 +84,50 @@ def test_play_of_any_size_is_found_beside_a_number_that_is_smooth(play: float) -
     """From a tenth of the typical size to thirty times, beyond the end of the ladder's first rungs."""
     new = ("joint_clearance", "modulus_error")
     holds(Model(), pulled_and_pushed(play), new, "joint_clearance.play_mm", play)
+
+
+def test_a_play_that_no_size_helps_is_absent() -> None:
+    """Of bars that are stiffer than their model: a play makes it softer still."""
+    values = np.zeros((len(LOADS), 6))
+    values[:, 0] = LOADS
+    control = ("force", *["displacement"] * 5)
+    plan = [PlannedTest("axial", 0.0, control, values, np.full(len(LOADS), 20.0))]
+    hidden = {"modulus_error.scale": 1.05}
+    stiff = program(measure("stiff", bench_rig(), plan, SENSORS, hidden, 5))
+    model = Model().with_effects([EFFECTS["joint_clearance"]])
+    best, bare = best_fit(model, stiff, ("joint_clearance",)), fit(Model(), stiff)
+    assert best.model.names == ("joint_clearance",) and not best.model.free
+    assert best.chi_square == bare.chi_square
+    assert best.model.terms[0].values == {"play_mm": 0.0}
+
+
+def ladder(*valley: float) -> _Ladder:
+    """Of the play; heights are those of a valley at a play, mm, in logarithms, 1 everywhere else."""
+    model = Model().with_effects([EFFECTS["joint_clearance"]])
+
+    def height(at: Mapping[str, float]) -> float:
+        (play,) = at.values()
+        return min((abs(np.log(play / each)) for each in valley), default=1.0)
+
+    it = _Ladder(list(model.free), height)
+    it.climb()
+    return it
+
+
+def test_below_the_first_rung_a_size_is_looked_for_that_helps() -> None:
+    it = ladder(1e-4)
+    count = len(it.heights)
+    it.dig(ground=0.5)
+    assert min(it.heights) < 0.5 and it.places == sorted(it.places, key=lambda at: list(at.values()))
+    # The valley is two rungs below; nothing more is looked at once a rung leaves less than the model without.
+    assert len(it.heights) == count + 2
+
+
+def test_below_the_first_rung_nothing_is_looked_for_where_another_is_best_or_helps() -> None:
+    for it in (ladder(0.03), ladder(1e-3)):
+        count = len(it.heights)
+        it.dig(ground=0.5)
+        assert len(it.heights) == count
 
 
 def test_the_ladder_goes_on_while_that_helps_and_keeps_valleys_only() -> None:
