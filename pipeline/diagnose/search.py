@@ -19,6 +19,7 @@ from pipeline.diagnose.merit import cost, is_noise, root_of
 from pipeline.diagnose.pruning import pruned
 from pipeline.diagnose.rivals import Found, with_rivals
 from pipeline.diagnose.shelf import Names, Shelf
+from pipeline.inference.nominals import nominals
 from pipeline.inference.solvers import allowance
 from pipeline.inference.stops import sided
 from vjm.work import TooMuch, spent
@@ -93,8 +94,9 @@ def _searched(shelf: Shelf, begun: Sequence[Names]) -> Found:
 
 def _unforeseen(shelf: Shelf, start: Names) -> list[Names]:
     """Far from an explanation, sets with one effect more of which rows choose the side, fitted where a look sees
-    anything of it: it sees least where noise moves a row within a play."""
-    if shelf.fit(start).rms <= shelf.criteria.far:
+    anything of it: what was written about the rig may explain most that it sees, and the rest, how far noise moves a
+    row within a play, it does not see."""
+    if shelf.fit(start).rms <= shelf.criteria.far or not nominals(shelf.whole.campaign):
         return []
     here = cost(shelf, start)
     some = [e for e in estimates(shelf, start, (1,)) if e.names != start and e.cost < here]

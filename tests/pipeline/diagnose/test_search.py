@@ -2,17 +2,22 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import pytest
 
 from pipeline.campaign import Campaign
 from pipeline.challenge.benches import scaled
 from pipeline.coverage.cases import BASE
 from pipeline.diagnose.diagnosis import Diagnosis, diagnose
+from pipeline.diagnose.search import _unforeseen
+from pipeline.diagnose.shelf import Shelf
 from pipeline.inference.model import Model
+from pipeline.inference.program import program
 from pipeline.simulate import bench_rig
 from pipeline.virtual.bench import measure
 from pipeline.virtual.plan import GAUGES, SENSORS, PlannedTest, bench_plan
-from tests.pipeline.diagnose.bench import COARSE
+from tests.pipeline.diagnose.bench import AXIAL, COARSE, bench
 from vjm.effects import catalogue
 
 PLAY = "joint_clearance"
@@ -20,6 +25,22 @@ PLAY = "joint_clearance"
 
 def found(campaign: Campaign, without: tuple[str, ...] = ()) -> Diagnosis:
     return diagnose(campaign, Model(), {k: v for k, v in catalogue().items() if k not in without})
+
+
+@pytest.mark.parametrize(
+    ("play", "bar", "there"), [(0.03, 0.02, True), (0.03, 0.0, False), (0.0, 0.02, False)]
+)
+def test_far_from_an_explanation_a_play_is_fitted_whatever_a_look_promises(
+    play: float, bar: float, there: bool
+) -> None:
+    """Where the bar is known to a tolerance, which may take up what a look sees of it."""
+    root = frozenset({BASE})
+    effects = {name: catalogue()[name] for name in (BASE, "modulus_error", PLAY)}
+    campaign = replace(bench(f"{PLAY}.play_mm", play, AXIAL), tolerance={"EA": bar})
+    shelf = Shelf(program(campaign), Model(), effects, lambda _: None)
+    assert (shelf.fit(root).rms > shelf.criteria.far) == bool(play)
+    assert _unforeseen(shelf, root) == ([root | {PLAY}] if there else [])
+    assert (root | {PLAY} in shelf.fits) == there
 
 
 @pytest.mark.long
