@@ -55,19 +55,16 @@ def levenberg_marquardt(
     bounds = np.array([each.bounds for each in aim.model.free]).T
     reach = np.array([_reach(each.parameter) for each in aim.model.free]).T
     pulled = Pulled.of(aim, plausible)
-    scale, damping, least, losses, past = pulled.scale, 0.0, 0.0, 0, list[float]()
+    scale, damping, least, losses, past, given_up = pulled.scale, 0.0, 0.0, 0, list[float](), False
     ends = spent() + effort.share * WORK * allowance(aim.program)
     there = aim.at(np.clip(aim.model.values, *bounds), start, within=np.inf)
     here, slopes, count = pulled.residuals(there), pulled.jacobian(there), there.rounds
-    given_up = False
     for left in reversed(range(STEPS)):
         room = (bounds - there.values) / scale * reach
         step = _step(slopes, here, room, damping)
         promise = here @ here - np.sum((here + slopes @ step) ** 2)
-        total = float(here @ here)
-        unit = max(1.0, total / here.size)
-        # The first step is taken anyway: what is small beside all that is left is found too.
-        if not promise > max(PROMISE * unit, idle(total, here.size) if past else 0.0):
+        unit = max(1.0, float(here @ here) / here.size)
+        if not promise > _enough(unit, past, here.size):
             if damping == 0.0 and there.settled:
                 break
             if damping == 0.0:
@@ -106,6 +103,12 @@ def levenberg_marquardt(
         if vain or damping > 1e6 or losses == LOSSES or given_up or drags(past, here.size):
             break
     return End(there, count, given_up)
+
+
+def _enough(unit: float, past: list[float], count: int) -> float:
+    """What a step has to promise, after so many sums of squares: the first one little, so that what is small beside
+    all that is left is found too."""
+    return max(PROMISE * unit, idle(past[-1], count) if past else 0.0)
 
 
 def _settled(there: Evaluation, count: int) -> tuple[Evaluation, int]:
