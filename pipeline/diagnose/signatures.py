@@ -16,9 +16,7 @@ from numpy.typing import NDArray
 from scipy.linalg import qr
 
 from pipeline.inference.fit import Fit
-from pipeline.inference.marginal import Marginal
 from pipeline.inference.model import Model
-from pipeline.inference.nominals import lined, nominals
 from pipeline.inference.parts import at_rows
 from pipeline.inference.predicted import Prediction
 from pipeline.inference.prediction import predict
@@ -31,8 +29,6 @@ from vjm.effects.base import Effect, Parameter
 
 Array = NDArray[np.float64]
 Say = Callable[[str], None]
-Seen = Callable[[Array], float]
-"""Sigmas of all readings together by which a change (R, C) of the predictions shows."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -152,16 +148,15 @@ def probes(base: Model, effects: Sequence[Effect], whole: Program, plain: float,
     bare = replace(base, terms=tuple(t for t in base.terms if t.effect.parameters))
     out: list[Probe] = []
     rows, own = whole.by_role[0]
-    without: dict[tuple[str, ...], tuple[Prediction, Seen]] = {}
+    without: dict[tuple[str, ...], Prediction] = {}
     known = {effect.name: effect for effect in (*effects, *(term.effect for term in base.terms))}
     for effect in effects:
         if effect.smooth or any(name not in known for name in effect.includes):
             continue
         besides = bare.with_effects([known[name] for name in effect.includes if name not in bare.names])
         if effect.includes not in without:
-            there = predict(besides, own, slopes=False)
-            without[effect.includes] = there, _seen(besides, own, there)
-        for it in _probes_of(effect, besides, *without[effect.includes], own, plain, say):
+            without[effect.includes] = predict(besides, own, slopes=False)
+        for it in _probes_of(effect, besides, without[effect.includes], own, plain, say):
             change = np.zeros(whole.measured.shape)
             change[rows] = it.change
             out.append(replace(it, change=change))
@@ -169,36 +164,24 @@ def probes(base: Model, effects: Sequence[Effect], whole: Program, plain: float,
 
 
 def _probes_of(
-    effect: Effect, besides: Model, without: Prediction, seen: Seen, own: Program, plain: float, say: Say
+    effect: Effect, besides: Model, without: Prediction, own: Program, plain: float, say: Say
 ) -> list[Probe]:
     """The weakest first, up to one that is plain; stronger ones cost most and tell no more.
 
-    own: rows to fit. plain: sigmas of all readings together, beside what was written about the rig.
+    own: rows to fit. plain: sigmas of all readings together.
     """
     out = []
+    weights = whitening(own, without)
+    used = own.predicted
     for value in effect.probes:
         say(f"{effect.name} at {value:g}")
         model = probed(besides.with_effects([effect]), effect, value)
         there = predict(model, own, slopes=False, order=0)
         lost = (there.lost | without.lost)[:, None]
         out.append(Probe(effect, value, np.where(lost, 0.0, there.values - without.values)))
-        if seen(out[-1].change) > plain:
+        if np.linalg.norm(weights.apply(np.where(used, out[-1].change, 0.0))[used]) > plain:
             break
     return out
-
-
-def _seen(model: Model, own: Program, there: Prediction) -> Seen:
-    """Of the readings of a model, with what was written about the rig free within its tolerances."""
-    weights, used = whitening(own, there), own.predicted
-
-    def white(values: Array) -> Array:
-        kept = used.reshape(*used.shape, *[1] * (values.ndim - 2))
-        return weights.apply(np.where(kept, values, 0.0))[used]
-
-    if not nominals(own.campaign):
-        return lambda change: float(np.linalg.norm(white(change)))
-    marginal = Marginal.of(white(lined(model, own, there).by_nominal))
-    return lambda change: float(np.linalg.norm(marginal.weakened(white(change))))
 
 
 def probed_signatures(found: Fit, looks: Sequence[Probe], at: Look) -> list[Signature]:

@@ -66,13 +66,13 @@ def best_fit(
     near = None if start is None else at_rows(start, program, own, rows)
     model, own = beside(model, own, near)
     look = thinned(own, near) if kinked else (own, near)
-    begins, there = [model], model
+    begins, present = [model], model
     for effect in kinked:
         ladders = [_ladder(begin, effect, *look, watch) for begin in begins]
         found = [each for found, _ in ladders for each in found][:MINIMA]
         spent += sum(count for _, count in ladders)
         if not found:
-            there = there.without(effect.name)
+            present = present.without(effect.name)
         begins = found or [begin.without(effect.name) for begin in begins]
     # Another process has nobody to watch it.
     calls = [
@@ -88,7 +88,7 @@ def best_fit(
         if height(typical, own, near) < fits[0].chi_square - WORTH * max(fits[0].rms, 1.0) ** 2:
             fits.append(fit(typical, program, start, watch, plausible, effort))
     best = min(fits, key=lambda each: each.order)
-    best = best if there.names == model.names else at_null(model, best)
+    best = best if present.names == model.names else at_null(model, best)
     return replace(best, evaluations=spent + sum(each.evaluations for each in fits))
 
 

@@ -17,6 +17,7 @@ from pipeline.challenge.dirty.dirt import true_rig
 from pipeline.challenge.outcome import difference, each_alone
 from pipeline.diagnose.apart import multiple_correlation
 from pipeline.diagnose.shelf import Shelf
+from pipeline.inference.marginal import Marginal
 from pipeline.inference.model import Model
 from pipeline.inference.nominals import lined, nominals
 from pipeline.inference.prediction import predict
@@ -62,15 +63,8 @@ def _exact(whole: Campaign, it: DirtyCase, found: list[Readings]) -> Campaign:
 
 
 def after(given: Array, values: Array) -> Array:
-    """(N, ...) times (1 + G Gt)^(-1/2): of what the tolerances do not explain."""
-    if not given.shape[1]:
-        return values
-    u, s, _ = np.linalg.svd(given, full_matrices=False)
-    less = 1.0 - 1.0 / np.sqrt(1.0 + s**2)
-    return np.asarray(
-        values
-        - u @ (less[:, None] * (u.T @ values.reshape(len(values), -1))).reshape(len(s), *values.shape[1:])
-    )
+    """(N, ...) of what the tolerances do not explain."""
+    return Marginal.of(given).weakened(values) if given.shape[1] else values
 
 
 def _confusable(
