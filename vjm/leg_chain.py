@@ -33,6 +33,7 @@ from vjm.parts import (
     branch_posture,
     swinging_elements,
 )
+from vjm.site_joint import SiteJoint
 
 Side = tuple[tuple[Element, ...], np.ndarray]
 """One side of a loop: its elements and the numbers of their coordinates."""
@@ -158,6 +159,8 @@ class _Work:
                 self._member(track, part)
             case Virtual():
                 self._spring(track, part.kind, part.axis, part.stiffness)
+            case SiteJoint():
+                self._site(track, part)
             case _:
                 self._moving(track, part, at)
                 return len(part.posture)
@@ -198,6 +201,15 @@ class _Work:
             where = self._joint(track, Joint(kind, axis, Role.VIRTUAL))  # type: ignore[arg-type]
             self.blocks.append((np.array([where]), np.array([[stiffness]])))
 
+    def _site(self, track: _Track, part: SiteJoint) -> None:
+        if self.rigid:
+            return
+        where = self._joint(track, part.joint)
+        if part.law is None:
+            self.inputs.append((part.name, np.array([where]), np.ones(1)))
+        else:
+            self._laws((where,), (part.law,))
+
     def _member(self, track: _Track, part: Elastic) -> None:
         if self.rigid:
             track.elements.append(Fixed(part.drawn * np.array(X)))
@@ -205,6 +217,8 @@ class _Work:
         for law in part.link.slides:
             where = self._joint(track, Joint("translation", X, Role.VIRTUAL))
             self._laws((where,), (law,))
+        for site in part.link.base_joints:
+            self._site(track, site)
         limb, start = part.model.limb(part.link), len(track.elements)
         # Members name their ties alike.
         name = str(self.size) if self.members else ""
@@ -221,6 +235,8 @@ class _Work:
             path, every = Chain(tuple(track.elements)), np.array(track.numbers, dtype=int)
             force = shares[:, None] * part.link.length * part.line_load
             self.loads.append(DeadLoads(path, every, marks, force))
+        for site in part.link.tip_joints:
+            self._site(track, site)
 
     def _limb(self, track: _Track, limb: Limb, name: str) -> np.ndarray:
         """Numbers of the coordinates of a limb."""

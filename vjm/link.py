@@ -11,6 +11,7 @@ import numpy as np
 from vjm.fibres import Fibres
 from vjm.frames import Array
 from vjm.laws import Law
+from vjm.site_joint import SiteJoint
 
 
 def _rigid() -> Array:
@@ -27,6 +28,7 @@ class Link:
     bow: amplitudes, mm, of the half sines along y and z of the bar frame that the unloaded bar has; the frames
     of its hinges stay where they are without.
     slides: laws in series of a displacement along the bar at its base hinge.
+    base_joints, tip_joints: further axes between a hinge axis and the bar's end there, bar frame, from the hinge on.
     elongation: stress-free lengthening per unit of an input, mm, by the name of the input.
     fibres: of a bar that yields; such a bar is always modelled in segments (`vjm.refined`).
     """
@@ -37,6 +39,8 @@ class Link:
     tip_give: Array = field(default_factory=_rigid)
     bow: tuple[float, float] = (0.0, 0.0)
     slides: tuple[Law, ...] = ()
+    base_joints: tuple[SiteJoint, ...] = ()
+    tip_joints: tuple[SiteJoint, ...] = ()
     elongation: tuple[tuple[str, float], ...] = ()
     fibres: Fibres | None = None
     like: Array | None = None
@@ -88,8 +92,8 @@ class Link:
 
 @dataclass(frozen=True)
 class ByValue:
-    """A bar by what its model is made of: all but its slides and what it grows by. For a cache: fits build the same bar
-    a hundred times for one that differs."""
+    """A bar by what its model is made of: all but its slides, its joints and what it grows by. For a cache: fits build
+    the same bar a hundred times for one that differs."""
 
     values: tuple[Hashable, ...]
     link: Link = field(compare=False)

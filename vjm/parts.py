@@ -22,6 +22,7 @@ from vjm.link import Link
 from vjm.lumped import Lumped
 from vjm.mechanism import rank
 from vjm.refined import Refined
+from vjm.site_joint import SiteJoint
 
 Kind = Literal["translation", "rotation"]
 _NOWHERE, _STRAIGHT = np.zeros(3), np.eye(3)
@@ -205,12 +206,12 @@ class Compound(Protocol):
 
 Moving = Actuator | Passive | Swinging | Fork | Compound
 """Parts with coordinates in the posture."""
-Part = Frame | Virtual | Elastic | Moving
+Part = Frame | Virtual | Elastic | SiteJoint | Moving
 
 
 def posture_of(part: Part) -> tuple[Coordinate, ...]:
     """Coordinates that a part has in the posture; none for what only moves elastically."""
-    return () if isinstance(part, Frame | Virtual | Elastic) else part.posture
+    return () if isinstance(part, Frame | Virtual | Elastic | SiteJoint) else part.posture
 
 
 def branch_posture(parts: tuple[Part, ...]) -> tuple[Coordinate, ...]:

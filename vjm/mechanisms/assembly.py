@@ -18,7 +18,8 @@ from vjm.laws import Law
 from vjm.leg_chain import build
 from vjm.link import Link
 from vjm.mechanism import Drive, ElasticChain
-from vjm.parts import Elastic, Frame, Leg, hinge
+from vjm.parts import Elastic, Frame, Leg, Part, hinge
+from vjm.site_joint import SiteJoint
 
 Alteration = Callable[[int, Link], Link]
 """From the number (0, 1) of a bar and the bar so far to the bar as it is instead."""
@@ -42,7 +43,8 @@ class GaugeAt:
 class Assembly:
     """One bar as a chain from the base to the platform.
 
-    link, model: the bar. start: rigid links before its base hinge, end: after its tip hinge.
+    link, model: the bar. start: rigid links, and joints of the base body, before its base hinge. end: rigid links after
+    its tip hinge.
     hinged: whether there is a hinge at the base and at the tip. angle: nominal rotation of the bar, rad.
     hinges: laws of the turn of the hinges at base and tip from where they stand in the unloaded linkage. settled: turns
     (..., 2) of the hinges from their nominal angles there, at nominal rotations (...); none where they stand as drawn.
@@ -51,7 +53,7 @@ class Assembly:
 
     link: Link
     model: BarModel
-    start: tuple[Frame, ...] = ()
+    start: tuple[Frame | SiteJoint, ...] = ()
     end: tuple[Frame, ...] = ()
     hinged: tuple[bool, bool] = (True, True)
     angle: float = 0.0
@@ -60,33 +62,21 @@ class Assembly:
     line_load: Array = field(default_factory=lambda: np.zeros(3))
 
     @cached_property
-    def _built(self) -> Built:
+    def parts(self) -> tuple[Part, ...]:
+        """From the base to the platform."""
         bar = Elastic(self.link, self.model, self.line_load)
         base, tip = (
             (hinge(Y, *laws),) if there else () for laws, there in zip(self.hinges, self.hinged, strict=True)
         )
-        return build(Leg("bar", (*self.start, *base, bar, *tip, *self.end)))
+        return (*self.start, *base, bar, *tip, *self.end)
+
+    @cached_property
+    def _built(self) -> Built:
+        return build(Leg("bar", self.parts))
 
     def chain(self) -> ElasticChain:
-        """Coordinates: base hinge, slides, bar, tip hinge; those that there are."""
-        of, posture = self._built, iter(self._built.posture)
-        nominal = np.zeros(of.rest.size)
-        for sign, there in zip((1.0, -1.0), self.hinged, strict=True):
-            if there:
-                nominal += sign * next(posture)
-        rest = of.rest + self.angle * nominal + self._turned(of.rest.size, 0.0)
-        drives = [Drive("q", self.angle, nominal, posture=True)] if any(self.hinged) else []
-        if self.settled is not None:
-            here = self._turned(of.rest.size, 0.0)
-            drives = [replace(drives[0], curve=lambda change: self._turned(here.size, change) - here)]
-        return of.set_by(tuple(drives), rest)
-
-    def _turned(self, size: int, change: ArrayLike) -> Array:
-        """(..., size) turns of the hinges in the unloaded linkage from as drawn, at departures (...) from the angle."""
-        out = np.zeros((*np.shape(change), size))
-        if self.settled is not None:
-            out[..., [0, -1]] = self.settled(self.angle + np.asarray(change))
-        return out
+        """Coordinates: joints of the base body, base hinge, slides, bar, tip hinge; those that there are."""
+        return posed(self._built, (self,))
 
     def gauge(self, number: int, chain: ElasticChain, place: GaugeAt) -> Gauge:
         """Gauge on the bar, whose chain has this number, or on the platform at its end."""
@@ -95,6 +85,35 @@ class Assembly:
             return gauge(number, (*chain.chain.elements, arm), chain.chain, place.direction)
         (bar,) = self._built.members
         return gauge(number, bar.reach(place.station), chain.chain, place.direction)
+
+
+def posed(of: Built, bars: tuple[Assembly, ...]) -> ElasticChain:
+    """The leg that is built of these bars side by side, or of one, with their nominal angle among its inputs.
+
+    Each hinge is one coordinate of its posture, that at the base before that at the tip, bar after bar.
+    """
+    first, posture = bars[0], iter(of.posture)
+    nominal, hinges = np.zeros(of.rest.size), []
+    for bar in bars:
+        for sign, there in zip((1.0, -1.0), bar.hinged, strict=True):
+            if there:
+                own = next(posture)
+                nominal += sign * own
+                hinges.append(int(np.argmax(own)))
+
+    def turned(change: ArrayLike) -> Array:
+        """(..., n) turns of the hinges in the unloaded linkage from as drawn, at departures (...) from the angle."""
+        out = np.zeros((*np.shape(change), of.rest.size))
+        turns = [bar.settled(bar.angle + np.asarray(change)) for bar in bars if bar.settled is not None]
+        if turns:
+            out[..., hinges] = np.concatenate(turns, axis=-1)
+        return out
+
+    here = turned(0.0)
+    drives = [Drive("q", first.angle, nominal, posture=True)] if hinges else []
+    if any(bar.settled is not None for bar in bars):
+        drives = [replace(drives[0], curve=lambda change: turned(change) - here)]
+    return of.set_by(tuple(drives), of.rest + first.angle * nominal + here)
 
 
 def as_built(nominal: Link, count: int, alterations: tuple[Alteration, ...]) -> tuple[Link, ...]:

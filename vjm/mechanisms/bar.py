@@ -20,6 +20,7 @@ from vjm.mechanisms.assembly import Alteration, Assembly, GaugeAt, as_built, mou
 from vjm.mechanisms.sites import WithPlaces
 from vjm.refined import SEGMENTS, Refined
 from vjm.sensors import Sensor
+from vjm.site_joint import SiteJoint
 
 Base = Literal["clamped", "pinned"]
 Tip = Literal["free", "pinned", "guided"]
@@ -39,8 +40,8 @@ class Bar(WithPlaces):
     tip: "free" carries nothing; "guided" shifts but does not turn; "pinned" has a hinge about y to a block,
     the platform, that slides along x only. `held` names the coordinates that this holds.
     bar: another model of the bar than the 6x6 lumped at `spring_at`, such as `vjm.refined.Refined`.
-    hinges, single_hinges, alterations, mount, line_load, gravity, sensors, gauge_at, fibre_y, fibre_z: as in
-    `vjm.mechanisms.parallelogram`.
+    hinges, single_hinges, alterations, mount, base_joints, line_load, gravity, sensors, gauge_at, fibre_y, fibre_z: as
+    in `vjm.mechanisms.parallelogram`.
     ValueError for a length that is not positive, a stiffness that is not symmetric positive definite or a
     support that is none of those named.
     """
@@ -55,6 +56,7 @@ class Bar(WithPlaces):
     single_hinges: tuple[tuple[Law, ...], ...] = ()
     alterations: tuple[Alteration, ...] = ()
     mount: Array = field(default_factory=lambda: np.zeros(3))
+    base_joints: tuple[SiteJoint, ...] = ()
     line_load: Array = field(default_factory=lambda: np.zeros(3))
     gravity: Array = field(default_factory=lambda: np.array([0.0, 0.0, -1.0]))
     sensors: tuple[Sensor, ...] = ()
@@ -126,7 +128,7 @@ class Bar(WithPlaces):
         return Assembly(
             self.links[0],
             model,
-            start=mounted(self.mount),
+            start=(*self.base_joints, *mounted(self.mount)),
             hinged=self.hinged,
             hinges=(self.hinge_laws[0], self.hinge_laws[1]),
             line_load=self.line_load,

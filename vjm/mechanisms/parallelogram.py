@@ -23,10 +23,12 @@ from vjm.lumped import Lumped, SpringAt
 from vjm.mechanism import ElasticChain
 from vjm.mechanisms.assembled import FourBar
 from vjm.mechanisms.assembly import Alteration, Assembly, GaugeAt, as_built, mounted
+from vjm.mechanisms.on_base import OnBase
 from vjm.mechanisms.sites import WithPlaces
 from vjm.parts import Frame
 from vjm.refined import SEGMENTS, Refined
 from vjm.sensors import Sensor
+from vjm.site_joint import SiteJoint
 
 
 @dataclass(frozen=True, eq=False)
@@ -44,7 +46,8 @@ class Parallelogram(WithPlaces):
     stands without load (`vjm.mechanisms.assembled`): at the nominal angle, but for bars of different lengths.
     single_hinges: further laws of each hinge by itself, at base and tip of bar 1, then of bar 2; or none.
     alterations: what the bars are instead of what is drawn, applied in turn. wider: mm added to both widths.
-    mount: (3,) rotation vector, rad, of the whole linkage against the base frame. line_load: (3,) N/mm along
+    mount: (3,) rotation vector, rad, of the whole linkage against the base frame. base_joints: between ground and base
+    body, at the base origin along and about the axes of the base frame. line_load: (3,) N/mm along
     the bars, base frame. gravity: (3,) unit vector of weights given without a direction. sensors, gauge_at:
     what is read (`vjm.sensors`, `vjm.gauges`). fibre_y, fibre_z: outermost fibres of the bars, mm, where known.
     ValueError for lengths that are not positive, |q| of 90 degrees or more, a K_b that is not
@@ -62,6 +65,7 @@ class Parallelogram(WithPlaces):
     alterations: tuple[Alteration, ...] = ()
     wider: float = 0.0
     mount: Array = field(default_factory=lambda: np.zeros(3))
+    base_joints: tuple[SiteJoint, ...] = ()
     line_load: Array = field(default_factory=lambda: np.zeros(3))
     gravity: Array = field(default_factory=lambda: np.array([0.0, 0.0, -1.0]))
     sensors: tuple[Sensor, ...] = ()
@@ -89,7 +93,10 @@ class Parallelogram(WithPlaces):
 
     @cached_property
     def chains(self) -> tuple[ElasticChain, ...]:
-        """Chain 1 starts at z = -d/2, chain 2 at +d/2; coordinates q_i1, theta_i1..6, q_i2."""
+        """Chain 1 starts at z = -d/2, chain 2 at +d/2; coordinates q_i1, theta_i1..6, q_i2. One of both bars where laws
+        hold the base body."""
+        if self._based is not None:
+            return (self._based.chain(),)
         return tuple(assembly.chain() for assembly in self._assemblies)
 
     @property
@@ -127,6 +134,8 @@ class Parallelogram(WithPlaces):
         return replace(self, bar=Refined(segments))
 
     def _gauge(self, place: GaugeAt) -> Gauge:
+        if self._based is not None:
+            return self._based.gauge(self.chains[0], place)
         return self._assemblies[place.bar - 1].gauge(place.bar - 1, self.chains[place.bar - 1], place)
 
     @property
@@ -138,16 +147,29 @@ class Parallelogram(WithPlaces):
         loop = FourBar((first, second), self.width + self.wider)
         return partial(loop.hinges, 0), partial(loop.hinges, 1)
 
+    @property
+    def _based_apart(self) -> bool:
+        """Whether the base body moves by laws, and so is one for both bars."""
+        return any(joint.law is not None for joint in self.base_joints)
+
+    @cached_property
+    def _based(self) -> OnBase | None:
+        if not self._based_apart:
+            return None
+        return OnBase(self.base_joints, mounted(self.mount), self._assemblies)
+
     @cached_property
     def _assemblies(self) -> tuple[Assembly, ...]:
         model = Lumped(self.spring_at) if self.bar is None else self.bar
         half, laws = 0.5 * (self.width + self.wider), self.hinge_laws
         sides = (self.links, (-half, half), self._settled, (laws[:2], laws[2:]))
+        apart = self._based_apart
+        before: tuple[Frame | SiteJoint, ...] = () if apart else (*self.base_joints, *mounted(self.mount))
         return tuple(
             Assembly(
                 link,
                 model,
-                start=(*mounted(self.mount), Frame(np.array([0.0, 0.0, offset]))),
+                start=(*before, Frame(np.array([0.0, 0.0, offset]))),
                 end=(Frame(np.array([0.0, 0.0, -offset])),),
                 angle=self.q,
                 hinges=(laws[0], laws[1]),

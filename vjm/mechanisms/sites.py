@@ -138,8 +138,8 @@ class _Only:
         if self.place.end is None:
             return new
         if self.place.end == 0:
-            return replace(link, base_give=new.base_give, slides=new.slides)
-        return replace(link, tip_give=new.tip_give)
+            return replace(link, base_give=new.base_give, slides=new.slides, base_joints=new.base_joints)
+        return replace(link, tip_give=new.tip_give, tip_joints=new.tip_joints)
 
 
 class WithPlaces:

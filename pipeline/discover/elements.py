@@ -1,0 +1,206 @@
+"""Where a law could sit, element by element: its own coordinate at every load step, and what it does to the readings.
+
+All influences are derivatives at the states of one prediction, from one factorisation a load step with many right
+sides: of a torque by forces on the hinge's coordinate, of a displacement in series by rigid axes that are put in at the
+site (`vjm.site_joint`), of a sensor by its own column.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pipeline.campaign.names import channel_columns
+from pipeline.inference.fit import Fit
+from pipeline.inference.program import Group, Program
+from pipeline.inference.residual import Whitening, whitening
+from vjm.effects.base import Rig
+from vjm.equilibrium import Equilibrium
+from vjm.lagrangian import layout, rest
+from vjm.law_sites import SITE_KINDS, SiteKind
+from vjm.link import Link
+from vjm.mechanisms.bar import Bar
+from vjm.mechanisms.parallelogram import Parallelogram
+from vjm.mechanisms.sites import Place
+from vjm.sensitivity import DriveDirection, by_forces, by_parameters, read_change
+from vjm.site_joint import SiteJoint
+from vjm.site_loads import carried
+
+Array = NDArray[np.float64]
+SHIFT, TURN = 0.1, 1e-3
+"""mm and rad: typical sizes of displacements put in, for differences; their thousandth part is taken."""
+ORDER = 2
+
+
+@dataclass(frozen=True, eq=False)
+class Element:
+    """One place where a law could sit.
+
+    kind: of the site, or a column of the table. place: of the hinge or end of a bar, None for the whole.
+    coordinate: (R,) what a law there is a function of: turn or shift, load, or predicted reading.
+    influence: (N,) whitened change of the residuals' readings by one unit of what the law says, of the tests that may
+    be fitted, unknown zeros projected out.
+    """
+
+    kind: str
+    place: Place | None
+    coordinate: Array
+    influence: Array
+
+    @property
+    def tags(self) -> tuple[str, ...]:
+        """Of its place."""
+        return () if self.place is None else self.place.tags
+
+
+def elements(found: Fit) -> tuple[Element, ...]:
+    """All places of the rig of a fit's campaign and all its columns, at the states and inputs of the fit.
+
+    ValueError for a rig that has no such places.
+    """
+    cases = found.residual.program
+    weights = whitening(cases, found.prediction)
+    lost = found.prediction.lost
+
+    def flat(readings: Array) -> Array:
+        values = weights.apply(_zeroed(readings, cases))
+        values[lost] = 0.0
+        return found.residual.without_zeros(values)
+
+    return (*_of_mechanism(found, flat), *_of_columns(found, weights))
+
+
+def _of_mechanism(found: Fit, flat: Callable[[Array], Array]) -> Iterator[Element]:
+    """Hinges, ends of bars, base."""
+    cases, there = found.residual.program, found.prediction
+    mechanisms = [_bench(found, group) for group in cases.groups]
+    places = [(kind, place) for kind in SITE_KINDS.values() for place in _places(mechanisms[0], kind)]
+    coordinates = np.zeros((len(cases.test), len(places)))
+    influences = np.zeros((*cases.measured.shape, len(places)))
+    for group, mechanism, state in zip(cases.groups, mechanisms, there.states, strict=True):
+        rows, (at, change) = cases.rows_of(group), _group(mechanism, places, state)
+        coordinates[rows], influences[rows] = at[group.real], change[group.real]
+    columns = flat(influences)
+    for k, (kind, place) in enumerate(places):
+        yield Element(kind.name, place, coordinates[:, k], columns[:, k])
+
+
+def _bench(found: Fit, group: Group) -> Rig:
+    """The mechanism of a fit on the rig of some tests. ValueError where that is no bar and no parallelogram."""
+    mechanism = found.model.mechanism(group.rig, found.residual.program.campaign.gauges)
+    if not isinstance(mechanism, Bar | Parallelogram):
+        raise ValueError(f"sites of laws are those of a bar or a parallelogram, not of a {group.rig.kind}")
+    return mechanism
+
+
+Where = tuple[SiteKind, Place | None]
+
+
+def _group(plain: Rig, places: Sequence[Where], state: Equilibrium) -> tuple[Array, Array]:
+    """Of tests on one rig: the coordinate (T, S, K) of every place, and what it does to the readings (T, S, C, K)."""
+    series = [each for each in places if each[0].series]
+    free = [each for each in places if not each[0].series]
+    there = _on(_opened(plain, series), state)
+    sizes = [TURN if kind.turns else SHIFT for kind, _ in series]
+    asked = [DriveDirection(_name(*each), size) for each, size in zip(series, sizes, strict=True)]
+    by_series = by_parameters(there, asked, order=ORDER).readings
+    turns, by_torques = _hinges(there)
+    at = {**dict(zip(free, np.moveaxis(turns, -1, 0), strict=True)), **_through(there, series)}
+    change = dict(zip(free, np.moveaxis(by_torques, -1, 0), strict=True))
+    change |= dict(zip(series, np.moveaxis(by_series, -1, 0), strict=True))
+    return np.stack([at[p] for p in places], -1), np.stack([change[p] for p in places], -1)
+
+
+def _places(rig: Rig, kind: SiteKind) -> tuple[Place | None, ...]:
+    return (None,) if kind.parts == "base" else rig.places("hinges")
+
+
+def _name(kind: SiteKind, place: Place | None) -> str:
+    """Of the input that puts in a displacement there."""
+    return ".".join(("site", kind.name, *(() if place is None else place.tags)))
+
+
+def _opened(rig: Rig, series: Sequence[Where]) -> Rig:
+    """The rig with a rigid axis at each of these places."""
+
+    def joints(bar: int, end: int) -> tuple[SiteJoint, ...]:
+        mine = [each for each in series if each[1] is not None and (each[1].bar, each[1].end) == (bar, end)]
+        return tuple(SiteJoint(kind.axis, None, _name(kind, place)) for kind, place in mine)
+
+    def with_joints(number: int, link: Link) -> Link:
+        base, tip = joints(number, 0), joints(number, 1)
+        return replace(link, base_joints=(*link.base_joints, *base), tip_joints=(*tip, *link.tip_joints))
+
+    base = tuple(SiteJoint(kind.axis, None, _name(kind, None)) for kind, place in series if place is None)
+    return replace(rig.altered(with_joints), base_joints=(*base, *rig.base_joints))
+
+
+def _on(mechanism: Rig, state: Equilibrium) -> Equilibrium:
+    """A state of a mechanism in the same one with further inputs, all at their defaults."""
+    drives = np.zeros((*state.converged.shape, len(layout(mechanism).drives)))
+    for k, name in enumerate(layout(state.mechanism).drives):
+        drives[..., layout(mechanism).drives.index(name)] = state.drives[..., k]
+    return replace(state, mechanism=mechanism, drives=drives)
+
+
+def _hinges(state: Equilibrium) -> tuple[Array, Array]:
+    """Turns (T, S, K) of all hinges from where they stand without load, and readings (T, S, C, K) by torques that hold
+    against them."""
+    place, starts = layout(state.mechanism), rest(state.mechanism, state.drives)
+    numbers, turns = [], []
+    for c, chain in enumerate(state.mechanism.chains):
+        for k in chain.passive:
+            unknown = place.coordinates[c].start + int(np.searchsorted(chain.moving, k))
+            numbers.append(unknown)
+            turns.append(state.unknowns[..., unknown] - starts[c][..., k])
+    if not numbers:
+        batch = state.converged.shape
+        return np.zeros((*batch, 0)), np.zeros((*state.readings.shape, 0))
+    change = by_forces(state, np.array(numbers, dtype=int))
+    return np.stack(turns, -1), read_change(state, change)
+
+
+def _through(state: Equilibrium, series: Sequence[Where]) -> dict[Where, Array]:
+    """Load (T, S) through each of these places."""
+    out = {each: np.zeros(state.converged.shape) for each in series}
+    for number, chain in enumerate(state.mechanism.chains):
+        loads, own = carried(state, number), {drive.name: drive for drive in chain.drives}
+        for each in series:
+            if (drive := own.get(_name(*each))) is not None:
+                out[each] += loads @ drive.slope
+    return out
+
+
+def _zeroed(readings: Array, cases: Program) -> Array:
+    """Readings (R, C, K) less those of the first row, in tests that were zeroed there."""
+    out = readings.copy()
+    for k, test in enumerate(cases.campaign.tests):
+        if test.zero == "first_row":
+            rows = slice(int(cases.first[k]), int(cases.first[k + 1]))
+            free = np.ones(out.shape[1], dtype=bool)
+            free[cases.channels[rows.start]] = False
+            out[rows] -= np.where(free[:, None], readings[rows.start], 0.0)
+    return out
+
+
+def _of_columns(found: Fit, weights: Whitening) -> Iterator[Element]:
+    """Errors of readings over what is predicted of them."""
+    cases, there = found.residual.program, found.prediction
+    names = channel_columns(cases.campaign.gauges)
+    for channel, name in enumerate(names):
+        readings = np.zeros(cases.measured.shape)
+        readings[:, channel] = np.where(cases.predicted[:, channel], 1.0, 0.0)
+        coordinate = there.values[:, channel].copy()
+        ruled = cases.channels == channel
+        for which in range(ruled.shape[1]):
+            mine = ruled[:, which] & (cases.input_sigma[:, which] > 0.0)
+            readings[mine] = -there.by_inputs[mine][..., which]
+            coordinate[mine] = cases.measured[mine, channel] + there.shift[mine, which]
+        if not np.any(readings):
+            continue
+        values = weights.apply(_zeroed(readings[..., None], cases))
+        values[there.lost] = 0.0
+        yield Element(f"column {name}", None, coordinate, found.residual.without_zeros(values)[:, 0])

@@ -1,0 +1,145 @@
+"""How much the residuals speak for one function at a site, shared by all tests and all alike parts.
+
+    e = G nu + sum over elements j of S_j f(c_j) + noise,    nu ~ N(0, 1)
+
+with e the whitened residuals of the tests that may be fitted, S_j the whitened influence of element j, c_j its own
+coordinate, G a column for each number that was written about the rig (in both hypotheses), and f the curve and sliders
+of `pipeline.discover.bases`. The evidence is E = ln p(e | site) - ln p(e | nothing), the greatest over the scales of
+the prior; with z the weights in their standard deviations and F = sum of S_j hat(c_j),
+
+    E = b^T (1 + s² M)^-1 b s² / 2 - ln det(1 + s² M) / 2,    M = L^T F^T W² F L,    b = L^T F^T W² e,
+
+W that eliminates G (`pipeline.inference.marginal`).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pipeline.discover.bases import Prior, hats, knots, priors, sliders
+from pipeline.inference.residual import Residual
+
+Array = NDArray[np.float64]
+SIZES = np.logspace(-1.0, 5.0, 19)
+"""Scales s of f, in those at which it moves the residuals by one sigma in all: a third of a decade each."""
+
+
+@dataclass(frozen=True, eq=False)
+class Columns:
+    """A site as columns. values: (N, 30) of curve and sliders, before what was written is eliminated. largest: of the
+    coordinates, on which the knots stand."""
+
+    values: Array
+    largest: float
+
+
+def columns(
+    coordinate: Array, influence: Array, rows: np.ndarray, first: np.ndarray, largest: float
+) -> Array:
+    """(N, 30) what curve and sliders of a coordinate (R,) do through an influence (N,).
+
+    rows: (N,) row of each residual. first: (tests + 1,) first rows of the tests. largest: on which the knots stand.
+    """
+    basis = np.hstack([hats(coordinate, knots(largest)), sliders(coordinate, first, largest)])
+    return np.asarray(influence[:, None] * basis[rows])
+
+
+@dataclass(frozen=True, eq=False)
+class Evidence:
+    """Of one site. value: E. prior, size: at which it is greatest. weights: (30,) of curve and sliders there."""
+
+    value: float
+    prior: Prior
+    size: float
+    weights: Array
+    site: Columns
+
+    @cached_property
+    def explained(self) -> Array:
+        """(N,) what the function does to the residuals."""
+        return np.asarray(self.site.values @ self.weights)
+
+
+@dataclass(frozen=True, eq=False)
+class Rest:
+    """What a model leaves, in which sites are looked for. residuals: (N,), what was written as it was written, unknown
+    zeros projected out. rows, tests: (N,) of each. first: (tests + 1,). tolerance: (N, K) of what was written."""
+
+    residuals: Array
+    rows: np.ndarray
+    tests: np.ndarray
+    first: np.ndarray
+    tolerance: Array
+
+    @classmethod
+    def of(cls, left: Residual) -> Rest:
+        """Of a residual whose tests may all be fitted."""
+        rows = left.rows[:, 0]
+        return cls(
+            left.without_zeros(left.as_written),
+            rows,
+            left.program.test[rows],
+            left.program.first,
+            left.without_zeros(left.nominal),
+        )
+
+    @cached_property
+    def _eliminated(self) -> tuple[Array, Array]:
+        """Left singular vectors (N, r) of what was written, and the share of each that it takes up."""
+        if not self.tolerance.shape[1]:
+            return np.zeros((self.residuals.size, 0)), np.zeros(0)
+        left, sizes, _ = np.linalg.svd(self.tolerance, full_matrices=False)
+        return left, sizes**2 / (1.0 + sizes**2)
+
+    def product(self, one: Array, other: Array) -> Array:
+        """one^T (1 + G G^T)^-1 other of columns (N, ...)."""
+        left, share = self._eliminated
+        inner = left.T @ other
+        return np.asarray(
+            one.T @ other - (left.T @ one).T @ (share.reshape(-1, *[1] * (inner.ndim - 1)) * inner)
+        )
+
+    def evidence(self, site: Columns) -> Evidence:
+        """Of a site."""
+        gram, pull = self.product(site.values, site.values), self.product(site.values, self.residuals)
+        return max((_best(prior, gram, pull, site) for prior in priors()), key=lambda each: each.value)
+
+    def gains(self, found: Evidence) -> Array:
+        """(tests,) chi-square that the function gains in each test when it is fitted to the others, and what was
+        written with it: without the function fitted to the same others."""
+        out = []
+        for test in range(len(self.first) - 1):
+            mine = self.tests == test
+            if mine.any():
+                out.append(self._left(found, mine, bare=True) - self._left(found, mine, bare=False))
+        return np.array(out)
+
+    def _left(self, found: Evidence, mine: np.ndarray, bare: bool) -> float:
+        """Chi-square of the residuals `mine` (N,) by what the others say."""
+        root = found.size * found.prior.root
+        own = np.zeros((self.residuals.size, 0)) if bare else found.site.values @ root
+        every = np.hstack([own, self.tolerance])
+        there, e = every[~mine], self.residuals[~mine]
+        weights = np.linalg.solve(there.T @ there + np.eye(every.shape[1]), there.T @ e)
+        return float(np.sum((self.residuals[mine] - every[mine] @ weights) ** 2))
+
+
+def _best(prior: Prior, gram: Array, pull: Array, site: Columns) -> Evidence:
+    """At its best scale."""
+    inner = prior.root.T @ gram @ prior.root
+    values, vectors = np.linalg.eigh(0.5 * (inner + inner.T))
+    values = np.maximum(values, 0.0)
+    along = vectors.T @ (prior.root.T @ pull)
+    unit = float(np.sqrt(np.sum(values)))
+    if not unit > 0.0:
+        return Evidence(0.0, prior, 0.0, np.zeros(pull.size), site)
+    sizes = SIZES / unit
+    ratio = sizes[:, None] ** 2 / (1.0 + sizes[:, None] ** 2 * values)
+    every = 0.5 * (ratio @ along**2) - 0.5 * np.sum(np.log1p(sizes[:, None] ** 2 * values), axis=1)
+    k = int(np.argmax(every))
+    weights = prior.root @ (vectors @ (ratio[k] * along))
+    return Evidence(float(every[k]), prior, float(sizes[k]), weights, site)
