@@ -1,0 +1,123 @@
+"""Every form: its columns are what its law does, its tangent the derivative of its force, its energy the work."""
+
+import numpy as np
+import pytest
+
+from vjm.forms import forms
+from vjm.forms.base import Form
+from vjm.frames import Array
+from vjm.laws import Law
+
+WAY = np.concatenate([np.linspace(0.0, 1.0, 15), np.linspace(0.9, -0.9, 25), np.linspace(-0.8, 0.6, 12)])[1:]
+FIRST = np.array([0, 30, WAY.size])
+CASES = [(name, place) for name, form in forms().items() for place in form.places]
+
+
+def numbers(form: Form, largest: float) -> tuple[Array, Array]:
+    """Amplitudes and shapes with which it is stable everywhere."""
+    amplitudes = np.array([0.7 + 0.3 * k for k in range(len(form.amplitudes))])
+    shapes = np.asarray(form.starts(largest)[-1])
+    if form.name in ("square", "linear+square", "square+cubic", "linear+periodic", "linear+constant"):
+        amplitudes[0] = 40.0 * max(1.0, largest)
+    return amplitudes, shapes
+
+
+def ways(largest: float) -> tuple[Array, np.ndarray]:
+    return largest * WAY, FIRST
+
+
+def followed(law: Law, strains: Array, first: np.ndarray) -> tuple[Array, Array]:
+    """Forces and tangents along strains of tests that begin relaxed."""
+    forces, tangents = np.zeros(strains.size), np.zeros(strains.size)
+    for begin, end in zip(first[:-1], first[1:], strict=True):
+        memory = law.initial_memory
+        for row in range(begin, end):
+            answer = law.respond(strains[row : row + 1], memory)
+            forces[row], tangents[row], memory = answer.force[0], answer.tangent[0, 0], answer.memory
+    return forces, tangents
+
+
+@pytest.mark.parametrize(("name", "place"), CASES)
+@pytest.mark.parametrize("largest", [0.02, 3000.0])
+def test_columns_are_what_the_law_does(name: str, place: str, largest: float) -> None:
+    form = forms()[name]
+    x, first = ways(largest)
+    amplitudes, shapes = numbers(form, largest)
+    if name == "square" and place == "series":
+        pytest.skip("an even compliance alone rises on one side only")
+    y = form.columns(x, first, shapes) @ amplitudes
+    law = form.law(amplitudes, shapes, place == "series")
+    if place == "parallel":
+        assert followed(law, x, first)[0] == pytest.approx(y, rel=1e-9, abs=1e-9 * np.abs(y).max())
+        return
+    if name in ("dead_zone", "tanh", "atan"):
+        # Level or flat: that displacement has no one load.
+        seen = np.gradient(y) != 0.0
+        y, x = y[seen], x[seen]
+        loads = np.array([law.respond(np.array([value]), law.initial_memory).force[0] for value in y])
+        known = np.abs(x) > (0.6 * largest if name == "dead_zone" else 0.0)
+        assert loads[known] == pytest.approx(x[known], rel=1e-6, abs=1e-9 * largest)
+        return
+    loads, _ = followed(law, y, first)
+    assert loads == pytest.approx(x, rel=1e-6, abs=1e-7 * largest)
+
+
+@pytest.mark.parametrize(("name", "place"), CASES)
+def test_the_tangent_is_the_derivative_of_the_force(name: str, place: str) -> None:
+    form = forms()[name]
+    amplitudes, shapes = numbers(form, 1.0)
+    law = form.law(amplitudes, shapes, place == "series")
+    if place == "series" and name == "square":
+        strains = np.array([[0.13], [0.31]])
+    else:
+        strains = np.array([[-0.37], [-0.11], [0.013], [0.23], [0.41]])
+    if place == "series":
+        y = np.abs(form.columns(np.array([1.0]), np.array([0, 1]), shapes) @ amplitudes)[0]
+        strains = strains * y
+    memory = np.broadcast_to(law.initial_memory, (len(strains), law.initial_memory.size))
+    step = 1e-6 * np.abs(strains).max()
+    up, down = law.respond(strains + step, memory), law.respond(strains - step, memory)
+    here = law.respond(strains, memory)
+    slope = (up.force - down.force)[:, 0] / (2.0 * step)
+    assert here.tangent[:, 0, 0] == pytest.approx(slope, rel=2e-4, abs=1e-6 * np.abs(slope).max())
+    if not law.initial_memory.size:
+        work = (up.energy - down.energy) / (2.0 * step)
+        assert here.force[:, 0] == pytest.approx(work, rel=1e-4, abs=1e-6 * np.abs(work).max())
+
+
+@pytest.mark.parametrize("name", [name for name, form in forms().items() if form.memory])
+def test_friction_takes_work_over_a_closed_loop(name: str) -> None:
+    form = forms()[name]
+    turns = np.sin(np.linspace(0.0, 6.0 * np.pi, 600))
+    amplitudes, shapes = numbers(form, 1.0)
+    x, first = turns, np.array([0, turns.size])
+    y = form.columns(x, first, shapes) @ amplitudes
+    if form.places == ("series",):
+        x, y = y, x
+    # The last turn, begun and ended at zero.
+    last = slice(400, 600)
+    work = np.trapezoid(y[last], x[last])
+    assert work > 0.0
+
+
+@pytest.mark.parametrize("name", list(forms()))
+def test_units_and_names_go_together(name: str) -> None:
+    form = forms()[name]
+    names = [q.identifier("N·mm", "rad") for q in form.quantities]
+    assert len(set(names)) == len(names)
+    assert all(q.unit("N·mm", "rad") for q in form.quantities)
+    assert set(form.fixed) <= {q.name for q in form.shapes}
+
+
+def test_a_gap_has_its_free_travel() -> None:
+    form = forms()["gap"]
+    x = np.array([-100.0, -1.0, 1.0, 100.0])
+    y = form.columns(x, np.array([0, 4]), np.array([0.5])) @ np.array([0.02, 0.0])
+    assert y == pytest.approx([-0.02, -0.02, 0.02, 0.02])
+
+
+def test_names_of_units() -> None:
+    cubic = forms()["cubic"].amplitudes[0]
+    assert cubic.unit("N·mm", "rad") == "N·mm/rad³"
+    assert cubic.identifier("N·mm", "rad") == "cubic_Nmm_per_rad3"
+    assert cubic.unit("rad", "N·mm") == "rad/(N·mm)³"

@@ -1,0 +1,30 @@
+"""A constant: a preload, a difference of lengths, a place that was mounted otherwise."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from vjm.forms.base import Quantity
+from vjm.forms.curve import CurveForm, Points
+from vjm.frames import Array
+
+
+class Constant(CurveForm):
+    """y = y0 from the first load step on."""
+
+    name = "constant"
+    title = "constant"
+    equation = "y = y0"
+    limits = "it looks like a dimension, a zero or a weight that is not as written"
+    amplitudes = (Quantity("level", 1, 0, "value at all loads"),)
+    places = ("parallel",)
+    grows = "bounded"
+    and_linear = True
+
+    def points(self, x: Array, shapes: Array) -> Points:
+        return Points.of((np.ones_like(x), np.zeros_like(x), x))
+
+    def starts(self, largest: float) -> Sequence[Array]:
+        return [np.zeros(0)]

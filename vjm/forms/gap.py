@@ -1,0 +1,38 @@
+"""A gap in series: free travel about zero load, a slope beyond."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from vjm.forms.base import Quantity
+from vjm.forms.curve import CurveForm, Points
+from vjm.frames import Array
+
+WITHIN = 1e-3
+"""Of the largest load, over which the travel is gone through: a gap has no place at no load."""
+
+
+class Gap(CurveForm):
+    """y = g clip(x / x0, ±1) + k x: free travel 2 g, in a load x0 that is small."""
+
+    name = "gap"
+    title = "gap"
+    equation = "y = g sign(x) + k x, g gone through while abs(x) < x0"
+    places = ("series",)
+    amplitudes = (
+        Quantity("gap", 1, 0, "half of the free travel", positive=True),
+        Quantity("slope", 1, -1, "compliance beside it"),
+    )
+    shapes = (Quantity("within", 0, 1, "load within which the gap is gone through", positive=True),)
+
+    def points(self, x: Array, shapes: Array) -> Points:
+        (within,) = shapes
+        t = np.clip(x / within, -1.0, 1.0)
+        integral = np.where(np.abs(t) < 1.0, 0.5 * within * t**2, np.abs(x) - 0.5 * within)
+        slope = np.where(np.abs(t) < 1.0, 1.0 / within, 0.0)
+        return Points.of((t, slope, integral), (x, np.ones_like(x), 0.5 * x**2))
+
+    def starts(self, largest: float) -> Sequence[Array]:
+        return [np.array([share * largest]) for share in (0.003, 0.02, 0.1)]

@@ -1,0 +1,28 @@
+"""A constant slope."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from vjm.forms.base import Quantity
+from vjm.forms.curve import CurveForm, Points
+from vjm.frames import Array
+
+SLOPE = Quantity("slope", 1, -1, "slope")
+
+
+class Linear(CurveForm):
+    """y = k x."""
+
+    name = "linear"
+    title = "linear"
+    equation = "y = k x"
+    amplitudes = (SLOPE,)
+
+    def points(self, x: Array, shapes: Array) -> Points:
+        return Points.of((x, np.ones_like(x), 0.5 * x**2))
+
+    def starts(self, largest: float) -> Sequence[Array]:
+        return [np.zeros(0)]

@@ -1,0 +1,49 @@
+"""A power of its argument, as of contacts."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from vjm.forms.base import Quantity
+from vjm.forms.curve import CurveForm, Points, odd
+from vjm.frames import Array
+
+LEAST = 1e-3
+"""Of the load at which the amplitude is told, below which it is a straight line: the slope of a power may be infinite
+at zero."""
+
+
+class Power(CurveForm):
+    """y = A sign(x) abs(x / x0)^p, linear very near to zero."""
+
+    name = "power"
+    title = "power"
+    equation = "y = A sign(x) abs(x / x0)^p"
+    limits = "linear below a thousandth of x0"
+    amplitudes = (Quantity("at_x0", 1, 0, "value at x0"),)
+    shapes = (
+        Quantity("exponent", 0, 0, "exponent p", positive=True),
+        Quantity("x0", 0, 1, "where the amplitude is told", positive=True),
+    )
+    fixed = ("x0",)
+    grows = "power"
+    and_linear = True
+
+    def points(self, x: Array, shapes: Array) -> Points:
+        p, x0 = shapes
+        t = np.abs(x) / x0
+        far = np.maximum(t, LEAST)
+        chord = LEAST ** (p - 1.0)
+        value = np.where(t < LEAST, chord * t, far**p)
+        slope = np.where(t < LEAST, chord, p * far ** (p - 1.0)) / x0
+        start = 0.5 * chord * LEAST**2 - LEAST ** (p + 1.0) / (p + 1.0)
+        integral = x0 * np.where(t < LEAST, 0.5 * chord * t**2, start + far ** (p + 1.0) / (p + 1.0))
+        return Points.of(odd(x, (value, slope, integral)))
+
+    def starts(self, largest: float) -> Sequence[Array]:
+        return [np.array([p, largest]) for p in (0.6, 1.6, 2.5)]
+
+    def bounds(self, largest: float) -> tuple[Array, Array]:
+        return np.array([0.1, 0.5 * largest]), np.array([6.0, 2.0 * largest])

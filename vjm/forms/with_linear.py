@@ -1,0 +1,46 @@
+"""A form with a linear part beside it."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from vjm.forms.curve import CurveForm, Points
+from vjm.forms.linear import SLOPE
+from vjm.frames import Array
+
+
+class WithLinear(CurveForm):
+    """y = k x + that of another form, which is a curve."""
+
+    def __init__(self, other: CurveForm) -> None:
+        of = {
+            "name": f"linear+{other.name}",
+            "title": f"{other.title}, beside a slope",
+            "equation": f"y = k x + y1, {other.equation.replace('y =', 'y1 =')}",
+            "limits": other.limits,
+            "places": other.places,
+            "amplitudes": (SLOPE, *other.amplitudes),
+            "shapes": other.shapes,
+            "grows": "power" if other.grows == "power" else "linear",
+        }
+        # Attributes of the instance stand before those of its class.
+        vars(self).update(of, other=other, fixed=other.fixed)
+
+    def points(self, x: Array, shapes: Array) -> Points:
+        there = vars(self)["other"].points(x, shapes)
+        own = Points.of((x, np.ones_like(x), 0.5 * x**2))
+        return Points(
+            np.concatenate([own.value, there.value], axis=-1),
+            np.concatenate([own.slope, there.slope], axis=-1),
+            np.concatenate([own.integral, there.integral], axis=-1),
+        )
+
+    def starts(self, largest: float) -> Sequence[Array]:
+        found: Sequence[Array] = vars(self)["other"].starts(largest)
+        return found
+
+    def bounds(self, largest: float) -> tuple[Array, Array]:
+        found: tuple[Array, Array] = vars(self)["other"].bounds(largest)
+        return found
