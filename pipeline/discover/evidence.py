@@ -130,16 +130,25 @@ class Rest:
 
 def _best(prior: Prior, gram: Array, pull: Array, site: Columns) -> Evidence:
     """At its best scale."""
-    inner = prior.root.T @ gram @ prior.root
+    value, weights, size = best_scale(prior.root, gram, pull)
+    return Evidence(value, prior, size, weights, site)
+
+
+def best_scale(root: Array, gram: Array, pull: Array) -> tuple[float, Array, float]:
+    """The evidence of columns at its best scale of their prior, the weights there, and the scale.
+
+    root: (P, P) of the covariance of the weights at the scale 1. gram: (P, P) of the columns. pull: (P,) of the
+    residuals on them.
+    """
+    inner = root.T @ gram @ root
     values, vectors = np.linalg.eigh(0.5 * (inner + inner.T))
     values = np.maximum(values, 0.0)
-    along = vectors.T @ (prior.root.T @ pull)
+    along = vectors.T @ (root.T @ pull)
     unit = float(np.sqrt(np.sum(values)))
     if not unit > 0.0:
-        return Evidence(0.0, prior, 0.0, np.zeros(pull.size), site)
+        return 0.0, np.zeros(pull.size), 0.0
     sizes = SIZES / unit
     ratio = sizes[:, None] ** 2 / (1.0 + sizes[:, None] ** 2 * values)
     every = 0.5 * (ratio @ along**2) - 0.5 * np.sum(np.log1p(sizes[:, None] ** 2 * values), axis=1)
     k = int(np.argmax(every))
-    weights = prior.root @ (vectors @ (ratio[k] * along))
-    return Evidence(float(every[k]), prior, float(sizes[k]), weights, site)
+    return float(every[k]), root @ (vectors @ (ratio[k] * along)), float(sizes[k])

@@ -10,7 +10,7 @@ from vjm.forms.base import Quantity
 from vjm.forms.curve import CurveForm, Points
 from vjm.frames import Array
 
-WITHIN = 1e-3
+WITHIN = 2e-4
 """Of the largest load, over which the travel is gone through: a gap has no place at no load."""
 
 
@@ -25,6 +25,7 @@ class Gap(CurveForm):
         Quantity("gap", 1, 0, "half of the free travel", positive=True),
         Quantity("slope", 1, -1, "compliance beside it"),
     )
+    fixed = ("within",)
     shapes = (Quantity("within", 0, 1, "load within which the gap is gone through", positive=True),)
 
     def points(self, x: Array, shapes: Array) -> Points:
@@ -35,4 +36,4 @@ class Gap(CurveForm):
         return Points.of((t, slope, integral), (x, np.ones_like(x), 0.5 * x**2))
 
     def starts(self, largest: float) -> Sequence[Array]:
-        return [np.array([share * largest]) for share in (0.003, 0.02, 0.1)]
+        return [np.array([WITHIN * largest])]
