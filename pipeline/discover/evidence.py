@@ -21,6 +21,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pipeline.discover.bases import Prior, hats, knots, priors, sliders
+from pipeline.inference.marginal import Marginal
 from pipeline.inference.residual import Residual
 
 Array = NDArray[np.float64]
@@ -88,20 +89,16 @@ class Rest:
         )
 
     @cached_property
-    def _eliminated(self) -> tuple[Array, Array]:
-        """Left singular vectors (N, r) of what was written, and the share of each that it takes up."""
-        if not self.tolerance.shape[1]:
-            return np.zeros((self.residuals.size, 0)), np.zeros(0)
-        left, sizes, _ = np.linalg.svd(self.tolerance, full_matrices=False)
-        return left, sizes**2 / (1.0 + sizes**2)
+    def _marginal(self) -> Marginal:
+        return Marginal.of(self.tolerance)
 
     def product(self, one: Array, other: Array) -> Array:
         """one^T (1 + G G^T)^-1 other of columns (N, ...)."""
-        left, share = self._eliminated
-        inner = left.T @ other
-        return np.asarray(
-            one.T @ other - (left.T @ one).T @ (share.reshape(-1, *[1] * (inner.ndim - 1)) * inner)
-        )
+        return np.asarray(self.weakened(one).T @ self.weakened(other))
+
+    def weakened(self, columns: Array) -> Array:
+        """(1 + G G^T)^(-1/2) times columns (N, ...)."""
+        return self._marginal.weakened(columns)
 
     def evidence(self, site: Columns) -> Evidence:
         """Of a site."""

@@ -1,0 +1,144 @@
+"""What law a site follows: every form fitted where influences are known, before any goes through the mechanism.
+
+A form is linear in its amplitudes, so that they are eliminated (G. Golub, V. Pereyra, SIAM Journal on Numerical
+Analysis 10 (1973) 413-432) and its shapes alone are looked for, from several starts. Forms compete by chi-square
++ k ln n, k numbers and n residuals (G. Schwarz, The Annals of Statistics 6 (1978) 461-464).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.optimize import least_squares, nnls
+
+from pipeline.discover.evidence import Rest
+from pipeline.discover.sites import Site
+from vjm.forms import forms
+from vjm.forms.base import Form
+from vjm.law_sites import SITE_KINDS, SiteKind
+
+Array = NDArray[np.float64]
+BEYOND = 1.5
+"""Times the largest load or coordinate up to which a compliance must rise."""
+LOOKS = 40
+"""Evaluations of the shapes from each start, at most."""
+
+
+@dataclass(frozen=True, eq=False)
+class Formed:
+    """A form at a site. amplitudes, shapes: as they fit best. left: chi-square that it leaves. numbers: how many of its
+    own were fitted. count: residuals. largest: of the site's coordinate."""
+
+    site: Site
+    form: Form
+    amplitudes: Array
+    shapes: Array
+    left: float
+    numbers: int
+    count: int
+    largest: float
+
+    @property
+    def cost(self) -> float:
+        """Chi-square and what its numbers cost."""
+        return self.left + self.numbers * float(np.log(self.count))
+
+    @property
+    def kind(self) -> SiteKind:
+        """Of its site."""
+        return SITE_KINDS[self.site.kind]
+
+    @property
+    def values(self) -> dict[str, float]:
+        """All numbers by their names in the form."""
+        names = [q.name for q in self.form.quantities]
+        return dict(zip(names, [*self.amplitudes.tolist(), *self.shapes.tolist()], strict=True))
+
+
+def formed(site: Site, rest: Rest, largest: float) -> list[Formed]:
+    """All forms that a site may follow, the least cost first."""
+    place = "series" if SITE_KINDS[site.kind].series else "parallel"
+    some = (form for form in forms().values() if place in form.places)
+    found = [it for form in some if (it := _fitted(form, site, rest, largest)) is not None]
+    return sorted(found, key=lambda it: it.cost)
+
+
+def _fitted(form: Form, site: Site, rest: Rest, largest: float) -> Formed | None:
+    """A form at its best shapes; None where none is a law."""
+    best: Formed | None = None
+    for start in form.starts(largest):
+        for it in _from(form, site, rest, largest, np.asarray(start, dtype=float)):
+            if (best is None or it.left < best.left) and _is_law(it):
+                best = it
+    return best
+
+
+def _from(form: Form, site: Site, rest: Rest, largest: float, start: Array) -> Iterator[Formed]:
+    """From one start: as it is there, and at the best shapes that are found from it."""
+    whitened = rest.weakened(rest.residuals)
+    free = np.array([q.name not in form.fixed for q in form.shapes], dtype=bool)
+
+    def at(shapes: Array) -> tuple[Array, Array]:
+        columns = rest.weakened(_columns(form, site, rest, shapes))
+        amplitudes = _amplitudes(form, columns, whitened)
+        return amplitudes, whitened - columns @ amplitudes
+
+    def done(shapes: Array) -> Formed:
+        amplitudes, off = at(shapes)
+        numbers = amplitudes.size + int(free.sum())
+        return Formed(site, form, amplitudes, shapes, float(off @ off), numbers, off.size, largest)
+
+    yield done(start)
+    if free.any():
+        low, high = (np.log(each[free]) for each in form.bounds(largest))
+
+        def off(logs: Array) -> Array:
+            shapes = start.copy()
+            shapes[free] = np.exp(logs)
+            return at(shapes)[1]
+
+        begin = np.clip(np.log(start[free]), low + 1e-6, high - 1e-6)
+        found = least_squares(off, begin, bounds=(low, high), diff_step=1e-4, max_nfev=LOOKS)
+        shapes = start.copy()
+        shapes[free] = np.exp(found.x)
+        yield done(shapes)
+
+
+def _columns(form: Form, site: Site, rest: Rest, shapes: Array) -> Array:
+    """(N, n) of unit amplitudes through all elements of the site."""
+    total = 0.0
+    for each in site.elements:
+        sign = site.sign(each)
+        there = form.columns(sign * each.coordinate, rest.first, shapes)[rest.rows]
+        total = total + sign * each.influence[:, None] * there
+    return np.asarray(total)
+
+
+def _amplitudes(form: Form, columns: Array, residuals: Array) -> Array:
+    """(n,) that leave least; those that have a meaning above zero alone are not below it."""
+    scale = np.sqrt(np.sum(columns**2, axis=0))
+    scale[scale == 0.0] = 1.0
+    unit = columns / scale
+    found = np.linalg.lstsq(unit, residuals, rcond=1e-10)[0]
+    above = np.array([q.positive for q in form.amplitudes])
+    if np.any(found[above] < 0.0):
+        # Numbers of either sign are the difference of two that are not below zero.
+        both = np.hstack([unit, -unit[:, ~above]])
+        signed = nnls(both, residuals)[0]
+        found = signed[: above.size]
+        found[~above] -= signed[above.size :]
+    return np.asarray(found / scale)
+
+
+def _is_law(it: Formed) -> bool:
+    """Whether there is one: something acts, and in series the displacement rises with the load as far as is asked."""
+    if not np.any(it.amplitudes):
+        return False
+    if not it.kind.series or it.form.memory:
+        return True
+    loads = np.linspace(-BEYOND, BEYOND, 241) * it.largest
+    y = it.form.columns(loads, np.array([0, loads.size]), it.shapes) @ it.amplitudes
+    return bool(np.all(np.diff(y) >= 0.0) and y[-1] > y[0])
