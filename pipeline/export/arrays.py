@@ -31,7 +31,8 @@ def as_values(it: Export) -> dict[str, Any]:
         "wrench": list(WRENCH_NAMES),
         "stiffness": [_spring(spring) for spring in every_spring(it)],
         "linkage": [
-            {"q_deg": each.q_deg, "width_mm": each.width, "lengths_mm": list(each.lengths)} for each in it.linkages
+            {"q_deg": each.q_deg, "width_mm": each.width, "tips_mm": each.tips.tolist()}
+            for each in it.linkages
         ],
         "effects": {name: dict(values) for name, values in it.effects.items()},
         "remarks": list(lost_by_numbers(it)),
@@ -55,7 +56,7 @@ def as_arrays(it: Export) -> dict[str, np.ndarray]:
         out["K_p_rank"] = np.array([whole.rank for whole in wholes])
         out["q_deg"] = np.array([linkage.q_deg for linkage in it.linkages])
         out["width_mm"] = np.array([linkage.width for linkage in it.linkages])
-        out["lengths_mm"] = np.array([linkage.lengths for linkage in it.linkages])
+        out["tips_mm"] = np.stack([linkage.tips for linkage in it.linkages])
     about = [
         f"source: {it.source}",
         *(f"sha256 of {name}: {digest}" for name, digest in it.digests.items()),

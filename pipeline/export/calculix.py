@@ -19,8 +19,9 @@ _NUMBER = ".12e"
 _TERMS_A_LINE = 4
 
 USE = (
-    "Linear analysis only. A body is two nodes: BASE and BASEROT, TIP and TIPROT; degrees 1 to 3 of the ROT node are its "
-    "rotations. Join: *RIGID BODY, NSET=..., REF NODE=(TIP), ROT NODE=(TIPROT). Clamp: *BOUNDARY, BASE,1,3 and BASEROT,1,3."
+    "Linear analysis only. A body is two nodes, BASE and BASEROT, TIP and TIPROT: degrees 1 to 3 of the ROT node are "
+    "its rotations. Join: *RIGID BODY, NSET=..., REF NODE=(TIP), ROT NODE=(TIPROT). Clamp: *BOUNDARY of degrees 1 to 3 of "
+    "BASE and BASEROT."
 )
 
 
@@ -37,7 +38,9 @@ def _spring(it: Numbered) -> Iterator[str]:
     base, base_turn, tip, tip_turn = range(it.first, it.first + 4)
     yield from commented("** ", (f"{spring.what}; {spring.frame}",))
     nodes = {"BASE": base, "BASEROT": base_turn, "TIP": tip, "TIPROT": tip_turn}
-    for (name, node), place in zip(nodes.items(), np.repeat([spring.base, spring.point], 2, axis=0), strict=True):
+    for (name, node), place in zip(
+        nodes.items(), np.repeat([spring.base, spring.point], 2, axis=0), strict=True
+    ):
         yield f"*NODE, NSET={name}{mark}"
         yield f"{node},{_point(place)}"
     bodies = [(node, axis) for node in nodes.values() for axis in (1, 2, 3)]
@@ -54,6 +57,9 @@ def _spring(it: Numbered) -> Iterator[str]:
         yield str(len(terms))
         for start in range(0, len(terms), _TERMS_A_LINE):
             yield ",".join(terms[start : start + _TERMS_A_LINE])
+        # A spring makes all three degrees of its node unknown; two of them nothing else holds.
+        yield "*BOUNDARY"
+        yield f"{own},2,3"
         name = f"SPRING{mark}_{k + 1}"
         yield f"*ELEMENT, TYPE=SPRING1, ELSET={name}"
         yield f"{own},{own}"

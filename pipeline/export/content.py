@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from vjm.frames import Array, adjoint, rotation_y
+from vjm.frames import Array, adjoint
 
 WIDTH = 78
 """Columns of a comment."""
@@ -69,28 +69,32 @@ class Spring:
 class Linkage:
     """The parallelogram at one angle: bars of these 6x6 (bar frame, at the tip) between four hinges about y.
 
-    q_deg: as it is named. q: rad, at which the unloaded bars stand by the model. lengths: mm, of bar 1 (at
-    z = -width/2) and bar 2. whole: its 6x6, base frame.
+    q_deg: as it is named. width: mm, between the base hinges, which stand at z = -width/2 and +width/2. tips: (2, 3)
+    mm, tip hinges of bar 1 and bar 2 in the unloaded linkage, base frame. whole: its 6x6, base frame.
     """
 
     q_deg: float
-    q: float
     width: float
-    lengths: tuple[float, float]
+    tips: Array
     bars: tuple[Spring, Spring]
     whole: Spring
 
     @property
-    def turn(self) -> Array:
-        """(3, 3) of the bar frame against the base frame."""
-        return rotation_y(self.q)
+    def bases(self) -> Array:
+        """(2, 3) mm, base hinges, base frame."""
+        return np.array([[0.0, 0.0, -0.5 * self.width], [0.0, 0.0, 0.5 * self.width]])
 
     @property
-    def hinges(self) -> tuple[tuple[Array, Array], ...]:
-        """Of each bar its base and tip hinge, (3,) mm, base frame."""
-        starts = (np.array([0.0, 0.0, side * 0.5 * self.width]) for side in (-1.0, 1.0))
-        ahead = (self.turn @ np.array([length, 0.0, 0.0]) for length in self.lengths)
-        return tuple((start, start + way) for start, way in zip(starts, ahead, strict=True))
+    def point(self) -> Array:
+        """(3,) mm, the platform point, midway between the tip hinges."""
+        return np.asarray(0.5 * (self.tips[0] + self.tips[1]))
+
+    @property
+    def angles(self) -> tuple[float, float]:
+        """rad, of both bars about y in the unloaded linkage; equal where the bars are."""
+        ahead = self.tips - self.bases
+        first, second = np.arctan2(-ahead[:, 2], ahead[:, 0])
+        return float(first), float(second)
 
 
 @dataclass(frozen=True, eq=False)
@@ -98,8 +102,8 @@ class Export:
     """What a format writes.
 
     source: path as it was given. digests: SHA-256 of its files by name. bars: K_b, one spring where both bars are
-    equal, else two. linkages: K_p at every angle. chosen: whether one angle was asked for. effects: of the model, values
-    by name effect.parameter. in_bars, in_whole: names of effects that change the bars' 6x6, and the linkage's.
+    equal, else two. linkages: K_p at every angle. chosen: whether one angle was asked for. effects: of the model, with
+    the values of their parameters. in_bars, in_whole: names of effects that change the bars' 6x6, and the linkage's.
     """
 
     source: str
@@ -129,7 +133,9 @@ class Export:
         outside = [name for name in self.effects if name not in names]
         said = []
         if inside:
-            said.append(f"Effects of the model that are in the numbers, as they act at no load: {', '.join(inside)}.")
+            said.append(
+                f"Effects of the model that are in the numbers, as they act at no load: {', '.join(inside)}."
+            )
         if outside:
             said.append(f"Effects of the model that are not in the file: {', '.join(outside)}.")
         return tuple(said)
@@ -141,8 +147,8 @@ def lost_by_all(it: Export, springs: Iterable[Spring], names: frozenset[str]) ->
     free = {spring.name: spring.rank for spring in springs if spring.rank < 6}
     for name, rank in free.items():
         said.append(
-            f"{name} has rank {rank}: the linkage swings on its hinges without energy; hold that direction, or a static "
-            "solver finds a mechanism."
+            f"{name} has rank {rank}: the linkage swings on its hinges without energy; hold that direction, or a "
+            "static solver finds a mechanism."
         )
     return (*said, *it.unheld(names))
 
@@ -173,7 +179,9 @@ def commented(mark: str, lines: Iterable[str]) -> list[str]:
     """Lines behind the mark of a comment, none longer than a terminal is wide unless one word is."""
     out = []
     for line in lines:
-        out += textwrap.wrap(line, WIDTH, initial_indent=mark, subsequent_indent=f"{mark}  ", break_long_words=False)
+        out += textwrap.wrap(
+            line, WIDTH, initial_indent=mark, subsequent_indent=f"{mark}  ", break_long_words=False
+        )
     return out
 
 

@@ -22,7 +22,7 @@ from pipeline.inference.suitable import known_effects
 from pipeline.provenance import commit, versions
 from pipeline.validation.result import read_result
 from vjm.equilibrium import unloaded
-from vjm.frames import Array
+from vjm.frames import Array, exp, inverse_rotation_jacobian
 from vjm.link import Link
 from vjm.lumped import Lumped
 from vjm.mechanisms.bar import Bar
@@ -31,9 +31,7 @@ from vjm.stiffness import rank, unloaded_stiffness
 
 RESULT = "result.json"
 BAR_FRAME = "bar frame: x along the bar from base hinge to tip, y along the hinges, origin at the base hinge"
-BASE_FRAME = (
-    "base frame: x along the bars at q = 0, y along the hinges, z along the width, origin midway between the base hinges"
-)
+BASE_FRAME = "base frame: x along the bars at q = 0, y along the hinges, z along the width, origin amid the base hinges"
 ALLOWED = "allowed are a campaign's folder and the result.json of run"
 SAME = 1e-9
 """Relative difference below which two matrices are one: far above rounding, far below any effect."""
@@ -64,17 +62,21 @@ def exported(asked: Sources) -> Export:
     found = _found(asked)
     if asked.q_deg is not None:
         if isinstance(found.build(Model()), Bar):
-            raise InputError(f"--q is the angle of a parallelogram, {asked.path} is a single bar, which has none")
+            raise InputError(
+                f"--q is the angle of a parallelogram, {asked.path} is a single bar, which has none"
+            )
         if not abs(asked.q_deg) < 90.0:
             raise InputError(f"--q is {asked.q_deg:g}, allowed are degrees between -90 and 90")
     model, angles = found.model, found.angles if asked.q_deg is None else (asked.q_deg,)
     whole = _Stiffness(found.build(model), angles, model.turn)
-    without = {
-        name: _Stiffness(found.build(model.without(name)), angles, model.turn) for name in model.names
-    }
+    without = {name: _Stiffness(found.build(model.without(name)), angles, model.turn) for name in model.names}
     bars = whole.bars
     if len({_key(bar) for bar in bars}) == 1:
-        bars = (replace(bars[0], what=bars[0].what.replace(" of bar 1 ", " of each bar ")),) if bars[1:] else bars
+        bars = (
+            (replace(bars[0], what=bars[0].what.replace(" of bar 1 ", " of each bar ")),)
+            if bars[1:]
+            else bars
+        )
     return Export(
         source=str(asked.path),
         digests=found.digests,
@@ -102,16 +104,10 @@ class _Stiffness:
         self.linkages: tuple[Linkage, ...] = ()
         if isinstance(mechanism, Parallelogram):
             first, second = self.bars
+            at = {q: replace(mechanism, q=float(np.radians(q)) + turn) for q in angles}
             self.linkages = tuple(
-                Linkage(
-                    q_deg=q,
-                    q=float(np.radians(q)) + turn,
-                    width=mechanism.width + mechanism.wider,
-                    lengths=(links[0].length, links[1].length),
-                    bars=(first, second),
-                    whole=_whole(replace(mechanism, q=float(np.radians(q)) + turn), q),
-                )
-                for q in angles
+                Linkage(q, it.width + it.wider, _tips(it), (first, second), _whole(it, q))
+                for q, it in at.items()
             )
 
     @property
@@ -176,23 +172,35 @@ def _bar(number: int, link: Link, count: int) -> Spring:
 
 def _whole(mechanism: Parallelogram, q_deg: float) -> Spring:
     try:
-        stiffness = _symmetric(unloaded_stiffness(mechanism))
+        stiffness = unloaded_stiffness(mechanism)
     except LinAlgError:
         raise RuntimeError(
             f"K_p at {q_deg:g} degrees does not exist at no load: a hinge or a contact of the model is rigid or loose "
             "there; give a model without it by --model FILE"
         ) from None
+    pose = unloaded(mechanism).pose
+    # From rates of the rotation vector, which a tilted platform counts from as drawn, to small turns about the axes.
+    turns = np.eye(6)
+    turns[3:, 3:] = inverse_rotation_jacobian(pose[3:])
+    stiffness = _symmetric(turns.T @ stiffness @ turns)
     return Spring(
         name="K_p",
         what=f"K_p of the parallelogram at q = {q_deg:g} degrees, at the platform point, base clamped",
         frame=BASE_FRAME,
         matrix=stiffness,
         base=np.zeros(3),
-        point=np.asarray(unloaded(mechanism).pose[:3]),
+        point=np.asarray(pose[:3]),
         length=mechanism.length,
         rank=int(rank(stiffness, mechanism.length)),
         q_deg=q_deg,
     )
+
+
+def _tips(mechanism: Parallelogram) -> Array:
+    """(2, 3) mm, where the tip hinges stand without load when the linkage is mounted as drawn."""
+    pose = unloaded(replace(mechanism, mount=np.zeros(3))).pose
+    half = exp(pose[3:]) @ np.array([0.0, 0.0, 0.5 * (mechanism.width + mechanism.wider)])
+    return np.stack([pose[:3] - half, pose[:3] + half])
 
 
 def _differ(some: Sequence[Spring], others: Sequence[Spring]) -> bool:

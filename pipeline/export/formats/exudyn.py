@@ -6,15 +6,13 @@ its base hinge and the spring, an end between the spring and the tip hinge, and 
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from pathlib import Path
 from pprint import pformat
 from typing import Any
 
-import numpy as np
-
 from pipeline.export.content import UNITS as BASE_UNITS
 from pipeline.export.content import Export, Linkage, commented, head, lost_by_mechanism
+from vjm.frames import rotation_y
 
 ONE = True
 MASS = 1e-3
@@ -83,23 +81,24 @@ def build(mbs):
     point = np.array(POINT)
     made["platform"] = body(mbs, point, LENGTHS[0])
     made["point"] = marker(mbs, made["platform"])
-    for k, (stiffness, base, tip, length) in enumerate(zip(STIFFNESS, BASES, TIPS, LENGTHS), 1):
+    bars = zip(STIFFNESS, BASES, TIPS, LENGTHS, TURNS)
+    for k, (stiffness, base, tip, length, turn) in enumerate(bars, 1):
         base, tip = np.array(base), np.array(tip)
         bar, end = body(mbs, base, length), body(mbs, tip, length)
         hinge(mbs, marker(mbs, made["ground"], base), marker(mbs, bar))
-        made[f"spring_{k}"] = spring(mbs, marker(mbs, bar, tip - base), marker(mbs, end), stiffness, TURN)
+        made[f"spring_{k}"] = spring(mbs, marker(mbs, bar, tip - base), marker(mbs, end), stiffness, turn)
         hinge(mbs, marker(mbs, end), marker(mbs, made["platform"], tip - point))
         made[f"bar_{k}"], made[f"end_{k}"] = bar, end
     return made
 '''
 
-_MAIN = '''
+_MAIN = """
 
 if __name__ == "__main__":
     system = exu.SystemContainer().AddSystem()
     print(build(system))
     system.Assemble()
-'''
+"""
 
 
 def lost(it: Export) -> tuple[str, ...]:
@@ -126,16 +125,11 @@ def files(it: Export, out: Path) -> dict[Path, bytes]:
 
 def _of_linkage(it: Linkage) -> dict[str, Any]:
     """Constants of the module."""
-    bases, tips = zip(*it.hinges, strict=True)
     return {
         "STIFFNESS": [bar.matrix.tolist() for bar in it.bars],
-        "LENGTHS": list(it.lengths),
-        "BASES": _lists(bases),
-        "TIPS": _lists(tips),
-        "POINT": (0.5 * (tips[0] + tips[1])).tolist(),
-        "TURN": it.turn.tolist(),
+        "LENGTHS": [bar.length for bar in it.bars],
+        "BASES": it.bases.tolist(),
+        "TIPS": it.tips.tolist(),
+        "POINT": it.point.tolist(),
+        "TURNS": [rotation_y(angle).tolist() for angle in it.angles],
     }
-
-
-def _lists(places: Sequence[np.ndarray]) -> list[list[float]]:
-    return [place.tolist() for place in places]

@@ -61,22 +61,26 @@ def files(it: Export, out: Path) -> dict[Path, bytes]:
     return {out: Tree.tostring(root, encoding="utf-8", xml_declaration=True) + b"\n"}
 
 
-def _linkage(root: Tree.Element, world: Tree.Element, tendons: Tree.Element, it: Linkage, step: float) -> None:
+def _linkage(
+    root: Tree.Element, world: Tree.Element, tendons: Tree.Element, it: Linkage, step: float
+) -> None:
     """Ground, hinge, bar, spring at its tip, hinge, platform; bar 2 ends in a body that is welded to the platform."""
-    half = 0.5 * it.q
-    there, back = _text([np.cos(half), 0.0, np.sin(half), 0.0]), _text([np.cos(half), 0.0, -np.sin(half), 0.0])
-    middle = 0.5 * (it.hinges[0][1] + it.hinges[1][1])
-    for number, (bar, (base, tip)) in enumerate(zip(it.bars, it.hinges, strict=True), 1):
-        body = Tree.SubElement(world, "body", name=f"bar_{number}", pos=_text(METRE * base), quat=there)
+    rows = zip(it.bars, it.bases, it.tips, it.angles, strict=True)
+    for number, (bar, base, tip, angle) in enumerate(rows, 1):
+        body = Tree.SubElement(
+            world, "body", name=f"bar_{number}", pos=_text(METRE * base), quat=_about_y(angle)
+        )
         _inertial(body, bar)
         _hinge(body, f"base_hinge_{number}")
         end = _elastic(body, tendons, bar, number)
         # The axes of the platform are those of the base frame.
         name = "platform" if number == 1 else "platform_of_bar_2"
-        platform = Tree.SubElement(end, "body", name=name, quat=back)
+        platform = Tree.SubElement(end, "body", name=name, quat=_about_y(-angle))
         _inertial(platform, bar)
         _hinge(platform, f"tip_hinge_{number}")
-        Tree.SubElement(platform, "site", name=f"{name}_point", pos=_text(METRE * (middle - tip)), size="0.002")
+        Tree.SubElement(
+            platform, "site", name=f"{name}_point", pos=_text(METRE * (it.point - tip)), size="0.002"
+        )
     stiffness = (WELD_STEPS * step) ** -2
     Tree.SubElement(
         Tree.SubElement(root, "equality"),
@@ -94,11 +98,13 @@ def _elastic(body: Tree.Element, tendons: Tree.Element, bar: Spring, number: int
     _inertial(tip, bar)
     joints = []
     for kind, turn in (("slide", ""), ("hinge", "r")):
-        for axis, direction in _AXES:
+        for axis, along in _AXES:
             joints.append(f"tip_{number}_{turn}{axis}")
-            Tree.SubElement(tip, "joint", name=joints[-1], type=kind, axis=direction)
+            Tree.SubElement(tip, "joint", name=joints[-1], type=kind, axis=along)
     line = _text([0.0, 0.0, 0.0, METRE * bar.length, 0.0, 0.0])
-    Tree.SubElement(body, "geom", type="capsule", fromto=line, size="0.003", contype="0", conaffinity="0", mass="0")
+    Tree.SubElement(
+        body, "geom", type="capsule", fromto=line, size="0.003", contype="0", conaffinity="0", mass="0"
+    )
     Tree.SubElement(tip, "site", name=f"tip_{number}_point", size="0.002")
     for k, (stiffness, direction) in enumerate(si.terms(bar), 1):
         tendon = Tree.SubElement(
@@ -123,6 +129,11 @@ def _step(bars: Sequence[Spring]) -> float:
     """s: a part of a radian of the fastest vibration of a tip by itself."""
     stiffest = max(stiffness for bar in bars for stiffness, _ in si.terms(bar))
     return float(np.sqrt(MASS / stiffest) / STEPS)
+
+
+def _about_y(angle: float) -> str:
+    """The quaternion, scalar first."""
+    return _text([np.cos(0.5 * angle), 0.0, np.sin(0.5 * angle), 0.0])
 
 
 def _text(values: Array | Sequence[float]) -> str:

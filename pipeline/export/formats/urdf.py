@@ -26,11 +26,10 @@ def lost(it: Export) -> tuple[str, ...]:
             "URDF holds no loop: the base hinge of bar 1 drives the others as mimic joints, which for rigid bars of "
             "equal length is the same motion."
         )
-        first, second = it.linkage.lengths
+        first, second = (bar.length for bar in it.linkage.bars)
         if first != second:
             said.append(
-                f"The bars differ ({first:.9g} and {second:.9g} mm): the platform is drawn on bar 1 and bar 2 ends "
-                "beside it."
+                f"The bars differ ({first:.9g} and {second:.9g} mm): the loop is closed at this angle alone."
             )
     return (*lost_by_mechanism(it), *said)
 
@@ -59,19 +58,17 @@ def files(it: Export, out: Path) -> dict[Path, bytes]:
 
 def _linkage(robot: Tree.Element, it: Linkage) -> None:
     """The tree that remains when bar 2 is taken off the platform; joints at zero are the linkage at its angle."""
-    middle = 0.5 * (it.hinges[0][1] + it.hinges[1][1])
-    for number, ((base, tip), length) in enumerate(zip(it.hinges, it.lengths, strict=True), 1):
+    for number, (base, spring, angle) in enumerate(zip(it.bases, it.bars, it.angles, strict=True), 1):
         bar, end = f"bar_{number}", "platform_hinge" if number == 1 else "end_of_bar_2"
-        _link(robot, bar, length)
-        hinge = _joint(robot, f"base_hinge_{number}", "continuous", ("base", bar), base, it.q)
+        _link(robot, bar, spring.length)
+        hinge = _joint(robot, f"base_hinge_{number}", "continuous", ("base", bar), base, angle)
         if number == 2:
             _mimic(hinge, 1.0)
         Tree.SubElement(robot, "link", name=end)
-        ahead = np.array([length, 0.0, 0.0])
-        _mimic(_joint(robot, f"tip_hinge_{number}", "continuous", (bar, end), ahead, -it.q), -1.0)
+        _mimic(_joint(robot, f"tip_hinge_{number}", "continuous", (bar, end), spring.point, -angle), -1.0)
         if number == 1:
             Tree.SubElement(robot, "link", name="platform")
-            _joint(robot, "platform_point", "fixed", (end, "platform"), middle - tip)
+            _joint(robot, "platform_point", "fixed", (end, "platform"), it.point - it.tips[0])
 
 
 def _link(robot: Tree.Element, name: str, length: float) -> None:
