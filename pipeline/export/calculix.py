@@ -20,8 +20,8 @@ _TERMS_A_LINE = 4
 
 USE = (
     "Linear analysis only. A body is two nodes, BASE and BASEROT, TIP and TIPROT: degrees 1 to 3 of the ROT node are "
-    "its rotations. Join: *RIGID BODY, NSET=..., REF NODE=(TIP), ROT NODE=(TIPROT). Clamp: *BOUNDARY of degrees 1 to 3 of "
-    "BASE and BASEROT."
+    "its rotations. Join: *RIGID BODY, NSET=..., REF NODE=(TIP), ROT NODE=(TIPROT). Clamp: *BOUNDARY of degrees 1 to 3 "
+    "of BASE and BASEROT."
 )
 
 

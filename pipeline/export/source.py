@@ -144,6 +144,10 @@ def _of_campaign(campaign: Campaign, asked: Sources) -> _Found:
         known = known_effects(asked.effects_from).sized(campaign)
         model = read_model_file(file, known, campaign.rig).model
         digests[file.name] = _digest(file)
+    try:
+        _built(campaign.rig, model)
+    except ValueError as error:
+        raise InputError(f"{file}: {error}") from error
     angles = dict.fromkeys(test.q_deg for test in campaign.tests)
     return _Found(model, partial(_built, campaign.rig), tuple(angles), digests)
 

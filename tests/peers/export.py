@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 
 from pipeline.export.content import Export
-from tests.pipeline.export.sources import UNEQUAL, campaign, written
+from tests.pipeline.export.sources import SOFT, UNEQUAL, campaign, written
 
 CASES = {
     "bar": ({}, None),
@@ -18,6 +18,7 @@ CASES = {
     "linkage": ({}, 0.0),
     "linkage at 30": ({}, 30.0),
     "unequal linkage": (UNEQUAL, 30.0),
+    "soft and bowed linkage": (SOFT, -20.0),
 }
 """Effects of the model and the angle, by name; the 6x6 of the bars couples all directions."""
 LIMIT = 1e-6

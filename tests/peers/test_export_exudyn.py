@@ -14,8 +14,10 @@ from tests.pipeline.export.sources import relative_error
 
 exudyn = pytest.importorskip("exudyn", reason="Exudyn (exudyn) is not installed")
 
-# N and N·mm: bends of some 1e-5 rad, whose second order goes with the mean of both signs.
-LOADS = np.array([100.0, 0.01, 0.1, 1.0, 1.0, 1.0])
+# N and N·mm: bends of up to 1e-4 rad, whose second order goes with the mean of both signs, whose third is 1e-8.
+LOADS = np.array([100.0, 0.1, 0.1, 1.0, 1.0, 1.0])
+# N: the spring's stiffness, 2e4 N/mm, on the rounding of places some 300 mm away.
+ROUNDING = 5e-9
 
 
 def moved(module: dict[str, Any], wrench: np.ndarray, held: bool) -> np.ndarray:
@@ -36,7 +38,7 @@ def moved(module: dict[str, Any], wrench: np.ndarray, held: bool) -> np.ndarray:
     mbs.AddLoad(item.LoadTorqueVector(markerNumber=made["point"], loadVector=list(wrench[3:])))
     mbs.Assemble()
     settings = exudyn.SimulationSettings()
-    settings.staticSolver.newton.absoluteTolerance = 1e-9
+    settings.staticSolver.newton.absoluteTolerance = ROUNDING
     settings.staticSolver.verboseMode = 0
     settings.solutionSettings.writeSolutionToFile = False
     mbs.SolveStatic(settings)

@@ -21,6 +21,12 @@ UNEQUAL = {
     "bar_stiffness_asymmetry": {"ratio": 1.2},
     "load_offset": {"x_mm": 1.0, "y_mm": 0.0, "z_mm": 0.0},
 }
+# What gives between bar and hinges, a bow, a linkage that is longer and wider than the drawing.
+SOFT = {
+    "axis_flexibility": {"radial_mm_per_N": 2e-5, "tilt_rad_per_Nmm": 2e-7},
+    "bar_initial_bow": {"bow_y_mm": 2.0, "bow_z_mm": -1.0},
+    "dimension_error": {"length_mm": 1.0, "width_mm": 2.0},
+}
 
 
 def coupled() -> np.ndarray:

@@ -9,6 +9,7 @@ import pytest
 from typer.testing import CliRunner
 
 from pipeline.cli import app
+from pipeline.export import source
 from pipeline.export.formats import module_of, names
 from pipeline.export.source import Sources, exported
 from tests.conftest import ROOT
@@ -139,3 +140,19 @@ def test_a_swing_without_energy_has_no_spring(tmp_path: Path) -> None:
     assert len(whole.terms) == 5
     total = sum(stiffness * np.outer(direction, direction) for stiffness, direction in whole.terms)
     assert abs(total - whole.matrix).max() < 1e-12 * abs(whole.matrix).max()
+
+
+def test_effects_that_cannot_be(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """An effect that the rig cannot have is bad input; a linkage without a stiffness is a failure of the numerics."""
+    bench, out = campaign(tmp_path / "bench"), tmp_path / "out"
+    (bench / "model.toml").write_text(model_text({"material_yield": {"strain": 0.002}}))
+    code, _, err = call(bench, "--to", "json", out)
+    assert code == 2 and "model.toml: material_yield needs the rig's outermost fibres" in err
+
+    def singular(*_: object) -> None:
+        raise np.linalg.LinAlgError("Singular matrix")
+
+    monkeypatch.setattr(source, "unloaded_stiffness", singular)
+    code, _, err = call(KEPT, "--to", "json", out)
+    assert code == 3 and "K_p at 0 degrees does not exist at no load" in err and "Singular" not in err
+    assert not out.exists()
