@@ -26,6 +26,8 @@ def export(asked: Sources, to: str, out: Path, quiet: bool = False) -> tuple[Pat
         hint = f"; did you mean {near[0]}?" if near else ""
         raise InputError(f"--to is {to!r}, allowed are {', '.join(names())}{hint}")
     usable(out.parent, f"the folder of {out}")
+    if out.is_dir():
+        raise InputError(f"{out} is a folder, allowed is the name of a file")
     form = module_of(to)
     it = exported(asked)
     files = form.files(it, out)
@@ -46,9 +48,7 @@ def export(asked: Sources, to: str, out: Path, quiet: bool = False) -> tuple[Pat
 
 
 def _spared(files: Mapping[Path, bytes]) -> None:
-    """InputError for a file that is there already and holds something else, or cannot be looked at."""
+    """InputError for a file that is there already and holds something else."""
     for path, content in files.items():
-        if path.is_dir():
-            raise InputError(f"{path} is a folder, allowed is the name of a file")
-        if path.exists() and path.read_bytes() != content:
+        if path.exists() and (path.is_dir() or path.read_bytes() != content):
             raise InputError(f"{path} is there already and holds something else, allowed is a new name")

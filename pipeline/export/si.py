@@ -12,12 +12,6 @@ METRE = 1e-3
 UNITS = "Units of the file: N, m, rad, kg, s; converted from N, mm, rad."
 
 
-def in_metres(spring: Spring) -> Array:
-    """(6, 6) in N, m, rad: N/m, N and N·m."""
-    scale = np.repeat([1.0, METRE], 3)
-    return np.asarray(spring.matrix * np.outer(scale, scale) / METRE)
-
-
 def terms(spring: Spring) -> tuple[tuple[float, Array], ...]:
     """Its springs of one direction: N/m and (6,) elongations in m of metres and radians."""
     scale = np.repeat([1.0, METRE], 3)

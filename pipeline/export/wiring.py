@@ -37,10 +37,12 @@ def register(app: typer.Typer, guarded: Callable[[Callable[[], object]], None]) 
     ) -> None:
         """K_b of the bar, K_p of the parallelogram, for other programs.
 
-        json, npz, mat hold all of it, K_p at every angle of the source. inp: CalculiX (six springs, six equations) and,
-        beside it, Abaqus (a linear user element). dmig: Nastran. mjcf: MuJoCo. exudyn: a Python module. urdf:
-        kinematics, the stiffness in a .json beside it. What a format cannot hold is said here and at the head of the
-        file. A file that is there and holds something else is not replaced.
+        json, npz, mat hold all of it, K_p at every angle of the source.
+        inp: CalculiX (six springs and equations), beside it Abaqus (a user element).
+        dmig: Nastran. mjcf: MuJoCo. exudyn: a Python module of Exudyn.
+        urdf: kinematics alone; the stiffness is in a .json beside it.
+        What a format cannot hold is said, and stands at the head of the file.
+        A file that is there already and holds something else is not replaced.
         """
         from pipeline.export.command import export as write
         from pipeline.export.source import Sources

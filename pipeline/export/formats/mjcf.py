@@ -33,7 +33,7 @@ _AXES = (("x", "1 0 0"), ("y", "0 1 0"), ("z", "0 0 1"))
 def lost(it: Export) -> tuple[str, ...]:
     """What the file cannot hold."""
     loop = (
-        "MuJoCo's weld is soft: with masses and time step of this file it gives less than 1e-7 of what a bar gives.",
+        "MuJoCo's weld is soft: with masses and time step of this file it gives less than 1e-6 of what a bar gives.",
     )
     return (
         *lost_by_mechanism(it),

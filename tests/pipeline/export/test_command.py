@@ -99,6 +99,7 @@ def bad(tmp_path: Path) -> dict[str, tuple[list[object], str]]:
             [bench, "--to", "json", tmp_path / "none"],
             "none is a folder, allowed is the name of a file",
         ),
+        "no name": ([bench, "--to", "urdf", "."], "is a folder, allowed is the name of a file"),
         "no place": ([bench, "--to", "json", text / "out"], "the folder of"),
     }
 

@@ -9,6 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from scipy.io import loadmat
+from scipy.spatial.transform import Rotation
 
 from pipeline.validation.result import Result
 from tests.pipeline.export.sources import ANGLES, KEPT, LENGTH, UNEQUAL, WIDTH, campaign, coupled, written
@@ -83,7 +84,8 @@ def test_mat(tmp_path: Path) -> None:
     said = [str(line[0]) for line in read["remarks"].ravel()]
     assert any(line.endswith("not in the file: load_offset.") for line in said), said
     assert any(line.endswith("bar_length_mismatch, bar_stiffness_asymmetry.") for line in said), said
-    # No time of writing: the same again is the same file.
+    # No time of writing, which scipy puts there: the same again is the same file.
+    assert b"parastiff export" in read["__header__"]
     assert path.read_bytes() == written(tmp_path / "bench", "mat", tmp_path / "again.mat")[1][0].read_bytes()
 
 
@@ -100,3 +102,35 @@ def test_the_model_changes_the_bars(tmp_path: Path) -> None:
         ahead = linkage.tips - linkage.bases
         np.testing.assert_allclose(np.linalg.norm(ahead, axis=1), [LENGTH + 3.0, LENGTH], rtol=1e-12)
         assert abs(np.linalg.norm(linkage.tips[1] - linkage.tips[0]) - WIDTH) < 1e-10
+
+
+def test_a_tilted_linkage_is_the_same_one_turned(tmp_path: Path) -> None:
+    """K_p and its point turn with the mount, whatever rotation vector the platform then has; the hinges stay drawn."""
+    tilt = {"rx_rad": 0.2, "ry_rad": -0.1, "rz_rad": 0.3}
+    drawn, _ = written(campaign(tmp_path / "a"), "json", tmp_path / "a.json", 30.0)
+    it, _ = written(
+        campaign(tmp_path / "b", effects={"mounting_tilt": tilt}), "json", tmp_path / "b.json", 30.0
+    )
+    turn = Rotation.from_rotvec(list(tilt.values())).as_matrix()
+    assert it.linkage is not None and drawn.linkage is not None
+    plain, turned = drawn.linkage.whole, it.linkage.whole
+    wanted = rotate_stiffness(plain.matrix, turn)
+    assert np.abs(turned.matrix - wanted).max() < 1e-9 * np.abs(wanted).max()
+    np.testing.assert_allclose(turned.point, turn @ plain.point, atol=1e-10)
+    np.testing.assert_allclose(it.linkage.tips, drawn.linkage.tips, atol=1e-10)
+    assert it.in_bars == frozenset() and it.in_whole == {"mounting_tilt"}
+
+
+def test_the_bars_stand_where_the_model_has_them(tmp_path: Path) -> None:
+    """A zero error of the angle that a fit has found: the linkage is that of the angle and the error together."""
+    bench = campaign(tmp_path / "bench")
+    (bench / "model.toml").write_text(
+        'schema = 1\nbase = "vjm"\n[nominals.angle]\nposture = 20.0\nmount = 0.0\n'
+    )
+    off, _ = written(bench, "json", tmp_path / "off.json", 30.0)
+    (bench / "model.toml").unlink()
+    at, _ = written(bench, "json", tmp_path / "at.json", 30.0 + np.degrees(0.02))
+    assert off.linkage is not None and at.linkage is not None and off.linkage.q_deg == 30.0
+    np.testing.assert_allclose(off.linkage.tips, at.linkage.tips, atol=1e-10)
+    wanted = at.linkage.whole.matrix
+    assert np.abs(off.linkage.whole.matrix - wanted).max() < 1e-10 * np.abs(wanted).max()
