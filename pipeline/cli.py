@@ -9,6 +9,7 @@ from typing import Annotated, NoReturn
 import typer
 
 from pipeline.errors import InputError
+from pipeline.export.wiring import register as register_export
 from pipeline.system import missing_libraries, wanted
 from pipeline.typed import typed
 
@@ -386,3 +387,6 @@ def guarded(work: Callable[[], object]) -> None:
         give_up(f"{type(error).__name__}: {error}" if isinstance(error, ValueError) else str(error), 3)
     except KeyboardInterrupt:
         give_up("interrupted; what was finished is kept and will be reused", 130)
+
+
+register_export(app, guarded)

@@ -41,19 +41,9 @@ def validate(name: str, coarse: bool, fine: bool, out: Path | None, quiet: bool,
 
 def redraw(folder: Path, quiet: bool) -> None:
     """Draw a saved result again."""
-    from pydantic import ValidationError
+    from pipeline.validation.result import read_result
 
-    from pipeline.validation.result import Result
-
-    path = folder / "result.json"
-    try:
-        Result.model_validate_json(path.read_bytes())
-    except OSError as error:
-        raise InputError(f"{path} cannot be read: {error.strerror}") from error
-    except ValidationError as error:
-        first = error.errors()[0]
-        place = ".".join(map(str, first["loc"])) or "the file"
-        raise InputError(f"{path} is not a saved result: {place}: {first['msg']}") from error
+    read_result(folder / "result.json")
     require("solid")
     print(f"report: {draw(folder, Progress(quiet))}")
 

@@ -39,7 +39,7 @@ def test_runs_without_mesher_and_pictures(arguments: tuple[str, ...]) -> None:
 
 def test_no_command_about_measurements_loads_them() -> None:
     names = ("effects_page", "compare.command", "diagnose.command", "add.command", "plan.command")
-    names = (*names, "improve.command", "simulate", "simulate_manipulator")
+    names = (*names, "improve.command", "simulate", "simulate_manipulator", "export.command")
     lines = [f"import pipeline.{name}" for name in names]
     done = run("\n".join([*lines, f"print([n for n in {HEAVY!r} if n in sys.modules])"]))
     assert done.returncode == 0, done.stderr

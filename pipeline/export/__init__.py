@@ -1,0 +1,1 @@
+"""`export`: stiffness matrices as files that other programs read."""
