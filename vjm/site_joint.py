@@ -16,11 +16,14 @@ class SiteJoint:
 
     law: force, N, or moment, N·mm, as a function of its shift, mm, or turn, rad, which is zero without load. None: it
     is rigid and stands where the input `name` puts it, mm or rad, zero by default: a displacement put in at the site.
+    apart: whether the base body is one for all bars on it though no law moves it here, so that unknowns are in the
+    order of a linkage in which one does.
     """
 
     axis: int
     law: Law | None = None
     name: str = ""
+    apart: bool = False
 
     @property
     def joint(self) -> Joint:

@@ -13,8 +13,9 @@ from vjm.effects.base import Changing, Effect, Parameter, Rig, Values
 from vjm.forms import forms
 from vjm.forms.base import Form, Quantity
 from vjm.law_sites import SITE_KINDS, SiteKind
-from vjm.laws import Law, OnSum
+from vjm.laws import Law
 from vjm.mechanisms.sites import chosen
+from vjm.mirrored import mirrored
 from vjm.site_joint import SiteJoint
 
 ROOM = 1e3
@@ -111,7 +112,7 @@ class SiteLaw(Effect):
         law = self.law(values)
         for place in places:
             other = self.mirrored and "tip" in place.tags
-            there = OnSum(law, (-1.0,)) if other else law
+            there = mirrored(law) if other else law
             mechanism = mechanism.changed_at(place, self._with(mechanism.seen_at(place), there))
         return mechanism
 

@@ -32,6 +32,7 @@ class Body:
     value: float
     columns: Array
     weights: Array
+    scale: float
 
 
 def bodies(found: Fit, effects: Iterable[Effect]) -> Mapping[str, Effect]:
@@ -66,10 +67,10 @@ def weighed(found: Fit, rest: Rest, effects: Mapping[str, Effect]) -> list[Body]
         own = [k for k, n in enumerate(new) if model.free[n].effect == name]
         sizes = np.array([abs(model.free[new[k]].parameter.typical) for k in own])
         mine = free[:, own] * sizes
-        value, weights, _ = best_scale(
+        value, weights, scale = best_scale(
             np.eye(len(own)), rest.product(mine, mine), rest.product(mine, rest.residuals)
         )
-        out.append(Body(effect, value, mine, weights))
+        out.append(Body(effect, value, mine, weights, scale))
     return out
 
 

@@ -105,24 +105,35 @@ class Rest:
         gram, pull = self.product(site.values, site.values), self.product(site.values, self.residuals)
         return max((_best(prior, gram, pull, site) for prior in priors()), key=lambda each: each.value)
 
-    def gains(self, found: Evidence) -> Array:
-        """(tests,) chi-square that the function gains in each test when it is fitted to the others, and what was
-        written with it: without the function fitted to the same others."""
-        out = []
-        for test in range(len(self.first) - 1):
-            mine = self.tests == test
-            if mine.any():
-                out.append(self._left(found, mine, bare=True) - self._left(found, mine, bare=False))
-        return np.array(out)
+    def seen_in(self, explained: Array) -> int:
+        """In how many tests a change (N,) of the residuals is more than one sigma in all."""
+        sums = np.bincount(self.tests, explained**2, minlength=len(self.first) - 1)
+        return int(np.sum(sums > 1.0))
 
-    def _left(self, found: Evidence, mine: np.ndarray, bare: bool) -> float:
-        """Chi-square of the residuals `mine` (N,) by what the others say."""
-        root = found.size * found.prior.root
-        own = np.zeros((self.residuals.size, 0)) if bare else found.site.values @ root
-        every = np.hstack([own, self.tolerance])
-        there, e = every[~mine], self.residuals[~mine]
-        weights = np.linalg.solve(there.T @ there + np.eye(every.shape[1]), there.T @ e)
-        return float(np.sum((self.residuals[mine] - every[mine] @ weights) ** 2))
+    def parts(self, blocks: int) -> np.ndarray:
+        """(N,) number of the part of each residual: its test, or which of so many blocks of its test's history."""
+        if blocks == 1:
+            return self.tests
+        counts = np.diff(self.first)[self.tests]
+        step = self.rows - self.first[self.tests]
+        return np.asarray(self.tests * blocks + (step * blocks) // np.maximum(counts, 1))
+
+    def gains(self, columns: Array, root: Array, parts: np.ndarray) -> Array:
+        """(parts,) chi-square that columns (N, P) gain in each part when they are fitted to the others, and what was
+        written with them, beside what was written fitted to the same others alone.
+
+        root: (P, P) of the covariance of their weights. parts: (N,) of `parts`.
+        """
+        both = np.hstack([columns @ root, self.tolerance])
+        own = columns.shape[1]
+        every = [parts == part for part in np.unique(parts)]
+        return np.array([self._left(both[:, own:], mine) - self._left(both, mine) for mine in every])
+
+    def _left(self, columns: Array, mine: np.ndarray) -> float:
+        """Chi-square of the residuals `mine` (N,) by what the others say of columns of unit variance."""
+        there, e = columns[~mine], self.residuals[~mine]
+        weights = np.linalg.solve(there.T @ there + np.eye(columns.shape[1]), there.T @ e)
+        return float(np.sum((self.residuals[mine] - columns[mine] @ weights) ** 2))
 
 
 def _best(prior: Prior, gram: Array, pull: Array, site: Columns) -> Evidence:

@@ -19,7 +19,6 @@ from pipeline.inference.predicted import Prediction, no_slides, no_stops, zeroed
 from pipeline.inference.program import INPUTS, Group, Program
 from pipeline.inference.sensor_faults import faulted, in_mechanism, inputs_off
 from vjm.effects.bar_initial_bow import BarInitialBow
-from vjm.effects.base import for_bars
 from vjm.effects.thermal_expansion import DRIVE
 from vjm.equilibrium import Equilibrium, drive_values, equilibrium
 from vjm.history import by_history
@@ -39,6 +38,7 @@ from vjm.sensitivity import (
 )
 from vjm.slides import slides, with_slides
 from vjm.stops import pressed, slid
+from vjm.tight import tight
 
 Array = NDArray[np.float64]
 _KELVIN = 1.0
@@ -270,10 +270,10 @@ def _begin(
         return with_slides(start, mechanism) if sliding else replace(start, mechanism=mechanism)
     if not sliding:
         return None
-    bare = mechanism.changed(for_bars(mechanism.view, lambda link: replace(link, slides=())))
+    bare = mechanism.changed(tight(mechanism.view))
     fits = start is not None and start.unknowns.shape[-1] == layout(bare).size
-    tight = replace(start, mechanism=bare) if start is not None and fits else None
-    state = equilibrium(bare, group.targets, group.channels[:, None], tight, drives=inputs)
+    near = replace(start, mechanism=bare) if start is not None and fits else None
+    state = equilibrium(bare, group.targets, group.channels[:, None], near, drives=inputs)
     return with_slides(state, mechanism)
 
 

@@ -72,6 +72,8 @@ class Form(ABC):
     grows: ClassVar[str] = "linear"
     and_linear: ClassVar[bool] = False
     """Whether a linear part beside it makes another form."""
+    beside: ClassVar[tuple[str, ...]] = ()
+    """Places of that one, where they are not those of the form alone."""
 
     @property
     def quantities(self) -> tuple[Quantity, ...]:

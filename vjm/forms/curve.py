@@ -79,6 +79,10 @@ class Compliance:
     def initial_memory(self) -> Array:
         return np.zeros(0)
 
+    def give(self, force: Array) -> Array:
+        """Strain at a force; both (...)."""
+        return np.asarray(self.form.points(force, self.shapes).value @ self.amplitudes)
+
     def respond(self, strain: Array, memory: Array) -> Response:
         u = strain[..., 0]
         force = self._force(u)

@@ -17,6 +17,8 @@ class Tanh(CurveForm):
     """y = A tanh(x / x0)."""
 
     name = "tanh"
+    places = ("parallel",)
+    beside = ("parallel", "series")
     title = "saturating, fast"
     equation = "y = A tanh(x / x0)"
     amplitudes = (Quantity("level", 1, 0, "value far from zero"),)
@@ -39,6 +41,8 @@ class Atan(CurveForm):
     """y = A 2/π atan(x / x0)."""
 
     name = "atan"
+    places = ("parallel",)
+    beside = ("parallel", "series")
     title = "saturating, slowly"
     equation = "y = A (2/π) atan(x / x0)"
     amplitudes = (Quantity("level", 1, 0, "value far from zero"),)

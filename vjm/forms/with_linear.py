@@ -20,7 +20,7 @@ class WithLinear(CurveForm):
             "title": f"{other.title}, beside a slope",
             "equation": f"y = k x + y1, {other.equation.replace('y =', 'y1 =')}",
             "limits": other.limits,
-            "places": other.places,
+            "places": other.beside or other.places,
             "amplitudes": (SLOPE, *other.amplitudes),
             "shapes": other.shapes,
             "grows": "power" if other.grows == "power" else "linear",

@@ -150,7 +150,7 @@ class Parallelogram(WithPlaces):
     @property
     def _based_apart(self) -> bool:
         """Whether the base body moves by laws, and so is one for both bars."""
-        return any(joint.law is not None for joint in self.base_joints)
+        return any(joint.law is not None or joint.apart for joint in self.base_joints)
 
     @cached_property
     def _based(self) -> OnBase | None:

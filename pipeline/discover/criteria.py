@@ -1,0 +1,26 @@
+"""Thresholds by which a law is proposed, and where each is from."""
+
+from __future__ import annotations
+
+PROPOSED = 12.0
+"""Evidence from which a site is proposed: of 16 000 white residuals without a law 99 % stay below 5.6, none is above
+9.8."""
+LEFT_OUT = 12.0
+"""Chi-square that tests which were left out gain at least, without the best of them."""
+ALIKE = 10.0
+"""Evidence, or cost of a form, within which two are not told apart: a factor of 150 and more in their probability."""
+FEW_TESTS = 3
+"""Tests that see a site, below which blocks of the histories are left out instead."""
+BLOCKS = 4
+"""Into which a history is parted then."""
+LAWS = 3
+"""That are looked for one after another, at most."""
+FORMS = 5
+"""That are fitted through the mechanism, at most."""
+NEAR_FORMS = 25.0
+"""Cost above the best form's, up to which another one is fitted through the mechanism: where influences are known
+costs are off by some units, as coordinates are those of the model before."""
+BEYOND = 1.5
+"""Times the largest coordinate at which forms that are tied are compared."""
+UNKNOWN_BEYOND = 0.3
+"""Sigmas by which they may differ there before it is said."""

@@ -1,0 +1,194 @@
+"""One law after another: where the rest sits, what form it has, that law in the mechanism, and then what is left.
+
+All is linearised anew about each fit: a second site in the linearisation of the first would be false. What is no law by
+nature (`pipeline.discover.bodies`) and explains as much enters the model as what it is.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pipeline.discover import criteria
+from pipeline.discover.bodies import Body, started
+from pipeline.discover.elements import elements
+from pipeline.discover.evidence import Rest
+from pipeline.discover.forming import Formed, formed
+from pipeline.discover.locating import Located, Map, mapped
+from pipeline.discover.sites import Site
+from pipeline.discover.through import Through, through
+from pipeline.inference.fit import Fit, fit, unfitted
+from pipeline.inference.model import Model
+from pipeline.inference.program import Program
+from vjm.effects.base import Effect
+
+Array = NDArray[np.float64]
+Say = Callable[[str], None]
+GEOMETRY = "bar_geometric_nonlinearity"
+
+
+@dataclass(frozen=True, eq=False)
+class Law:
+    """A law that was found. map: what was seen before it. group: sites that are not told apart, the best first.
+    left_out: (parts,) gains of `Rest.gains`. ways: forms fitted through the mechanism, the chosen one first, then those
+    tied with it; empty for a sensor's column, of which there is no law in the mechanism."""
+
+    map: Map
+    group: tuple[Located, ...]
+    left_out: Array
+    ways: tuple[Through, ...]
+
+    @property
+    def site(self) -> Site:
+        """The best."""
+        return self.group[0].site
+
+    @property
+    def evidence(self) -> float:
+        """E of the site."""
+        return self.group[0].value
+
+    @property
+    def margin(self) -> float:
+        """Evidence above the best site outside the group; infinite where there is none."""
+        names = {it.site.name for it in self.group}
+        others = [it.value for it in self.map.sites if it.site.name not in names]
+        others += [it.value for it in self.map.bodies]
+        return self.evidence - max(others) if others else np.inf
+
+
+@dataclass(frozen=True, eq=False)
+class Added:
+    """A body that entered the model, and the map that it was seen in."""
+
+    map: Map
+    body: Body
+
+
+@dataclass(frozen=True, eq=False)
+class Discovery:
+    """begin: the fit without any law. steps: laws and bodies in the order in which they were found. end: the fit with
+    all of them. last: what was seen about it. whole: whether nothing more is found there."""
+
+    begin: Fit
+    steps: tuple[Law | Added, ...]
+    end: Fit
+    last: Map
+    whole: bool
+
+    @property
+    def laws(self) -> tuple[Law, ...]:
+        """Without the bodies."""
+        return tuple(step for step in self.steps if isinstance(step, Law))
+
+
+def discover(cases: Program, model: Model, effects: Mapping[str, Effect], say: Say = lambda _: None) -> Discovery:
+    """Of a program whose tests may all be fitted. effects: those that the rig can have.
+
+    ValueError for a rig without sites.
+    """
+    say("the model as it is")
+    here = begin = _begin(cases, model, effects)
+    steps: list[Law | Added] = []
+    while True:
+        say("where the rest sits")
+        seen = mapped(here, effects)
+        step = _step(seen, cases, len(steps) + 1, say)
+        if step is None or len(steps) >= criteria.LAWS:
+            return Discovery(begin, tuple(steps), here, seen, step is None)
+        steps.append(step)
+        if isinstance(step, Added):
+            here = fit(started(here.model, step.body), cases)
+        elif step.ways:
+            here = step.ways[0].fit
+        else:
+            return Discovery(begin, tuple(steps), here, seen, False)
+
+
+def _begin(cases: Program, model: Model, effects: Mapping[str, Effect]) -> Fit:
+    """The model, with the geometric nonlinearity of its bars where that leaves less."""
+    plain = fit(model, cases) if model.free else unfitted(model, cases)
+    if GEOMETRY not in effects:
+        return plain
+    other = model.with_effects([effects[GEOMETRY]])
+    bent = fit(other, cases) if model.free else unfitted(other, cases, None)
+    return min(plain, bent, key=lambda it: it.order)
+
+
+def _step(seen: Map, cases: Program, number: int, say: Say) -> Law | Added | None:
+    """What is proposed next; None where nothing is."""
+    body = seen.body
+    if body is not None and body.value >= seen.best - criteria.ALIKE:
+        if body.value < criteria.PROPOSED:
+            return None
+        root = body.scale * np.eye(body.columns.shape[1])
+        explained = body.columns @ body.weights
+        return Added(seen, body) if _gained(seen.rest, body.columns, root, explained)[1] else None
+    if seen.best < criteria.PROPOSED:
+        return None
+    best = seen.sites[0].evidence
+    gains, enough = _gained(seen.rest, best.site.values, best.size * best.prior.root, best.explained)
+    if not enough:
+        return None
+    group = _coarsest_first(seen.group(criteria.ALIKE))
+    if group[0].site.kind.startswith("column"):
+        return Law(seen, group, gains, ())
+    say(f"the law at {group[0].site.name}")
+    return Law(seen, group, gains, _ways(seen, group[0], cases, f"law{number}", say))
+
+
+def _gained(rest: Rest, columns: Array, root: Array, explained: Array) -> tuple[Array, bool]:
+    """Gains of parts that were left out, and whether they are enough without the best of them."""
+    few = rest.seen_in(explained) < criteria.FEW_TESTS
+    gains = rest.gains(columns, root, rest.parts(criteria.BLOCKS if few else 1))
+    return gains, bool(gains.sum() - gains.max(initial=0.0) >= criteria.LEFT_OUT)
+
+
+def _coarsest_first(group: tuple[Located, ...]) -> tuple[Located, ...]:
+    """The sites of a group, those of more parts of the best one's kind before those of fewer."""
+    kind = group[0].site.kind
+    return tuple(sorted(group, key=lambda it: (it.site.kind != kind, -it.site.parts, -it.value)))
+
+
+def _ways(seen: Map, it: Located, cases: Program, name: str, say: Say) -> tuple[Through, ...]:
+    """Forms through the mechanism: the best where influences are known, then all near ones about where that stands."""
+    base = seen.found.model
+    first = formed(it.site, seen.rest, it.evidence.site.largest)
+    if not first:
+        return ()
+    say(f"{first[0].form.title} through the mechanism")
+    done = {first[0].form.name: through(first[0], base, cases, name)}
+    about = next(iter(done.values()))
+    for other in _about(about, first)[: criteria.FORMS]:
+        if other.form.name not in done:
+            say(f"{other.form.title} through the mechanism")
+            done[other.form.name] = through(other, base, cases, name)
+    ordered = sorted(done.values(), key=lambda way: way.cost)
+    tied = [way for way in ordered if way.cost <= ordered[0].cost + criteria.ALIKE]
+    # Of those that are tied, what stays finite or grows linearly beyond the loads comes before a power.
+    return tuple(sorted(tied, key=lambda way: (way.formed.form.grows == "power", way.cost)))
+
+
+def _about(way: Through, before: list[Formed]) -> list[Formed]:
+    """Forms near the best, fitted anew about the fit with one of them, whose loads and coordinates are nearer to those
+    that are there; those of before where it is no fit."""
+    if way.fit.lost:
+        return _near(before)
+    old, rest = way.formed.site, Rest.of(way.fit.residual)
+    places = {(each.kind, each.place) for each in old.elements}
+    some = tuple(each for each in elements(way.fit) if (each.kind, each.place) in places)
+    site, form = replace(old, elements=some), way.there
+    done = np.zeros(rest.residuals.size)
+    for each in some:
+        sign = site.sign(each)
+        y = form.form.columns(sign * each.coordinate, rest.first, form.shapes) @ form.amplitudes
+        done += sign * each.influence * y[rest.rows]
+    largest = max(float(np.max(np.abs(each.coordinate))) for each in some)
+    return _near(formed(site, replace(rest, residuals=rest.residuals + done), largest))
+
+
+def _near(every: list[Formed]) -> list[Formed]:
+    return [it for it in every if it.cost <= every[0].cost + criteria.NEAR_FORMS]
