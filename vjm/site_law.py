@@ -62,9 +62,11 @@ class SiteLaw(Effect):
         vars(self).update(
             parts=kind.parts,
             equation=self.equation or form.equation,
-            smooth=not form.memory,
+            smooth=not form.memory and not form.kinked,
             history=form.memory,
-            probes=(self.parameters[0].null + self.parameters[0].typical,) if form.memory else (),
+            probes=(self.parameters[0].null + self.parameters[0].typical,)
+            if form.memory or form.kinked
+            else (),
         )
 
     @property

@@ -85,7 +85,9 @@ class Discovery:
         return tuple(step for step in self.steps if isinstance(step, Law))
 
 
-def discover(cases: Program, model: Model, effects: Mapping[str, Effect], say: Say = lambda _: None) -> Discovery:
+def discover(
+    cases: Program, model: Model, effects: Mapping[str, Effect], say: Say = lambda _: None
+) -> Discovery:
     """Of a program whose tests may all be fitted. effects: those that the rig can have.
 
     ValueError for a rig without sites.

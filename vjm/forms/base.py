@@ -57,6 +57,7 @@ class Form(ABC):
     name: as files and answers call it. title: in words. equation: y of x. limits: where it stops to hold.
     places: "parallel", "series" or both. amplitudes, shapes: its numbers; fixed: shapes that are
     no numbers of a fit but say where another one is told. memory: whether the way matters.
+    kinked: whether each load step is on one side of a stop, as of a gap.
     grows: at most linearly far outside ("bounded", "linear"), or as a power ("power").
     """
 
@@ -69,6 +70,7 @@ class Form(ABC):
     shapes: ClassVar[tuple[Quantity, ...]] = ()
     fixed: ClassVar[tuple[str, ...]] = ()
     memory: ClassVar[bool] = False
+    kinked: ClassVar[bool] = False
     grows: ClassVar[str] = "linear"
     and_linear: ClassVar[bool] = False
     """Whether a linear part beside it makes another form."""

@@ -6,12 +6,15 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from vjm.clearance import STOP, Clearance
 from vjm.forms.base import Quantity
 from vjm.forms.curve import CurveForm, Points
 from vjm.frames import Array
+from vjm.laws import Law
 
 WITHIN = 2e-4
-"""Of the largest load, over which the travel is gone through: a gap has no place at no load."""
+"""Of the largest load, over which the travel is gone through where influences are known: a gap has no place at no
+load. In the mechanism it has a soft centring spring."""
 
 
 class Gap(CurveForm):
@@ -21,9 +24,10 @@ class Gap(CurveForm):
     title = "gap"
     equation = "y = g sign(x) + k x, g gone through while abs(x) < x0"
     places = ("series",)
+    kinked = True
     amplitudes = (
         Quantity("gap", 1, 0, "half of the free travel", positive=True),
-        Quantity("slope", 1, -1, "compliance beside it"),
+        Quantity("slope", 1, -1, "compliance beside it", positive=True),
     )
     fixed = ("within",)
     shapes = (Quantity("within", 0, 1, "load within which the gap is gone through", positive=True),)
@@ -34,6 +38,11 @@ class Gap(CurveForm):
         integral = np.where(np.abs(t) < 1.0, 0.5 * within * t**2, np.abs(x) - 0.5 * within)
         slope = np.where(np.abs(t) < 1.0, 1.0 / within, 0.0)
         return Points.of((t, slope, integral), (x, np.ones_like(x), 0.5 * x**2))
+
+    def law(self, amplitudes: Array, shapes: Array, series: bool) -> Law:
+        """A play whose stops give: rows choose on which side of it they are (`vjm.clearance`)."""
+        gap, slope = (float(each) for each in amplitudes)
+        return Clearance(gap, 1.0 / max(slope, 1.0 / STOP))
 
     def starts(self, largest: float) -> Sequence[Array]:
         return [np.array([WITHIN * largest])]

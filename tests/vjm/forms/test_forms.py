@@ -1,5 +1,7 @@
 """Every form: its columns are what its law does, its tangent the derivative of its force, its energy the work."""
 
+from itertools import pairwise
+
 import numpy as np
 import pytest
 
@@ -29,7 +31,7 @@ def ways(largest: float) -> tuple[Array, np.ndarray]:
 def followed(law: Law, strains: Array, first: np.ndarray) -> tuple[Array, Array]:
     """Forces and tangents along strains of tests that begin relaxed."""
     forces, tangents = np.zeros(strains.size), np.zeros(strains.size)
-    for begin, end in zip(first[:-1], first[1:], strict=True):
+    for begin, end in pairwise(first.tolist()):
         memory = law.initial_memory
         for row in range(begin, end):
             answer = law.respond(strains[row : row + 1], memory)
@@ -45,6 +47,8 @@ def test_columns_are_what_the_law_does(name: str, place: str, largest: float) ->
     amplitudes, shapes = numbers(form, largest)
     if name == "square" and place == "series":
         pytest.skip("an even compliance alone rises on one side only")
+    if name == "gap":
+        pytest.skip("in the mechanism it has a centring spring: see the test of its own")
     y = form.columns(x, first, shapes) @ amplitudes
     law = form.law(amplitudes, shapes, place == "series")
     if place == "parallel":
@@ -114,6 +118,10 @@ def test_a_gap_has_its_free_travel() -> None:
     x = np.array([-100.0, -1.0, 1.0, 100.0])
     y = form.columns(x, np.array([0, 4]), np.array([0.5])) @ np.array([0.02, 0.0])
     assert y == pytest.approx([-0.02, -0.02, 0.02, 0.02])
+    law = form.law(np.array([0.02, 1e-4]), np.array([0.5]), series=True)
+    assert law.respond(np.array([[0.03], [-0.03]]), np.zeros((2, 0))).force[:, 0] == pytest.approx(
+        [100.6, -100.6]
+    )
 
 
 def test_names_of_units() -> None:
