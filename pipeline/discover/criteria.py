@@ -13,6 +13,9 @@ FEW_TESTS = 3
 """Tests that see a site, below which blocks of the histories are left out instead."""
 BLOCKS = 4
 """Into which a history is parted then."""
+PREFERRED = 3.0
+"""Cost by which a form that grows as a power is to be better than one that does not: less is not worth more than a
+bare mention (R. E. Kass, A. E. Raftery, Journal of the American Statistical Association 90 (1995) 773-795)."""
 LAWS = 3
 """That are looked for one after another, at most."""
 FORMS = 5

@@ -105,10 +105,11 @@ class Rest:
         gram, pull = self.product(site.values, site.values), self.product(site.values, self.residuals)
         return max((_best(prior, gram, pull, site) for prior in priors()), key=lambda each: each.value)
 
-    def seen_in(self, explained: Array) -> int:
-        """In how many tests a change (N,) of the residuals is more than one sigma in all."""
+    def seen_in(self, explained: Array) -> float:
+        """In how many tests a change (N,) of the residuals stands: as many equal ones have the same sum of squared
+        shares."""
         sums = np.bincount(self.tests, explained**2, minlength=len(self.first) - 1)
-        return int(np.sum(sums > 1.0))
+        return float(np.sum(sums) ** 2 / max(float(np.sum(sums**2)), 1e-300))
 
     def parts(self, blocks: int) -> np.ndarray:
         """(N,) number of the part of each residual: its test, or which of so many blocks of its test's history."""

@@ -170,8 +170,10 @@ def _ways(seen: Map, it: Located, cases: Program, name: str, say: Say) -> tuple[
             done[other.form.name] = through(other, base, cases, name)
     ordered = sorted(done.values(), key=lambda way: way.cost)
     tied = [way for way in ordered if way.cost <= ordered[0].cost + criteria.ALIKE]
-    # Of those that are tied, what stays finite or grows linearly beyond the loads comes before a power.
-    return tuple(sorted(tied, key=lambda way: (way.formed.form.grows == "power", way.cost)))
+    # Of those that are as good, what stays finite or grows linearly beyond the loads comes before a power.
+    return tuple(
+        sorted(tied, key=lambda way: way.cost + criteria.PREFERRED * (way.formed.form.grows == "power"))
+    )
 
 
 def _about(way: Through, before: list[Formed]) -> list[Formed]:
