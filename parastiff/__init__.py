@@ -17,6 +17,7 @@ from importlib import import_module
 _PUBLIC = {
     "Effect": "vjm.effects.base",
     "Parameter": "vjm.effects.base",
+    "SiteLaw": "vjm.site_law",
     "catalogue": "vjm.effects",
     "Campaign": "pipeline.campaign",
     "read": "pipeline.campaign",

@@ -8,6 +8,7 @@ from typing import Annotated, NoReturn
 
 import typer
 
+from pipeline.discover.wiring import register as register_discover
 from pipeline.errors import InputError
 from pipeline.export.wiring import register as register_export
 from pipeline.system import missing_libraries, wanted
@@ -389,4 +390,5 @@ def guarded(work: Callable[[], object]) -> None:
         give_up("interrupted; what was finished is kept and will be reused", 130)
 
 
+register_discover(app, guarded)
 register_export(app, guarded)

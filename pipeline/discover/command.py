@@ -1,0 +1,111 @@
+"""`discover` from the command line: campaign and model in; terminal, JSON, pictures and an effect file out."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+from time import perf_counter
+
+from meshes.files import replacing
+from pipeline.add.command import starting_model
+from pipeline.campaign import Campaign, read
+from pipeline.command import usable
+from pipeline.diagnose.diagnosis import suitable
+from pipeline.discover.effect_file import effect_text, name_of, write_effect
+from pipeline.discover.record import Discovered
+from pipeline.discover.recording import recorded
+from pipeline.discover.search import Discovery, Say, discover
+from pipeline.discover.table import show
+from pipeline.discover.words import sentences
+from pipeline.errors import InputError
+from pipeline.inference.claims import trusted_and_fit
+from pipeline.inference.model import Model
+from pipeline.inference.program import program
+from pipeline.inference.sigmas import completed
+from pipeline.inference.suitable import Known, check_suitable, known_effects
+from pipeline.progress import Progress
+from pipeline.typed import command
+
+
+@dataclass(frozen=True)
+class Asked:
+    """What the command line asks for."""
+
+    folder: Path
+    model: Path | None = None
+    effects_from: Sequence[Path] = ()
+    write: Path | None = None
+    json: Path | None = None
+    out: Path | None = None
+    seed: int | None = None
+    quiet: bool = False
+
+
+def discover_laws(asked: Asked) -> Discovered:
+    """Discover and print. InputError for bad input, and for a rig without places of laws."""
+    known = known_effects(asked.effects_from)
+    campaign = read(asked.folder)
+    began, known = starting_model(campaign, asked.folder, asked.model, known)
+    _check(asked)
+    progress, begin = Progress(asked.quiet), perf_counter()
+    with progress.stage("looking for laws") as stage:
+        found, whole = searched(campaign, began, known, stage.say)
+        stage.note = f"{len(found.laws)} found"
+    record = recorded(found, program(whole), perf_counter() - begin)
+    record = record.model_copy(update={"seed": asked.seed})
+    record = record.model_copy(update={"sentences": sentences(record)})
+    following = _written(asked, found, record)
+    show(record, following, asked.quiet)
+    return record
+
+
+def searched(
+    campaign: Campaign, model: Model, known: Known, say: Say = lambda _: None
+) -> tuple[Discovery, Campaign]:
+    """What is found in the tests that may be fitted, and the campaign with all that it lacks of sigmas."""
+    check_suitable([term.effect for term in model.terms], campaign)
+    whole, _ = trusted_and_fit(completed(campaign), model, None)
+    effects, _ = suitable(whole, model, known.effects)
+    fitted = tuple(test for test in whole.tests if test.role == "fit")
+    if not fitted:
+        raise InputError(
+            f'{campaign.name} has no test that may be fitted, allowed is one with role = "fit" in campaign.toml'
+        )
+    try:
+        found = discover(program(replace(whole, tests=fitted)), model, effects, say)
+    except ValueError as error:
+        raise InputError(f"{campaign.name}: {error}") from error
+    return found, whole
+
+
+def _check(asked: Asked) -> None:
+    if asked.write is not None and asked.write.suffix != ".py":
+        raise InputError(f"--write {asked.write} is no Python file, allowed is a name that ends with .py")
+    for path, named in (
+        (asked.json and asked.json.parent, f"--json {asked.json}"),
+        (asked.write and asked.write.parent, f"--write {asked.write}"),
+        (asked.out, f"--out {asked.out}"),
+    ):
+        if path is not None:
+            usable(path, named)
+
+
+def _written(asked: Asked, found: Discovery, record: Discovered) -> list[str]:
+    """Writes what was asked for; commands that go on from there."""
+    if asked.json is not None:
+        record.write(asked.json)
+    if asked.out is not None:
+        from reports.laws import drawn
+
+        for name, content in drawn(record.model_dump()).items():
+            with replacing(asked.out / name) as part:
+                part.write_bytes(content)
+        record.write(asked.out / "laws.json")
+    if not any(law.ways for law in found.laws):
+        return []
+    if asked.write is None:
+        return [command("discover", asked.folder, "--write", "law.py")]
+    write_effect(asked.write, effect_text(found, record))
+    names = [name_of(law.ways[0]) for law in found.laws if law.ways]
+    return [command("add", asked.folder, *names, "--effects-from", asked.write)]

@@ -1,0 +1,206 @@
+"""From a discovery to its record."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pipeline.add.summary import error_of
+from pipeline.answer import ModelError, Value
+from pipeline.attempt import Attempts
+from pipeline.discover import criteria
+from pipeline.discover.record import Curve, Discovered, Entered, Grouped, LawFound, Tie
+from pipeline.discover.search import Added, Discovery, Law
+from pipeline.discover.shape import band, described
+from pipeline.discover.sites import Site
+from pipeline.discover.through import Through
+from pipeline.inference.fit import Fit, unfitted
+from pipeline.inference.model import Model
+from pipeline.inference.program import Program
+from pipeline.parameter_names import path_of
+from pipeline.provenance import commit, versions
+from vjm.law_sites import SITE_KINDS, SiteKind
+
+Array = NDArray[np.float64]
+BAND = 1.96
+POINTS = 81
+ENDS = {"base": "at the base", "tip": "at the tip", "1": "of bar 1", "2": "of bar 2"}
+
+
+def recorded(found: Discovery, whole: Program, seconds: float) -> Discovered:
+    """whole: the program of the campaign with its held-out tests."""
+    attempts = Attempts()
+    errors = [_error(found.begin, whole)]
+    laws: list[LawFound] = []
+    for step in found.steps:
+        if isinstance(step, Law):
+            error = _error(step.ways[0].fit, whole) if step.ways else None
+            laws.append(_law(step, error, attempts))
+    if found.end is not found.begin:
+        errors.append(_error(found.end, whole))
+    top = found.last.sites[0] if found.last.sites else None
+    return Discovered(
+        campaign=whole.campaign.name,
+        laws=tuple(laws),
+        entered=tuple(_entered(step, found.end.model) for step in found.steps if isinstance(step, Added)),
+        error=tuple(errors),
+        whole=found.whole,
+        next_site=None if top is None else top.site.name,
+        next_evidence=found.last.best,
+        not_done=tuple(attempts.failed),
+        seconds=round(seconds, 3),
+        commit=commit(),
+        versions=versions(),
+        data=dict(whole.campaign.digests),
+    )
+
+
+def _error(fitted: Fit, whole: Program) -> ModelError:
+    """What a model leaves of the fitted tests and of those that were held out."""
+    return error_of(unfitted(fitted.model, whole), whole, len(fitted.model.free))
+
+
+def _entered(step: Added, model: Model) -> Entered:
+    own = next(term for term in model.terms if term.effect.name == step.body.effect.name)
+    return Entered(effect=own.effect.name, evidence=step.body.value, parameters=dict(own.values))
+
+
+def _law(step: Law, error: ModelError | None, attempts: Attempts) -> LawFound:
+    chosen = step.ways[0] if step.ways else None
+    coordinate = np.concatenate([step.site.sign(e) * e.coordinate for e in step.site.elements])
+    evidence = step.group[0].evidence
+    shape = attempts.get("the shape of the curve in words", lambda: described(evidence, coordinate), "")
+    form = None if chosen is None else chosen.formed.form
+    return LawFound(
+        site=step.site.name,
+        where=where(step.site.name),
+        group=tuple(
+            Grouped(site=it.site.name, evidence=it.value - step.evidence)
+            for it in step.group
+            if it.site.name != step.site.name
+        ),
+        form=None if form is None else form.name,
+        equation=None if form is None else form.equation,
+        parameters={} if chosen is None else _values(chosen),
+        evidence=step.evidence,
+        margin=step.margin if np.isfinite(step.margin) else None,
+        left_out=float(step.left_out.sum() - step.left_out.max(initial=0.0)),
+        ties=() if chosen is None else tuple(_tie(way, chosen, step) for way in step.ways[1:]),
+        range=(float(coordinate.min()), float(coordinate.max())),
+        fit=None if error is None else error.fit,
+        holdout=None if error is None else error.holdout,
+        shape=shape,
+        mirrored=step.site.mirrored,
+        curve=attempts.get("the curve", lambda: _curve(step, chosen, coordinate), None),
+    )
+
+
+def where(site: str) -> str:
+    """A site in words."""
+    kind, _, tags = site.partition("@")
+    title = (
+        SITE_KINDS[kind].title if kind in SITE_KINDS else f"the readings of {kind.removeprefix('column ')}"
+    )
+    return ", ".join([title, *(ENDS.get(tag, tag) for tag in tags.split(".") if tag)])
+
+
+def _values(way: Through) -> dict[str, Value]:
+    model, out = way.fit.model, {}
+    std = {each.name: float(s) for each, s in zip(model.free, way.fit.std, strict=True)}
+    for p in way.law.parameters:
+        name, value = path_of(way.law.name, p.name), way.values[p.name]
+        own = std.get(name, np.inf)
+        seen = np.isfinite(own)
+        out[p.name] = Value(
+            value=value,
+            std=own if seen else None,
+            low95=value - BAND * own if seen else None,
+            high95=value + BAND * own if seen else None,
+            interval="wald" if seen else "undetermined",
+            unit=p.unit,
+            meaning=p.meaning,
+        )
+    return out
+
+
+def _tie(way: Through, chosen: Through, step: Law) -> Tie:
+    return Tie(
+        form=way.formed.form.name,
+        equation=way.formed.form.equation,
+        parameters=way.values,
+        cost=way.cost - chosen.cost,
+        beyond=beyond(way, chosen, step),
+    )
+
+
+def beyond(way: Through, other: Through, step: Law) -> float:
+    """Sigmas by which two forms foretell otherwise at 1.5 times the largest coordinate, on the way there from rest, at
+    the load step that shows the site best."""
+    ends = np.array([-1.0, 1.0]) * criteria.BEYOND * way.formed.largest
+    off = 0.0
+    for end in ends:
+        along = np.linspace(0.0, end, POINTS)
+        first = np.array([0, along.size])
+        values = [
+            (it.there.form.columns(along, first, it.there.shapes) @ it.there.amplitudes)[-1]
+            for it in (way, other)
+        ]
+        off = max(off, abs(float(values[0] - values[1])))
+    rest = step.map.rest
+    total = np.sum([each.influence for each in step.site.elements], axis=0)
+    strength = np.sqrt(np.bincount(rest.rows, total**2))
+    return off * float(strength.max())
+
+
+def _curve(step: Law, chosen: Through | None, coordinate: Array) -> Curve:
+    found, rest = step.group[0].evidence, step.map.rest
+    at, free, spread = band(found, rest)
+    kind = _kind(step.site)
+    inside = (at >= coordinate.min()) & (at <= coordinate.max())
+    x = y = np.zeros(0)
+    if chosen is not None:
+        x = np.linspace(coordinate.min(), coordinate.max(), POINTS)
+        there = chosen.there
+        if there.form.memory:
+            x = np.concatenate([x[x >= 0.0], x[::-1], x])
+        y = there.form.columns(x, np.array([0, x.size]), there.shapes) @ there.amplitudes
+    own_x, own_y = _by_steps(step, coordinate)
+    units = ("", "") if kind is None else (kind.over, kind.gives)
+
+    def points(values: Array) -> tuple[float, ...]:
+        return tuple(float(value) for value in values)
+
+    return Curve(
+        x_unit=units[0],
+        y_unit=units[1],
+        x=points(x),
+        y=points(y),
+        free_x=points(at[inside]),
+        free=points(free[inside]),
+        low=points((free - BAND * spread)[inside]),
+        high=points((free + BAND * spread)[inside]),
+        own_x=points(own_x),
+        own_y=points(own_y),
+    )
+
+
+def _kind(site: Site) -> SiteKind | None:
+    return SITE_KINDS.get(site.kind)
+
+
+def _by_steps(step: Law, coordinate: Array) -> tuple[Array, Array]:
+    """What each load step says by itself of the law of the element that it shows best: coordinate and value, of those
+    that see it by a twentieth of the one that does best."""
+    rest, found = step.map.rest, step.group[0].evidence
+    count = rest.first[-1]
+    signs = [step.site.sign(each) for each in step.site.elements]
+    total = np.sum([s * each.influence for s, each in zip(signs, step.site.elements, strict=True)], axis=0)
+    gain = np.bincount(rest.rows, total**2, minlength=count)
+    # All the others as they are known: what the curve leaves, and what it says there.
+    left = rest.residuals - found.explained
+    say = np.bincount(rest.rows, total * (left + found.explained), minlength=count)
+    seen = gain > 2.5e-3 * gain.max()
+    mean = np.mean([s * each.coordinate for s, each in zip(signs, step.site.elements, strict=True)], axis=0)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        values = say / gain
+    return mean[seen], values[seen]

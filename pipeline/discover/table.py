@@ -1,0 +1,42 @@
+"""A discovery on a terminal of 80 columns."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+from rich.console import Console
+from rich.markup import escape
+from rich.table import Table
+
+from pipeline.add.table import NAME
+from pipeline.discover.record import Discovered
+from pipeline.terminal import cell, lean, terminal
+from reports.quantities import short, sigma
+
+FORM = 18
+
+
+def show(it: Discovered, following: Iterable[str], quiet: bool, console: Console | None = None) -> None:
+    """Print what was found; unless quiet as a table too, with what to do next."""
+    out = terminal(console)
+    if not quiet and (it.laws or it.entered):
+        out.print(_table(it), "")
+    for sentence in it.sentences[:1] if quiet else it.sentences:
+        out.print(escape(sentence))
+    if not quiet:
+        for command in following:
+            out.print(f"next: {escape(command)}", soft_wrap=True)
+
+
+def _table(it: Discovered) -> Table:
+    table = lean("site", "form", "ln evidence", "fitted", "held out", title=f"{it.campaign}: error in sigmas")
+    first = it.error[0]
+    table.add_row("as it is", "", "", sigma(first.fit), sigma(first.holdout))
+    for law in it.laws:
+        form = cell(law.form or "", FORM)
+        table.add_row(
+            cell(f"+ {law.site}", NAME), form, short(law.evidence), sigma(law.fit), sigma(law.holdout)
+        )
+    for each in it.entered:
+        table.add_row(cell(f"+ {each.effect}", NAME), "", short(each.evidence), "", "")
+    return table

@@ -1,0 +1,80 @@
+"""A discovery as an engineer would say it, from its record alone."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from pipeline.discover import criteria
+from pipeline.discover.record import Discovered, LawFound
+from reports.quantities import estimate, phrase, short, sigma
+
+MANY = 4
+
+
+def sentences(it: Discovered) -> tuple[str, ...]:
+    """What was found, the place and the picture before the form."""
+    return (*_first(it), *(said for law in it.laws for said in _law(law)), *_last(it))
+
+
+def _first(it: Discovered) -> Iterator[str]:
+    before, after = it.error[0], it.error[-1]
+    if not it.laws and not it.entered:
+        yield (
+            f"No law is found: the error is {sigma(before.fit)} sigma, and no place of the linkage explains what is "
+            f"left of it by one function shared by all tests (the best is {it.next_site or 'none'}, ln evidence "
+            f"{short(it.next_evidence)}, asked is {short(criteria.PROPOSED)})."
+        )
+        return
+    names = [law.where for law in it.laws] + [each.effect for each in it.entered]
+    yield (
+        f"What is left sits here: {'; '.join(names)}. The error falls from {sigma(before.fit)} to {sigma(after.fit)} "
+        "sigma in the fitted tests"
+        + (
+            f", from {sigma(before.holdout)} to {sigma(after.holdout)} in those held out."
+            if before.holdout is not None
+            else "."
+        )
+    )
+    for each in it.entered:
+        yield (
+            f"{each.effect} explains as much as a law at any place (ln evidence {short(each.evidence)}) and is none by "
+            "nature: it entered the model. diagnose says whether its name is certain."
+        )
+
+
+def _law(it: LawFound) -> Iterator[str]:
+    reach = f"{short(it.range[0])} to {short(it.range[1])}{f' {it.curve.x_unit}' if it.curve else ''}"
+    yield f"{it.site}: {it.where}. What the readings say of it, over {reach}: {it.shape}."
+    if it.group:
+        others = [each.site for each in it.group]
+        more = f" and {len(others) - MANY} more" if len(others) > MANY else ""
+        yield (
+            f"These tests do not tell it from {', '.join(others[:MANY])}{more}: their ln evidence is within "
+            f"{short(criteria.ALIKE)} of its own."
+        )
+    if it.form is None:
+        yield f"No law in the mechanism was put there (ln evidence {short(it.evidence)})."
+        return
+    numbers = ", ".join(phrase(k, estimate(v.model_dump()), v.unit) for k, v in it.parameters.items())
+    yield f"The form that explains most: {it.equation}, {numbers}."
+    if it.ties:
+        names = ", ".join(tie.form for tie in it.ties[:MANY])
+        apart = max(tie.beyond for tie in it.ties)
+        yield (
+            f"As good: {names}. At {criteria.BEYOND:g} times these loads they differ by {short(apart, 2)} sigma"
+            + (
+                ": the law is not known beyond the loads measured."
+                if apart > criteria.UNKNOWN_BEYOND
+                else "."
+            )
+        )
+
+
+def _last(it: Discovered) -> Iterator[str]:
+    if not it.laws and not it.entered:
+        return
+    if it.whole:
+        yield "Nothing more is found in what is left."
+    elif it.next_site is not None:
+        yield f"More is left: {it.next_site} comes next (ln evidence {short(it.next_evidence)})."
+    yield from it.not_done
