@@ -60,6 +60,11 @@ def sliders(coordinate: Array, first: np.ndarray, largest: float) -> Array:
     return np.asarray(out / reach)
 
 
+def basis_of(coordinate: Array, first: np.ndarray, largest: float) -> Array:
+    """(R, 30) of curve and sliders along coordinates (R,), see `hats` and `sliders`."""
+    return np.hstack([hats(coordinate, knots(largest)), sliders(coordinate, first, largest)])
+
+
 def spread(length: float) -> Array:
     """(25, 25) covariance of the curve at its knots, per s², for a correlation length in the largest coordinate."""
     u = knots(1.0)

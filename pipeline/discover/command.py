@@ -15,7 +15,7 @@ from pipeline.diagnose.diagnosis import suitable
 from pipeline.discover.effect_file import effect_text, name_of, write_effect
 from pipeline.discover.record import Discovered
 from pipeline.discover.recording import recorded
-from pipeline.discover.search import Discovery, Say, discover
+from pipeline.discover.search import GEOMETRY, Discovery, Say, discover
 from pipeline.discover.table import show
 from pipeline.discover.words import sentences
 from pipeline.errors import InputError
@@ -107,5 +107,7 @@ def _written(asked: Asked, found: Discovery, record: Discovered) -> list[str]:
     if asked.write is None:
         return [command("discover", asked.folder, "--write", "law.py")]
     write_effect(asked.write, effect_text(found, record))
-    names = [name_of(law.ways[0]) for law in found.laws if law.ways]
+    names = [GEOMETRY] if found.bent else []
+    names += [each.effect for each in record.entered]
+    names += [name_of(law.ways[0]) for law in found.laws if law.ways]
     return [command("add", asked.folder, *names, "--effects-from", asked.write)]

@@ -20,7 +20,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from pipeline.discover.bases import Prior, hats, knots, priors, sliders
+from pipeline.discover.bases import Prior, basis_of, priors
 from pipeline.inference.marginal import Marginal
 from pipeline.inference.residual import Residual
 
@@ -45,8 +45,7 @@ def columns(
 
     rows: (N,) row of each residual. first: (tests + 1,) first rows of the tests. largest: on which the knots stand.
     """
-    basis = np.hstack([hats(coordinate, knots(largest)), sliders(coordinate, first, largest)])
-    return np.asarray(influence[:, None] * basis[rows])
+    return np.asarray(influence[:, None] * basis_of(coordinate, first, largest)[rows])
 
 
 @dataclass(frozen=True, eq=False)

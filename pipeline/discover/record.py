@@ -81,11 +81,14 @@ class Entered(Record):
 
 
 class Discovered(Record):
-    """laws, entered: in the order in which they were found. error: without any, and with all. whole: whether nothing
-    more is found; next_site, next_evidence: what would come next. set_aside, noise: what was found of the readings."""
+    """laws, entered: in the order in which they were found. error: of the model as it is, with the geometric
+    nonlinearity of the bars where that entered (`geometry`), and with all that was found. whole: whether nothing more
+    is found; next_site, next_evidence: what would come next. set_aside: single bad readings that were left out.
+    """
 
     campaign: str
     laws: tuple[LawFound, ...]
+    geometry: bool
     entered: tuple[Entered, ...]
     error: tuple[ModelError, ...]
     whole: bool

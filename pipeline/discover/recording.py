@@ -24,24 +24,27 @@ from vjm.law_sites import SITE_KINDS, SiteKind
 Array = NDArray[np.float64]
 BAND = 1.96
 POINTS = 81
+SEEN = 0.05
 ENDS = {"base": "at the base", "tip": "at the tip", "1": "of bar 1", "2": "of bar 2"}
 
 
 def recorded(found: Discovery, whole: Program, seconds: float) -> Discovered:
     """whole: the program of the campaign with its held-out tests."""
     attempts = Attempts()
-    errors = [_error(found.begin, whole)]
+    errors = [_error(found.given, whole)]
+    errors += [_error(found.begin, whole)] if found.bent else []
     laws: list[LawFound] = []
     for step in found.steps:
         if isinstance(step, Law):
             error = _error(step.ways[0].fit, whole) if step.ways else None
             laws.append(_law(step, error, attempts))
-    if found.end is not found.begin:
+    if found.steps:
         errors.append(_error(found.end, whole))
     top = found.last.sites[0] if found.last.sites else None
     return Discovered(
         campaign=whole.campaign.name,
         laws=tuple(laws),
+        geometry=found.bent,
         entered=tuple(_entered(step, found.end.model) for step in found.steps if isinstance(step, Added)),
         error=tuple(errors),
         whole=found.whole,
@@ -154,9 +157,8 @@ def beyond(way: Through, other: Through, step: Law) -> float:
 
 def _curve(step: Law, chosen: Through | None, coordinate: Array) -> Curve:
     found, rest = step.group[0].evidence, step.map.rest
-    at, free, spread = band(found, rest)
+    at, free, spread = band(found, rest, float(coordinate.min()), float(coordinate.max()))
     kind = _kind(step.site)
-    inside = (at >= coordinate.min()) & (at <= coordinate.max())
     x = y = np.zeros(0)
     if chosen is not None:
         x = np.linspace(coordinate.min(), coordinate.max(), POINTS)
@@ -164,7 +166,7 @@ def _curve(step: Law, chosen: Through | None, coordinate: Array) -> Curve:
         if there.form.memory:
             x = np.concatenate([x[x >= 0.0], x[::-1], x])
         y = there.form.columns(x, np.array([0, x.size]), there.shapes) @ there.amplitudes
-    own_x, own_y = _by_steps(step, coordinate)
+    own_x, own_y = _by_steps(step)
     units = ("", "") if kind is None else (kind.over, kind.gives)
 
     def points(values: Array) -> tuple[float, ...]:
@@ -175,10 +177,10 @@ def _curve(step: Law, chosen: Through | None, coordinate: Array) -> Curve:
         y_unit=units[1],
         x=points(x),
         y=points(y),
-        free_x=points(at[inside]),
-        free=points(free[inside]),
-        low=points((free - BAND * spread)[inside]),
-        high=points((free + BAND * spread)[inside]),
+        free_x=points(at),
+        free=points(free),
+        low=points(free - BAND * spread),
+        high=points(free + BAND * spread),
         own_x=points(own_x),
         own_y=points(own_y),
     )
@@ -188,19 +190,19 @@ def _kind(site: Site) -> SiteKind | None:
     return SITE_KINDS.get(site.kind)
 
 
-def _by_steps(step: Law, coordinate: Array) -> tuple[Array, Array]:
-    """What each load step says by itself of the law of the element that it shows best: coordinate and value, of those
-    that see it by a twentieth of the one that does best."""
-    rest, found = step.map.rest, step.group[0].evidence
-    count = rest.first[-1]
-    signs = [step.site.sign(each) for each in step.site.elements]
-    total = np.sum([s * each.influence for s, each in zip(signs, step.site.elements, strict=True)], axis=0)
+def _by_steps(step: Law) -> tuple[Array, Array]:
+    """What each load step says of the law by itself: coordinate and value, of those that see the site by a twentieth of
+    the one that sees it best. The other elements take part with the sign of their coordinates, as of an odd law."""
+    rest = step.map.rest
+    some, count = step.site.elements, int(rest.first[-1])
+    signs = np.array([step.site.sign(each) for each in some])
+    at = signs[:, None] * np.array([each.coordinate for each in some])
+    through = signs[:, None] * np.array([each.influence for each in some])
+    gains = np.array([np.bincount(rest.rows, each**2, minlength=count) for each in through])
+    leading = at[np.argmax(gains, axis=0), np.arange(count)]
+    same = np.where(at * leading < 0.0, -1.0, 1.0)[:, rest.rows]
+    total = np.sum(same * through, axis=0)
     gain = np.bincount(rest.rows, total**2, minlength=count)
-    # All the others as they are known: what the curve leaves, and what it says there.
-    left = rest.residuals - found.explained
-    say = np.bincount(rest.rows, total * (left + found.explained), minlength=count)
-    seen = gain > 2.5e-3 * gain.max()
-    mean = np.mean([s * each.coordinate for s, each in zip(signs, step.site.elements, strict=True)], axis=0)
-    with np.errstate(divide="ignore", invalid="ignore"):
-        values = say / gain
-    return mean[seen], values[seen]
+    said = np.bincount(rest.rows, total * rest.residuals, minlength=count)
+    seen = gain > SEEN**2 * gain.max()
+    return leading[seen], said[seen] / gain[seen]

@@ -70,14 +70,21 @@ class Added:
 
 @dataclass(frozen=True, eq=False)
 class Discovery:
-    """begin: the fit without any law. steps: laws and bodies in the order in which they were found. end: the fit with
+    """given: the fit of the model as it is. begin: without any law, with the geometric nonlinearity of the bars where
+    that leaves less. steps: laws and bodies in the order in which they were found. end: the fit with
     all of them. last: what was seen about it. whole: whether nothing more is found there."""
 
+    given: Fit
     begin: Fit
     steps: tuple[Law | Added, ...]
     end: Fit
     last: Map
     whole: bool
+
+    @property
+    def bent(self) -> bool:
+        """Whether the geometric nonlinearity of the bars entered the model before all else."""
+        return self.begin is not self.given
 
     @property
     def laws(self) -> tuple[Law, ...]:
@@ -93,31 +100,32 @@ def discover(
     ValueError for a rig without sites.
     """
     say("the model as it is")
-    here = begin = _begin(cases, model, effects)
+    given, begin = _begin(cases, model, effects)
+    here = begin
     steps: list[Law | Added] = []
     while True:
         say("where the rest sits")
         seen = mapped(here, effects)
         step = _step(seen, cases, len(steps) + 1, say)
         if step is None or len(steps) >= criteria.LAWS:
-            return Discovery(begin, tuple(steps), here, seen, step is None)
+            return Discovery(given, begin, tuple(steps), here, seen, step is None)
         steps.append(step)
         if isinstance(step, Added):
             here = fit(started(here.model, step.body), cases)
         elif step.ways:
             here = step.ways[0].fit
         else:
-            return Discovery(begin, tuple(steps), here, seen, False)
+            return Discovery(given, begin, tuple(steps), here, seen, False)
 
 
-def _begin(cases: Program, model: Model, effects: Mapping[str, Effect]) -> Fit:
-    """The model, with the geometric nonlinearity of its bars where that leaves less."""
+def _begin(cases: Program, model: Model, effects: Mapping[str, Effect]) -> tuple[Fit, Fit]:
+    """The model, and that or the one with the geometric nonlinearity of its bars where that leaves less."""
     plain = fit(model, cases) if model.free else unfitted(model, cases)
     if GEOMETRY not in effects:
-        return plain
+        return plain, plain
     other = model.with_effects([effects[GEOMETRY]])
     bent = fit(other, cases) if model.free else unfitted(other, cases, None)
-    return min(plain, bent, key=lambda it: it.order)
+    return plain, min(plain, bent, key=lambda it: it.order)
 
 
 def _step(seen: Map, cases: Program, number: int, say: Say) -> Law | Added | None:

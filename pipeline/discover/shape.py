@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from pipeline.discover.bases import KNOTS, REACHES, hats, knots
+from pipeline.discover.bases import KNOTS, REACHES, basis_of, hats, knots
 from pipeline.discover.evidence import Evidence, Rest
 
 Array = NDArray[np.float64]
@@ -18,16 +18,18 @@ FLAT = 0.25
 LOPSIDED = 0.25
 
 
-def band(found: Evidence, rest: Rest) -> tuple[Array, Array, Array]:
-    """(61,) coordinates over the range of the knots, the curve there without sliders, and its standard deviation."""
-    at = np.linspace(-found.site.largest, found.site.largest, POINTS)
-    seen = hats(at, knots(found.site.largest))
+def band(found: Evidence, rest: Rest, low: float, high: float) -> tuple[Array, Array, Array]:
+    """(P,) coordinates over the range that was met, the function there, and its standard deviation. Where it remembers,
+    on the way from rest to the upper end, to the lower one and back."""
+    at, loop = np.linspace(low, high, POINTS), bool(found.prior.memory)
+    if loop:
+        at = np.concatenate([at[at >= 0.0], at[::-1], at])
+    basis = basis_of(at, np.array([0, at.size]), found.site.largest)
     gram = rest.product(found.site.values, found.site.values)
     root = found.size * found.prior.root
     inner = np.linalg.inv(np.eye(root.shape[1]) + root.T @ gram @ root)
-    covariance = (root @ inner @ root.T)[:KNOTS, :KNOTS]
-    spread = np.sqrt(np.maximum(np.einsum("ij,jk,ik->i", seen, covariance, seen), 0.0))
-    return at, seen @ found.weights[:KNOTS], spread
+    spread = np.sqrt(np.maximum(np.einsum("ij,jk,ik->i", basis, root @ inner @ root.T, basis), 0.0))
+    return at, basis @ found.weights, spread
 
 
 def described(found: Evidence, coordinate: Array) -> str:

@@ -10,6 +10,7 @@ from rich.table import Table
 
 from pipeline.add.table import NAME
 from pipeline.discover.record import Discovered
+from pipeline.discover.search import GEOMETRY
 from pipeline.terminal import cell, lean, terminal
 from reports.quantities import short, sigma
 
@@ -32,6 +33,9 @@ def _table(it: Discovered) -> Table:
     table = lean("site", "form", "ln evidence", "fitted", "held out", title=f"{it.campaign}: error in sigmas")
     first = it.error[0]
     table.add_row("as it is", "", "", sigma(first.fit), sigma(first.holdout))
+    if it.geometry:
+        bent = it.error[1]
+        table.add_row(cell(f"+ {GEOMETRY}", NAME), "", "", sigma(bent.fit), sigma(bent.holdout))
     for law in it.laws:
         form = cell(law.form or "", FORM)
         table.add_row(

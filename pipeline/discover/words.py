@@ -35,6 +35,11 @@ def _first(it: Discovered) -> Iterator[str]:
             else "."
         )
     )
+    if it.geometry:
+        yield (
+            "The geometric nonlinearity of the bars (`bar_geometric_nonlinearity`) entered the model first: with it the "
+            f"error is {sigma(it.error[1].fit)} sigma."
+        )
     for each in it.entered:
         yield (
             f"{each.effect} explains as much as a law at any place (ln evidence {short(each.evidence)}) and is none by "
