@@ -59,7 +59,7 @@ def law_picture(campaign: str, law: Json) -> bytes:
     )
     ax.set_title(f"{campaign}: {law['site']}, {law['where']}", fontsize=10, color=INK)
     dress(ax)
-    ax.legend(frameon=False, fontsize=8, loc="best")
+    ax.legend(frameon=False, fontsize=8, loc="upper center", bbox_to_anchor=(0.5, -0.13), ncol=2)
     return picture(figure)
 
 

@@ -9,6 +9,7 @@ from time import perf_counter
 
 from meshes.files import replacing
 from pipeline.add.command import starting_model
+from pipeline.adequacy.bad_readings import set_aside
 from pipeline.campaign import Campaign, read
 from pipeline.command import usable
 from pipeline.diagnose.diagnosis import suitable
@@ -52,7 +53,7 @@ def discover_laws(asked: Asked) -> Discovered:
     with progress.stage("looking for laws") as stage:
         found, whole = searched(campaign, began, known, stage.say)
         stage.note = f"{len(found.laws)} found"
-    record = recorded(found, program(whole), perf_counter() - begin)
+    record = recorded(found, program(set_aside(whole, found.bad)), perf_counter() - begin)
     record = record.model_copy(update={"seed": asked.seed})
     record = record.model_copy(update={"sentences": sentences(record)})
     following = _written(asked, found, record)

@@ -16,6 +16,8 @@ BLOCKS = 4
 PREFERRED = 3.0
 """Cost by which a form that grows as a power is to be better than one that does not: less is not worth more than a
 bare mention (R. E. Kass, A. E. Raftery, Journal of the American Statistical Association 90 (1995) 773-795)."""
+SETTLED = 3
+"""Times that single bad readings are looked for, at most."""
 LAWS = 3
 """That are looked for one after another, at most."""
 FORMS = 5

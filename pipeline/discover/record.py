@@ -6,7 +6,7 @@ import json
 from pathlib import Path
 
 from meshes.files import replacing
-from pipeline.answer import ModelError, Value
+from pipeline.answer import ModelError, SetAside, Value
 from pipeline.errors import InputError
 from pipeline.record import Record
 
@@ -94,7 +94,7 @@ class Discovered(Record):
     whole: bool
     next_site: str | None
     next_evidence: float
-    set_aside: tuple[str, ...] = ()
+    set_aside: tuple[SetAside, ...] = ()
     sentences: tuple[str, ...] = ()
     not_done: tuple[str, ...] = ()
     seconds: float = 0.0

@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pipeline.add.summary import error_of
-from pipeline.answer import ModelError, Value
+from pipeline.answer import ModelError, SetAside, Value
 from pipeline.attempt import Attempts
 from pipeline.discover import criteria
 from pipeline.discover.record import Curve, Discovered, Entered, Grouped, LawFound, Tie
@@ -50,6 +50,9 @@ def recorded(found: Discovery, whole: Program, seconds: float) -> Discovered:
         whole=found.whole,
         next_site=None if top is None else top.site.name,
         next_evidence=found.last.best,
+        set_aside=tuple(
+            SetAside(test=it.test, step=it.step, column=it.column, sigma=it.sigmas) for it in found.bad
+        ),
         not_done=tuple(attempts.failed),
         seconds=round(seconds, 3),
         commit=commit(),

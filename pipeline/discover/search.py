@@ -12,17 +12,19 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from pipeline.adequacy.bad_readings import BadReading, set_aside
 from pipeline.discover import criteria
 from pipeline.discover.bodies import Body, started
 from pipeline.discover.elements import elements
 from pipeline.discover.evidence import Rest
 from pipeline.discover.forming import Formed, formed
 from pipeline.discover.locating import Located, Map, mapped
+from pipeline.discover.settling import bad_beside
 from pipeline.discover.sites import Site
 from pipeline.discover.through import Through, through
 from pipeline.inference.fit import Fit, fit, unfitted
 from pipeline.inference.model import Model
-from pipeline.inference.program import Program
+from pipeline.inference.program import Program, program
 from vjm.effects.base import Effect
 
 Array = NDArray[np.float64]
@@ -72,7 +74,8 @@ class Added:
 class Discovery:
     """given: the fit of the model as it is. begin: without any law, with the geometric nonlinearity of the bars where
     that leaves less. steps: laws and bodies in the order in which they were found. end: the fit with
-    all of them. last: what was seen about it. whole: whether nothing more is found there."""
+    all of them. last: what was seen about it. whole: whether nothing
+    more is found there. bad: single bad readings that were set aside."""
 
     given: Fit
     begin: Fit
@@ -80,11 +83,12 @@ class Discovery:
     end: Fit
     last: Map
     whole: bool
+    bad: tuple[BadReading, ...] = ()
 
     @property
     def bent(self) -> bool:
         """Whether the geometric nonlinearity of the bars entered the model before all else."""
-        return self.begin is not self.given
+        return self.begin.model.names != self.given.model.names
 
     @property
     def laws(self) -> tuple[Law, ...]:
@@ -101,30 +105,43 @@ def discover(
     """
     say("the model as it is")
     given, begin = _begin(cases, model, effects)
-    here = begin
-    steps: list[Law | Added] = []
+    here, steps, bad = begin, list[Law | Added](), list[BadReading]()
+    rounds = 0
     while True:
         say("where the rest sits")
         seen = mapped(here, effects)
+        new = bad_beside(seen) if rounds < criteria.SETTLED else ()
+        if new:
+            say("without single bad readings")
+            rounds, bad = rounds + 1, [*bad, *new]
+            cases = program(set_aside(cases.campaign, new))
+            given, begin = (_again(each.model, cases) for each in (given, begin))
+            here = begin if not steps else _again(here.model, cases)
+            continue
         step = _step(seen, cases, len(steps) + 1, say)
         if step is None or len(steps) >= criteria.LAWS:
-            return Discovery(given, begin, tuple(steps), here, seen, step is None)
+            return Discovery(given, begin, tuple(steps), here, seen, step is None, tuple(bad))
         steps.append(step)
         if isinstance(step, Added):
             here = fit(started(here.model, step.body), cases)
         elif step.ways:
             here = step.ways[0].fit
         else:
-            return Discovery(given, begin, tuple(steps), here, seen, False)
+            return Discovery(given, begin, tuple(steps), here, seen, False, tuple(bad))
+
+
+def _again(model: Model, cases: Program) -> Fit:
+    """A model fitted to other readings."""
+    return fit(model, cases) if model.free else unfitted(model, cases)
 
 
 def _begin(cases: Program, model: Model, effects: Mapping[str, Effect]) -> tuple[Fit, Fit]:
     """The model, and that or the one with the geometric nonlinearity of its bars where that leaves less."""
-    plain = fit(model, cases) if model.free else unfitted(model, cases)
+    plain = _again(model, cases)
     if GEOMETRY not in effects:
         return plain, plain
     other = model.with_effects([effects[GEOMETRY]])
-    bent = fit(other, cases) if model.free else unfitted(other, cases, None)
+    bent = _again(other, cases)
     return plain, min(plain, bent, key=lambda it: it.order)
 
 

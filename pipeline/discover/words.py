@@ -37,8 +37,8 @@ def _first(it: Discovered) -> Iterator[str]:
     )
     if it.geometry:
         yield (
-            "The geometric nonlinearity of the bars (`bar_geometric_nonlinearity`) entered the model first: with it the "
-            f"error is {sigma(it.error[1].fit)} sigma."
+            "The geometric nonlinearity of the bars (`bar_geometric_nonlinearity`) entered the model first: with it "
+            f"the error is {sigma(it.error[1].fit)} sigma."
         )
     for each in it.entered:
         yield (
@@ -76,6 +76,12 @@ def _law(it: LawFound) -> Iterator[str]:
 
 
 def _last(it: Discovered) -> Iterator[str]:
+    if it.set_aside:
+        some = ", ".join(
+            f"{e.column} in {e.test} step {e.step} ({sigma(e.sigma)})" for e in it.set_aside[:MANY]
+        )
+        more = f" and {len(it.set_aside) - MANY} more" if len(it.set_aside) > MANY else ""
+        yield f"Set aside as single bad readings, off by so many of their sigmas: {some}{more}."
     if not it.laws and not it.entered:
         return
     if it.whole:
