@@ -274,7 +274,7 @@ def _begin(
     fits = start is not None and start.unknowns.shape[-1] == layout(bare).size
     near = replace(start, mechanism=bare) if start is not None and fits else None
     state = equilibrium(bare, group.targets, group.channels[:, None], near, drives=inputs)
-    return with_slides(state, mechanism)
+    return with_slides(replace(state, drives=drive_values(mechanism, inputs)), mechanism)
 
 
 def _shifted(group: Group, shift: Array) -> Group:
