@@ -28,6 +28,7 @@ autodoc_member_order = "bysource"
 autodoc_typehints = "signature"
 autodoc_preserve_defaults = True
 add_module_names = False
+toc_object_entries_show_parents = "hide"
 
 html_theme = "furo"
 html_title = f"parastiff {release}"
@@ -63,7 +64,13 @@ def _complete(app: Any, failure: Exception | None) -> None:
     draw(Path(app.outdir) / "_static" / FOLDER, app.config.pictures_of or None)
 
 
+def _signature(app: Any, what: str, name: str, it: Any, options: Any, signature: str, returns: str) -> Any:
+    """Without a default that is no Python: Sphinx would show the whole signature as it is."""
+    return (signature and signature.replace("<factory>", "...")), returns
+
+
 def setup(app: Any) -> None:
     """As Sphinx calls it. pictures_of: the one effect of which a picture is drawn, for a quick look."""
     app.add_config_value("pictures_of", "", "")
+    app.connect("autodoc-process-signature", _signature)
     app.connect("build-finished", _complete)

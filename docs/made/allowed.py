@@ -85,7 +85,7 @@ def _words(kind: Any, metadata: Iterable[Any] = ()) -> str:
     if origin in (tuple, list):
         return _list(origin, inside)
     if origin is dict:
-        return f"by name: {_words(inside[1])}" if inside[1] is not Any else "table"
+        return "table" if inside[1] is Any else f"table of {_many(_words(inside[1]))} by name"
     if isinstance(kind, type) and issubclass(kind, BaseModel):
         return f"table [{called(kind)}](#{anchor(kind)})"
     return _plain(kind, metadata)
@@ -94,10 +94,16 @@ def _words(kind: Any, metadata: Iterable[Any] = ()) -> str:
 def _list(origin: Any, inside: tuple[Any, ...]) -> str:
     each = _words(inside[0])
     if origin is tuple and Ellipsis not in inside:
-        return f"list of {_COUNTS.get(len(inside), str(len(inside)))}: {each}"
-    if get_origin(inside[0]) in (list, tuple):
-        return f"list of lists: {_words(get_args(inside[0])[0])}"
-    return f"list: {each}"
+        return f"list of {_COUNTS.get(len(inside), str(len(inside)))} {_many(each)}"
+    return f"list of {_many(each)}"
+
+
+def _many(words: str) -> str:
+    """Of one thing that of several: list, table, number, text ..."""
+    first, _, rest = words.partition(" ")
+    if words.startswith("whole number"):
+        return words.replace("whole number", "whole numbers", 1)
+    return " ".join(filter(None, [f"{first}s", rest]))
 
 
 def _plain(kind: Any, metadata: Iterable[Any]) -> str:

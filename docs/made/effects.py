@@ -6,6 +6,7 @@ from collections.abc import Callable, Iterator
 from html import escape
 from pathlib import Path
 
+from docs.made.allowed import short
 from docs.made.lists import rows
 from docs.made.pictures import drawn
 from docs.made.signatures import shown, signature
@@ -64,7 +65,7 @@ def _parameter(p: Parameter) -> tuple[str, ...]:
 
 def _picture(effect: Effect) -> str:
     it = shown(effect)
-    sizes = ", ".join(f"{p.name} = {p.null + p.typical:.4g} {p.unit}" for p in it.parameters)
+    sizes = ", ".join(f"{p.name} = {_number(p.null + p.typical)} {p.unit}" for p in it.parameters)
     said = f"What {it.name} does to the readings{f' at {sizes}' if sizes else ''}"
     source = f"../_static/{FOLDER}/{effect.name}.png"
     return (

@@ -22,8 +22,8 @@ _SMALL = {"mm": ("µm", 1e3), "rad": ("µrad", 1e6)}
 def drawn(panels: Sequence[Panel]) -> bytes:
     """PNG of the panels."""
     lines = -(-len(panels) // COLUMNS)
-    figure = Figure(figsize=(9.6, 2.5 * lines + 0.2), layout="constrained")
-    grid = figure.subplots(lines, COLUMNS, squeeze=False)
+    figure = Figure(figsize=(9.6, 2.6 * lines + 0.2))
+    grid = figure.subplots(lines, COLUMNS, squeeze=False, gridspec_kw={"wspace": 0.36, "hspace": 0.5})
     for ax, panel in zip(grid.flat, panels, strict=False):
         _draw(ax, panel)
     for ax in list(grid.flat)[len(panels) :]:

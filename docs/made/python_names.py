@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterator
 import parastiff
 
 _OPTIONS = {
-    "class": ("autoclass", (":members:", ":inherited-members: object")),
+    "class": ("autoclass", (":members:", ":inherited-members: BaseException, object")),
     "module": ("automodule", (":members:",)),
     "function": ("autofunction", ()),
 }
