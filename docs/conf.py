@@ -24,6 +24,7 @@ suppress_warnings = ["config.cache"]
 
 # Docstrings are plain text with `code` in single quotes.
 default_role = "code"
+smartquotes = False
 autodoc_member_order = "bysource"
 autodoc_typehints = "signature"
 autodoc_preserve_defaults = True

@@ -6,6 +6,8 @@ from collections.abc import Callable
 from functools import cache
 from pathlib import Path
 
+from scipy.stats import norm
+
 from docs.made.lists import rows
 from pipeline.challenge.page import SCORES
 from pipeline.challenge.score import Scored
@@ -63,8 +65,14 @@ def _cell(text: str) -> str:
     return text.replace("|", r"\|").replace("*", r"\*").replace("<", "&lt;")
 
 
+def wrong_name() -> str:
+    """Largest chance to name the wrong one of two effects: Phi(-(a² + e) / (2 a)) at a² = e, e the criterion."""
+    return f"{100 * norm.cdf(-(CRITERIA.exclusion**0.5)):.1f}"
+
+
 PIECES: dict[str, Callable[[], str]] = {
     "criteria": criteria,
+    "chance of a wrong name": wrong_name,
     "score": score,
     "score by effect": by_effect,
 }

@@ -52,15 +52,12 @@ def _page(effect: Effect) -> Iterator[str]:
 
 
 def _parameter(p: Parameter) -> tuple[str, ...]:
-    typical = p.null + p.typical
-    return (
-        f"`{p.name}`",
-        p.unit,
-        f"{p.null:g}",
-        f"{typical:.4g}",
-        f"{p.low:g} to {p.high:g}",
-        _escaped(p.meaning),
-    )
+    typical, bounds = _number(p.null + p.typical), f"{short(p.low)} to {short(p.high)}"
+    return f"`{p.name}`", p.unit, short(p.null), typical, bounds, _escaped(p.meaning)
+
+
+def _number(value: float) -> str:
+    return short(float(f"{value:.4g}"))
 
 
 def _picture(effect: Effect) -> str:

@@ -1,8 +1,8 @@
 """Runs the fenced blocks of a page in order: Python in one namespace, commands in one folder, files by their caption.
 
-    python              is run; what it prints has to stand in a `text` block behind it
-    console             lines `$ parastiff ...` are run, and what stands below a line is compared with what it prints
-    toml with :caption: is written to that file
+python              is run; what it prints has to stand in a `text` block behind it
+console             lines `$ parastiff ...` are run, and what stands below a line is compared with what it prints
+toml with :caption: is written to that file
 """
 
 from __future__ import annotations

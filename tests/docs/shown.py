@@ -1,4 +1,4 @@
-"""Compares what a page shows with what came out: words as they are, numbers within their last digit, `...` for anything."""
+"""Compares what a page shows with what came out: words as they are, numbers to their last digit, `...` for anything."""
 
 from __future__ import annotations
 
@@ -23,7 +23,9 @@ def difference(shown: str, printed: str) -> str:
     for part in middle:
         found = _found(part, words, place)
         if found is None:
-            return f"{' '.join(part)!r} did not come out behind {' '.join(words[max(0, place - 5) : place])!r}"
+            return (
+                f"{' '.join(part)!r} did not come out behind {' '.join(words[max(0, place - 5) : place])!r}"
+            )
         place = found + len(part)
     end = len(words) - len(last)
     return "too little came out" if end < place else _differs(last, words[end:])
@@ -50,7 +52,9 @@ def _alike(shown: str, printed: str) -> bool:
     if _NUMBER.sub("#", shown) != _NUMBER.sub("#", printed):
         return False
     pairs = zip(_NUMBER.findall(shown), _NUMBER.findall(printed), strict=True)
-    return all(abs(float(a) - float(b)) <= UNITS_OF_LAST_DIGIT * _last_digit(a) * (1 + 1e-9) for a, b in pairs)
+    return all(
+        abs(float(a) - float(b)) <= UNITS_OF_LAST_DIGIT * _last_digit(a) * (1 + 1e-9) for a, b in pairs
+    )
 
 
 def _last_digit(number: str) -> float:
