@@ -2,17 +2,19 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 
 import pytest
+from sybil import Sybil
 
 from tests.conftest import ROOT
-from tests.docs.fences import NotAsShownError, run
+from tests.docs.fences import NotAsShownError, fences, run
 from tests.docs.shown import difference
 
 PAGES = ROOT / "docs" / "tutorials"
-LONG = {"calibration"}
-"""A whole machine at 40 postures takes minutes."""
+LONG = {"own_table", "own_report", "calibration"}
+"""Pages of a minute or more; a whole machine at 40 postures takes several."""
 
 
 def pages() -> list[object]:
@@ -23,6 +25,15 @@ def pages() -> list[object]:
 @pytest.mark.parametrize("page", pages())
 def test_a_tutorial_comes_out_as_it_is_shown(page: str, tmp_path: Path) -> None:
     assert run(PAGES / f"{page}.md", tmp_path) >= 5
+
+
+@pytest.mark.parametrize("name", sorted(path.stem for path in PAGES.glob("*.md")))
+def test_every_block_of_a_tutorial_is_one_that_is_run(name: str) -> None:
+    """Also of those that take minutes."""
+    document = Sybil(parsers=[fences]).parse(PAGES / f"{name}.md")
+    languages = [example.parsed.language for example in document.examples()]
+    assert len(languages) == len(re.findall(r"^```", document.text, re.MULTILINE)) / 2
+    assert "python" in languages and languages[0] not in ("text", "")
 
 
 def page(folder: Path, text: str) -> Path:
