@@ -37,6 +37,8 @@ html_css_files = ["own.css"]
 html_show_sourcelink = False
 html_copy_source = False
 html_show_sphinx = False
+# A browser lets no page on disk fetch another one for an excerpt.
+html_show_search_summary = False
 
 MATHJAX = "tex-svg.js"
 

@@ -28,7 +28,7 @@ _FENCE = re.compile(
     re.MULTILINE | re.DOTALL,
 )
 PROGRAM = "import sys; sys.argv[0] = 'parastiff'; from pipeline.__main__ import main; main()"
-PRINTED, FOLDER, SECONDS = "__printed__", "__folder__", 900
+PRINTED, FOLDER, SECONDS = "__printed__", "__folder__", 3600
 
 
 @dataclass(frozen=True)
