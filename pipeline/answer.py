@@ -20,7 +20,7 @@ LEVEL = 0.01
 
 
 class Value(Record):
-    """A parameter of an effect, in the unit of the parameter; None where the data set no end."""
+    """A parameter of an effect, in its unit; an end of its interval is None where the data set none."""
 
     value: float
     """Best-fitting value."""

@@ -29,7 +29,11 @@ def _command(function: Callable[..., Any]) -> str:
     name, told = function.__name__, list(_parameters(function))
     places = [said for said, _, of_place in told if of_place]
     usage = " ".join([f"parastiff {name}", *places, *(["[OPTIONS]"] if len(places) < len(told) else [])])
-    table = rows(("", ""), [(f"`{_cell(said)}`", _cell(text)) for said, text, _ in told]) if told else ""
+    table = (
+        rows(("argument or option", "meaning"), [(f"`{_cell(said)}`", _cell(text)) for said, text, _ in told])
+        if told
+        else ""
+    )
     doc = inspect.getdoc(function) or ""
     return f"(command-{name})=\n\n## {name}\n\n{doc}\n\n```text\n{usage}\n```\n\n{table}"
 
