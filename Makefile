@@ -33,6 +33,12 @@ quick: $(STAMP)
 proofs: setup
 	$(ALONE) $(PYTHON) -m pytest -n 2 -m long
 
+# The documentation, in build/docs: tutorials, reference, how the verdict is made. It needs no network.
+.PHONY: docs
+docs: $(STAMP)
+	$(ALONE) $(PYTHON) -m sphinx -q -E -W --keep-going docs build/docs
+	@echo "build/docs/index.html"
+
 # Every command on two thousand small random tables.
 .PHONY: fuzz
 fuzz: setup

@@ -75,7 +75,7 @@ def rotation_jacobian(phi: ArrayLike) -> Array:
 
 
 def inverse_rotation_jacobian(phi: ArrayLike) -> Array:
-    """B(phi) = A(phi)^-1 (..., 3, 3): phi_dot = B(phi) omega. Regular for |phi| < 2 pi."""
+    """B(phi) = A(phi)^-1 (..., 3, 3): phi_dot = B(phi) omega. Regular for abs(phi) < 2 pi."""
     phi = np.asarray(phi, dtype=float)
     square = np.sum(phi * phi, axis=-1)
     c = _inverse_coefficient(square)

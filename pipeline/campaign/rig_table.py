@@ -29,8 +29,11 @@ class RigTable(Table):
     """Coordinates that a test usually holds."""
 
     gravity: tuple[Number, Number, Number] | None = None
+    """Direction of gravity, base frame; its length has no meaning. Needed by a weight."""
     platform_weight_N: Weight = 0.0
+    """Known weight that hangs on the platform at its point."""
     reference_temperature_C: Celsius | None = None
+    """Temperature at which the dimensions hold; needed where temperature_C was measured."""
 
     @field_validator("gravity")
     @classmethod

@@ -30,30 +30,46 @@ Number = Annotated[float, Field(strict=True)]
 
 class _Source(Table):
     campaign: str = ""
+    """Name of the campaign."""
     commit: str = ""
+    """Commit of the program."""
     versions: dict[str, str] = Field(default_factory=dict)
+    """Versions of the program and its libraries."""
 
 
 class _Error(Table):
     std: Number | None = None
+    """Standard error."""
     low95: Number | None = None
+    """Lower end of the 95 % interval."""
     high95: Number | None = None
+    """Upper end of the 95 % interval."""
 
 
 class _Effect(Table):
     name: str
+    """Name of the effect, as in the catalogue."""
     values: dict[str, Any] = Field(default_factory=dict)
+    """Value of each parameter, in its unit."""
     errors: dict[str, _Error] = Field(default_factory=dict)
+    """What is known of each value; for information."""
 
 
 class _Top(Table):
     schema_version: Annotated[int, Field(alias="schema", strict=True)]
+    """Version of this format; it is 1."""
     base: Literal["vjm"]
+    """What the effects are added to: the plain virtual-joint model."""
     effects_from: list[str] = Field(default_factory=list)
+    """Python files with effects of the user's own, from the folder of this file."""
     fixed: list[str] = Field(default_factory=list)
+    """Parameters effect.parameter that a fit leaves alone."""
     source: Annotated[_Source, Field(alias="from")] = _Source()
+    """What made the file; for information."""
     nominals: dict[str, dict[str, Any]] = Field(default_factory=dict)
+    """What was written about the rig, by tolerance and parameter, as it fits best beside these effects."""
     effects: list[dict[str, Any]] = Field(default_factory=list)
+    """The effects, one table each, in order."""
 
 
 Kind = Rig | type[Rig]

@@ -9,27 +9,41 @@ UNITS: dict[Quantity, str] = {"K_tran": "N/mm", "K_rot": "N·mm/rad"}
 
 
 class Unknown(Record):
-    """A number that the paper does not give: fitted within [low, high] to the cells named."""
+    """A number that the paper does not give."""
 
     name: str
+    """What it is."""
     value: float
+    """As fitted."""
     unit: str
+    """Its unit."""
     low: float
+    """Least plausible value."""
     high: float
+    """Greatest plausible value."""
     at_bound: bool
+    """Whether it ends at one of these."""
     cell: str
+    """Cells that it is fitted to."""
 
 
 class Cell(Record):
-    """One cell; deviation is ours / paper - 1, None where the paper has none. fitted: used to find an unknown."""
+    """One cell of the table."""
 
     linkage: str
+    """Kind of linkage."""
     model: Literal["vjm", "fea"]
+    """Virtual springs or finite elements."""
     quantity: Quantity
+    """Translational or rotational stiffness, N/mm or N·mm/rad."""
     ours: float
+    """As computed here."""
     paper: float | None
+    """As printed; None where the paper has none."""
     deviation: float | None
+    """ours / paper - 1."""
     fitted: bool
+    """Whether the cell was used to find an unknown."""
 
 
 class ReadingRow(Record):
@@ -37,41 +51,62 @@ class ReadingRow(Record):
     for K_tran and 1/33 for K_rot), platform free to turn, or held against turning (K_tran_held)."""
 
     reading: str
+    """How the words of the paper are read."""
     moves: bool
+    """Whether the machine can move then."""
     K_tran: float
+    """Translational stiffness, platform free to turn, N/mm."""
     K_tran_held: float
+    """The same with the platform held against turning."""
     K_rot: float
+    """Rotational stiffness, N·mm/rad."""
     K_tran_over_parallelogram: float
+    """K_tran over that of the parallelogram with solid axes."""
     K_tran_held_over_parallelogram: float
+    """K_tran_held over the same."""
     parallelogram_over_K_rot: float
+    """Rotational stiffness of the parallelogram over this."""
 
 
 class Agreement(Record):
     """Worst difference of the principal K_tran and K_rot between the two models, over postures."""
 
     linkage: str
+    """Kind of linkage."""
     postures: int
+    """Number of postures."""
     K_tran: float
+    """Worst relative difference of the principal translational stiffness."""
     K_rot: float
+    """The same of the rotational one."""
 
 
 class Finding(Record):
     """A qualitative statement of the paper, and whether it comes out without being fitted."""
 
     statement: str
+    """What the paper says."""
     holds: bool
+    """Whether it comes out."""
     found: str
+    """What was found."""
 
 
 class Table1(Record):
-    """Table 1 of the paper computed again."""
+    """The answer of table: Table 1 of the paper computed again."""
 
     unknowns: list[Unknown]
+    """Numbers that the paper does not give."""
     cells: list[Cell]
+    """The cells of the table."""
     readings: list[ReadingRow]
+    """What each reading of ‘2x-bar linkage’ gives."""
     agreement: list[Agreement]
+    """How far the two models are apart."""
     findings: list[Finding]
+    """Statements of the paper."""
     source: str
+    """The publication."""
 
     @property
     def fitted(self) -> int:

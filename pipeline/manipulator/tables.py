@@ -34,12 +34,19 @@ class Top(Table):
     """The whole file, its tables still as they were read."""
 
     schema_version: Annotated[int, Field(alias="schema", strict=True)]
+    """Version of this format; it is 1."""
     name: Text
+    """Name of the machine."""
     length_mm: Length
+    """Characteristic length of the machine, by which sizes are scaled."""
     home_mm: Point = (0.0, 0.0, 0.0)
+    """Position of the platform point at home, base frame; inverse kinematics starts there."""
     gravity: Vector = (0.0, 0.0, -1.0)
+    """Direction of gravity, base frame; its length has no meaning."""
     chains: dict[str, list[dict[str, Any]]]
+    """Chains of parts by name: [[chains.NAME]] for each part, from base to platform."""
     legs: Annotated[list[dict[str, Any]], Field(min_length=1, max_length=100)]
+    """The legs, one table each."""
 
     _name = field_validator("name")(printable)
 
@@ -60,7 +67,9 @@ class Placed(Table):
     """A frame by its origin and two of its axes; y is made normal to x."""
 
     x_axis: Vector = (1.0, 0.0, 0.0)
+    """Direction of the frame's x axis, in the frame before it."""
     y_axis: Vector = (0.0, 1.0, 0.0)
+    """Direction of its y axis; made normal to x."""
 
     @model_validator(mode="after")
     def spans(self) -> "Placed":
@@ -84,9 +93,13 @@ class LegTable(Placed):
     """One leg: its base frame, its chain, and its place on the platform; there its end has the axes of its base."""
 
     name: Text
+    """Name of the leg, as effects and results call it."""
     chain: Text
+    """Name of its chain."""
     at_mm: Point
+    """Origin of the leg, base frame."""
     ends_at_mm: Point = (0.0, 0.0, 0.0)
+    """Where the leg ends on the platform, from the platform point, base frame."""
 
     _name = field_validator("name")(printable)
 
@@ -104,6 +117,7 @@ class PartTable(Table, ABC):
     """One part of a chain."""
 
     part: str
+    """Kind of part."""
 
     @abstractmethod
     def made(self) -> Part:
@@ -114,7 +128,9 @@ class RigidTable(Placed):
     """A rigid link."""
 
     part: Literal["rigid"]
+    """A rigid link."""
     to_mm: Point = (0.0, 0.0, 0.0)
+    """Its end, in the frame at which it starts."""
 
     def made(self) -> Part:
         return Frame(np.array(self.to_mm), self.rotation)
@@ -124,11 +140,17 @@ class JointTable(PartTable):
     """What actuators, passive and virtual joints share; the keys with a unit must be those of the kind."""
 
     kind: Kind
+    """A joint that slides along its axis, or turns about it."""
     axis: Axis
+    """Axis of the joint, in the frame at which it stands."""
     home_mm: Place | None = None
+    """Position of a sliding joint from which inverse kinematics starts."""
     home_deg: Angle | None = None
+    """Angle of a turning joint from which inverse kinematics starts."""
     stiffness_N_per_mm: Spring | None = None
+    """Stiffness of a sliding joint."""
     stiffness_Nmm_per_rad: Spring | None = None
+    """Stiffness of a turning joint."""
     of: ClassVar[dict[str, set[str]]] = {
         "translation": {"home_mm", "stiffness_N_per_mm", "limits_mm"},
         "rotation": {"home_deg", "stiffness_Nmm_per_rad", "limits_deg"},
@@ -160,8 +182,11 @@ class ActuatorTable(JointTable):
     """An actuated joint; without a stiffness it is rigid."""
 
     part: Literal["actuator"]
+    """An actuated joint; without a stiffness it is rigid."""
     limits_mm: tuple[Place, Place] | None = None
+    """Lowest and highest position of a sliding joint."""
     limits_deg: tuple[Number, Number] | None = None
+    """Lowest and highest angle of a turning joint."""
 
     @model_validator(mode="after")
     def ordered(self) -> "ActuatorTable":
@@ -183,6 +208,7 @@ class PassiveTable(JointTable):
     """A perfect passive joint."""
 
     part: Literal["passive"]
+    """A perfect joint that nothing drives; it has no stiffness."""
 
     @model_validator(mode="after")
     def perfect(self) -> "PassiveTable":
@@ -198,6 +224,7 @@ class VirtualTable(JointTable):
     """A spring."""
 
     part: Literal["virtual"]
+    """A spring; it needs its stiffness and has no home."""
 
     @model_validator(mode="after")
     def sprung(self) -> "VirtualTable":
@@ -215,9 +242,13 @@ class ElasticTable(PartTable):
     """What links and parallelograms share: a bar by its 6x6 or as a uniform beam."""
 
     length_mm: Length
+    """Length along the x of the frame at which it starts."""
     stiffness: list[list[Entry]] | None = None
+    """6x6 of the link, or of one bar, at its tip with the base clamped; N, mm, rad."""
     beam: BarTable | None = None
+    """Instead of stiffness: rigidities of a uniform beam."""
     segments: Segments = 0
+    """Segments with geometric stiffness; 0: one lumped spring at the tip."""
 
     @field_validator("stiffness")
     @classmethod
@@ -248,6 +279,7 @@ class LinkTable(ElasticTable):
     """An elastic link."""
 
     part: Literal["link"]
+    """An elastic link."""
 
     def made(self) -> Part:
         return elastic(self.length_mm, self.bar(), self.segments)
@@ -257,13 +289,21 @@ class ParallelogramTable(ElasticTable):
     """A parallelogram of two equal bars; stiffness and beam are those of one of them."""
 
     part: Literal["parallelogram"]
+    """Two equal bars between four hinges about y."""
     width_mm: Length
+    """Distance of the two bars, along z."""
     radial_mm_per_N: Give = 0.0
+    """Compliance of each hinge axis across itself."""
     tilt_rad_per_Nmm: Give = 0.0
+    """Compliance of each hinge axis in tilt."""
     home_deg: Angle = 0.0
+    """Angle of the bars from which inverse kinematics starts."""
     bars: Bars = "pair"
+    """pair: two bars with hinges. equivalent: one pseudo-rigid bar with the same stiffness at rest."""
     fibre_y_mm: Length | None = None
+    """From the axis of a bar to its outermost fibre in y; needed by material_yield."""
     fibre_z_mm: Length | None = None
+    """The same in z."""
 
     @model_validator(mode="after")
     def segmented(self) -> "ParallelogramTable":

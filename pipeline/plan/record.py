@@ -20,37 +20,55 @@ from pipeline.record import Record
 
 
 class Size(Record):
-    """A number of an effect: sizes from null in `unit`; None: not to be had from these tests below a thousand typical
-    ones. detected: with 90 % power. apart: told from every rival in 95 % of cases. rho: correlation with the rival."""
+    """How small an effect these tests can show. Sizes are from the null value; None: not to be had below a
+    thousand typical ones."""
 
     effect: str
+    """Name of the effect."""
     parameter: str
+    """Name of its parameter."""
     unit: str
+    """Unit of the sizes."""
     typical: float
+    """Typical size."""
     detected: float | None
+    """Smallest size that is detected with 90 % power."""
     apart: float | None
+    """Smallest size that is told from every rival in 95 % of cases."""
     rival: str
+    """Effect that looks most like it in these tests."""
     rho: float
+    """Correlation with that rival."""
     gamma: float
+    """1 / sqrt(1 - rho): by how much larger it has to be to be told from the rival."""
 
 
 class Plan(Record):
-    """sizes: of every number. names, alike: rows and columns, and the multiple correlation of each effect (row) with
-    another (column). next_test: as in a diagnosis; None if none of the menu adds anything. unmeasured: tests whose
-    readings are still to come. refused: effects that the rig or the campaign cannot have, and why. untested: why the
-    tests so far can test nothing. not_done: optional parts that failed, and why."""
+    """The answer of plan."""
 
     campaign: str
+    """Name of the campaign."""
     sizes: tuple[Size, ...]
+    """Of every parameter of every effect."""
     names: tuple[str, ...]
+    """Effects that alike has as rows and columns."""
     alike: tuple[tuple[float, ...], ...]
+    """Multiple correlation of each effect (row) with another one (column)."""
     next_test: dict[str, Any] | None
+    """The test that is worth most: q_deg, control, driven, largest, why, newly (what it would newly show) and
+    score; None if none adds anything."""
     unmeasured: tuple[str, ...]
+    """Tests whose readings are still to come."""
     refused: dict[str, str]
+    """Effects that the rig or the campaign cannot have, and why."""
     untested: str = ""
+    """Why the tests so far can test nothing; empty where they can."""
     not_done: tuple[str, ...] = ()
+    """Optional parts that failed, and why."""
     commit: str
+    """Commit of the program."""
     versions: dict[str, str]
+    """Versions of the program and its libraries."""
 
     def write(self, path: Path) -> None:
         """Write the JSON whole or not at all. InputError where nothing can be written."""

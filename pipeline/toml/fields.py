@@ -44,9 +44,13 @@ class BarTable(Table):
     """A uniform bar."""
 
     EA_N: Rigidity
+    """Axial rigidity."""
     EIy_Nmm2: Rigidity
+    """Bending rigidity about y: for deflection along z."""
     EIz_Nmm2: Rigidity
+    """Bending rigidity about z: for deflection along y."""
     GJ_Nmm2: Rigidity
+    """Torsional rigidity."""
 
 
 def sentences(error: ValidationError, model: type[BaseModel]) -> list[tuple[tuple[str | int, ...], str]]:

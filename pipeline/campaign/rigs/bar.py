@@ -94,8 +94,12 @@ tip = "free"                 # or "pinned", "guided"
 """
 
     kind: Literal["bar"]
+    """One bar along x."""
     base: Base | None = None
+    """Support of its base. Left out: clamped."""
     tip: Tip | None = None
+    """Support of its tip. guided: it shifts and does not turn. pinned: a hinge about y on a block that slides along x.
+    Left out: free."""
 
     def bars(self) -> BarRig:
         return BarRig(base=self.base or "clamped", tip=self.tip or "free", **self.made_of())

@@ -123,13 +123,22 @@ class TableOfBars(RigTable):
 """
 
     length_mm: Length
+    """Length of a bar, between its hinge axes where it has any."""
     bar_stiffness: list[list[Entry]] | None = None
+    """6x6 stiffness of one bar at its tip with the base clamped, bar frame; x y z rx ry rz to Fx Fy Fz Mx My Mz;
+    N, mm, rad."""
     bar: BarTable | None = None
+    """Rigidities of a uniform slender bar."""
     section: SectionSize | None = None
+    """Section of a uniform bar, with material."""
     material: Material | None = None
+    """Material of that section."""
     line_weight_N_per_mm: Weight = 0.0
+    """Known weight of each bar along its length, with gravity."""
     fibre_y_mm: Length | None = None
+    """From the bar's axis to its outermost fibre in y; needed by material_yield. A section has its own."""
     fibre_z_mm: Length | None = None
+    """The same in z."""
 
     @field_validator("bar_stiffness")
     @classmethod

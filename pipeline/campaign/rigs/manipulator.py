@@ -126,7 +126,9 @@ file = "?"                   # that describes its legs, beside this one; or "ort
     )
 
     kind: Literal["manipulator"]
+    """A whole machine."""
     file: Text
+    """Manipulator file, beside campaign.toml, or the name of a shipped one such as orthoglide."""
 
     @field_validator("file")
     @classmethod

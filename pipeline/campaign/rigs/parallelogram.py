@@ -85,7 +85,9 @@ bar = { EA_N = "?", EIy_Nmm2 = "?", EIz_Nmm2 = "?", GJ_Nmm2 = "?" }   # of one b
     held = ("z",)
 
     kind: Literal["parallelogram"]
+    """Two bars between four hinges about y."""
     width_mm: Length | None = None
+    """Distance of the two bars; it is needed."""
 
     def contradictions(self) -> list[str]:
         missing = ["width_mm is missing, a parallelogram needs it"] if self.width_mm is None else []
