@@ -38,6 +38,7 @@ SCHEMAS = {**TABLES, **ANSWERS}
 RECORDS = (
     "pipeline.answer",
     "pipeline.compare.record",
+    "pipeline.discover.record",
     "pipeline.plan.record",
     "pipeline.manipulator.table_record",
 )

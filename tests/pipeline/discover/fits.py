@@ -1,0 +1,38 @@
+"""Fits of small benches in which a law is looked for."""
+
+from dataclasses import replace
+from functools import cache
+
+from pipeline.campaign import Campaign
+from pipeline.diagnose.diagnosis import suitable
+from pipeline.discover.locating import Map, mapped
+from pipeline.inference.fit import Fit, unfitted
+from pipeline.inference.model import Model
+from pipeline.inference.program import Program, program
+from pipeline.inference.suitable import scale_for
+from tests.pipeline.bench import bench
+from vjm.effects import catalogue
+from vjm.effects.base import Effect
+from vjm.effects.sized import all_sized
+
+GEOMETRY = catalogue()["bar_geometric_nonlinearity"]
+
+
+def fitted_tests(campaign: Campaign) -> Program:
+    """The program of the tests that may be fitted."""
+    return program(replace(campaign, tests=tuple(t for t in campaign.tests if t.role == "fit")))
+
+
+def effects_for(campaign: Campaign) -> dict[str, Effect]:
+    return suitable(campaign, Model(), all_sized(catalogue(), scale_for(campaign)))[0]
+
+
+@cache
+def fit_of(effect: str = "", value: float = 0.0) -> Fit:
+    """Of the model with geometric nonlinearity alone."""
+    return unfitted(Model().with_effects([GEOMETRY]), fitted_tests(bench(effect, value)))
+
+
+@cache
+def map_of(effect: str = "", value: float = 0.0) -> Map:
+    return mapped(fit_of(effect, value), effects_for(bench(effect, value)))

@@ -1,0 +1,128 @@
+"""Laws that frame elements made, found again: the place, the form, the file that says so."""
+
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from pipeline.discover.effect_file import effect_text, name_of, write_effect
+from pipeline.discover.forming import formed
+from pipeline.discover.recording import recorded
+from pipeline.discover.search import Discovery, discover
+from pipeline.discover.words import sentences
+from pipeline.errors import InputError
+from pipeline.inference.fit import unfitted
+from pipeline.inference.model import Model, Term
+from pipeline.inference.program import program
+from tests.pipeline.bench import bench
+from tests.pipeline.discover.fits import effects_for, fitted_tests, map_of
+from vjm.effects import from_file
+from vjm.effects.base import Effect
+
+HIDDEN = {
+    "joint_torsional_stiffness.stiffness_Nmm_per_rad": (30000.0, "hinge_torque", "linear"),
+    "joint_friction.torque_Nmm": (600.0, "hinge_torque", "coulomb"),
+    "base_compliance.x_mm_per_N": (6e-6, "base_x", "linear"),
+    "contact_stiffening.c_mm_per_N23": (1e-4, "along", "power"),
+    "joint_clearance.play_mm": (0.02, "along", ""),
+}
+
+
+@pytest.mark.parametrize("effect", list(HIDDEN))
+def test_the_place_is_the_best_or_in_its_group(effect: str) -> None:
+    value, site, _ = HIDDEN[effect]
+    seen = map_of(effect, value)
+    assert site in {it.site.name.partition("@")[0] for it in seen.group(10.0)}
+    assert seen.best > 50.0
+    assert seen.body is None or seen.body.value < seen.best - 10.0
+
+
+@pytest.mark.parametrize("effect", [name for name, (_, _, form) in HIDDEN.items() if form])
+def test_the_form_is_among_those_that_explain_as_much(effect: str) -> None:
+    value, site, form = HIDDEN[effect]
+    seen = map_of(effect, value)
+    best = next(it for it in seen.sites if it.site.kind == site and "@" not in it.site.name)
+    every = formed(best.site, seen.rest, best.evidence.site.largest)
+    assert form in [it.form.name for it in every if it.cost <= every[0].cost + 10.0]
+
+
+@pytest.mark.parametrize(
+    ("effect", "value", "body"),
+    [
+        ("load_offset.y_mm", 3.0, "load_offset"),
+        ("modulus_error.scale", 0.95, "modulus_error"),
+        ("bar_initial_bow.bow_y_mm", 0.5, "bar_initial_bow"),
+    ],
+)
+def test_what_is_no_law_by_nature_is_none(effect: str, value: float, body: str) -> None:
+    seen = map_of(effect, value)
+    assert seen.body is not None and seen.body.effect.name == body
+    assert seen.body.value > seen.best - 10.0
+
+
+def test_nothing_sits_anywhere_where_nothing_is() -> None:
+    seen = map_of()
+    assert seen.best < 8.0
+    assert all(it.value < 8.0 for it in seen.bodies)
+
+
+@pytest.fixture(scope="module")
+def found() -> Discovery:
+    campaign = bench("joint_friction.torque_Nmm", 600.0)
+    return discover(fitted_tests(campaign), Model(), effects_for(campaign))
+
+
+def test_friction_is_found_put_in_and_nothing_is_left(found: Discovery) -> None:
+    (law,) = found.laws
+    assert law.site.kind == "hinge_torque"
+    assert found.whole and found.bent
+    way = next(way for way in law.ways if way.formed.form.name in ("coulomb", "linear+coulomb"))
+    assert way.values["limit_Nmm"] == pytest.approx(600.0, rel=0.1)
+    assert found.end.rms == pytest.approx(1.0, abs=0.1)
+
+
+def test_the_record_says_it_in_words(found: Discovery) -> None:
+    campaign = bench("joint_friction.torque_Nmm", 600.0)
+    record = recorded(found, program(campaign), 1.0)
+    said = sentences(record)
+    assert said[0].startswith("What is left sits here: torque about the hinge axes.")
+    (law,) = record.laws
+    assert "loop" in law.shape
+    assert record.error[-1].holdout == pytest.approx(1.0, abs=0.15)
+    assert law.curve is not None and law.curve.x_unit == "rad" and law.curve.y_unit == "N·mm"
+    assert np.max(np.abs(law.curve.free)) == pytest.approx(600.0, rel=0.3)
+    assert not record.not_done
+    assert type(record).model_validate_json(record.text()) == record
+
+
+def test_the_file_gives_the_same_chi_square(found: Discovery, tmp_path: Path) -> None:
+    campaign = bench("joint_friction.torque_Nmm", 600.0)
+    record = recorded(found, program(campaign), 1.0)
+    path = tmp_path / "law.py"
+    write_effect(path, effect_text(found, record))
+    (law,) = found.laws
+    effects = from_file(path)
+    it: Effect = effects[name_of(law.ways[0])]
+    base = replace(found.end.model, terms=found.end.model.terms[:-1])
+    own = {p.name: v for p, v in zip(it.parameters, law.ways[0].values.values(), strict=True)}
+    again = unfitted(replace(base, terms=(*base.terms, Term(it, own))), fitted_tests(campaign))
+    there = unfitted(found.end.model, fitted_tests(campaign))
+    assert again.chi_square == pytest.approx(there.chi_square, rel=1e-6)
+
+
+def test_a_file_that_is_no_python_file_is_refused(tmp_path: Path) -> None:
+    with pytest.raises(InputError, match="no Python file"):
+        write_effect(tmp_path / "law.txt", "")
+
+
+@pytest.mark.long
+def test_a_play_is_found_as_a_gap() -> None:
+    campaign = bench("joint_clearance.play_mm", 0.02)
+    found = discover(fitted_tests(campaign), Model(), effects_for(campaign))
+    (law,) = found.laws
+    assert law.site.kind == "along" and law.ways[0].formed.form.name == "gap"
+    # Half of the play at either end of a bar, or all of it at one.
+    parts = 2.0 if "@" not in law.site.name else 1.0
+    assert parts * law.ways[0].values["gap_mm"] == pytest.approx(0.02, rel=0.05)
+    assert found.whole

@@ -1,0 +1,69 @@
+"""What a law at a site would do to the readings: against models that have the law, predicted again."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from pipeline.discover.elements import elements
+from pipeline.inference.model import Term
+from pipeline.inference.prediction import predict
+from pipeline.inference.residual import whitening
+from tests.pipeline.discover.fits import fit_of
+from vjm.effects.base import Parameter
+from vjm.law_sites import SITE_KINDS
+from vjm.site_law import SiteLaw
+
+SMALL = {"hinge_torque": 30.0, "shift": 1e-8, "turn": 1e-11}
+
+
+def law(site: str, slope: float) -> SiteLaw:
+    kind = SITE_KINDS[site.partition("@")[0]]
+    name = f"slope_{kind.gives.replace('·', '')}_per_{kind.over.replace('·', '')}"
+    return SiteLaw.of(
+        name="law", site=site, form="linear", parameters=(Parameter(name, "1", 0.0, slope, 0.0, 1e9, ""),)
+    )
+
+
+@pytest.mark.parametrize(
+    "site",
+    [
+        "hinge_torque",
+        "hinge_torque@tip.2",
+        "along@base",
+        "out_of_plane@1",
+        "tilt_z@tip",
+        "base_x",
+        "base_ry",
+    ],
+)
+def test_a_slight_linear_law_moves_readings_by_influence_times_coordinate(site: str) -> None:
+    found = fit_of()
+    kind = SITE_KINDS[site.partition("@")[0]]
+    slope = SMALL["hinge_torque"] if not kind.series else SMALL["turn" if kind.turns else "shift"]
+    it = law(site, slope)
+    model = replace(found.model, terms=(*found.model.terms, Term(it, {it.parameters[0].name: slope})))
+    cases, here = found.residual.program, found.prediction
+    there = predict(model, cases, slopes=False, start=here, shift=here.shift)
+    change = whitening(cases, here).apply(there.values - here.values)
+    truth = found.residual.flat(change)
+    tags = set(filter(None, site.partition("@")[2].split(".")))
+    own = [e for e in elements(found) if e.kind == kind.name and tags <= set(e.tags)]
+    assert own
+    rows = found.residual.rows[:, 0]
+    told = slope * np.sum([e.influence * e.coordinate[rows] for e in own], axis=0)
+    size = float(np.linalg.norm(truth))
+    assert size > 1e-4
+    assert float(np.linalg.norm(told - truth)) < 0.02 * size
+
+
+def test_a_column_is_over_what_is_predicted_of_it() -> None:
+    found = fit_of()
+    own = {e.kind: e for e in elements(found) if e.kind.startswith("column")}
+    cases, z, x = found.residual.program, own["column z_mm"], own["column x_mm"]
+    ruled, read = cases.channels[:, 2] == 2, cases.predicted[:, 0]
+    assert ruled.any() and read.any()
+    # Where it is prescribed it is what was prescribed, as that fits best; where it is read, the prediction.
+    off = np.abs(z.coordinate[ruled] - cases.measured[ruled, 2])
+    assert 0.0 < off.max() < 6.0 * cases.input_sigma[ruled, 2].max()
+    assert x.coordinate[read] == pytest.approx(found.prediction.values[read, 0])

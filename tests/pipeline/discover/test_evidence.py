@@ -1,0 +1,125 @@
+"""The evidence of a function at a site: against normal densities, and on residuals without any function."""
+
+import numpy as np
+import pytest
+from scipy.stats import multivariate_normal
+
+from pipeline.discover.bases import KNOTS, basis_of, hats, knots, priors, sliders
+from pipeline.discover.criteria import PROPOSED
+from pipeline.discover.evidence import Columns, Rest, columns
+
+TESTS, STEPS = 6, 20
+FIRST = np.arange(0, TESTS * STEPS + 1, STEPS)
+
+
+def rest_of(residuals: np.ndarray, tolerance: np.ndarray | None = None) -> Rest:
+    rows = np.arange(residuals.size) % (TESTS * STEPS)
+    order = np.argsort(rows, kind="stable")
+    rows = rows[order]
+    some = np.zeros((residuals.size, 0)) if tolerance is None else tolerance
+    return Rest(residuals, rows, rows // STEPS, FIRST, some)
+
+
+def history(seed: int) -> np.ndarray:
+    generator = np.random.default_rng(seed)
+    turns = generator.uniform(-1.0, 1.0, (TESTS, 3))
+    ways = [np.interp(np.linspace(0, 3, STEPS), range(4), [0.0, *own]) for own in turns]
+    return np.concatenate(ways)
+
+
+def test_it_is_the_ratio_of_two_normal_densities() -> None:
+    generator = np.random.default_rng(1)
+    c, count = history(1), TESTS * STEPS
+    influence, tolerance = generator.normal(size=count), generator.normal(size=(count, 2))
+    e = 2.0 * generator.normal(size=count)
+    rest = rest_of(e, tolerance)
+    site = Columns(columns(c, influence, rest.rows, FIRST, 1.0), 1.0)
+    found = rest.evidence(site)
+    noise = np.eye(count) + tolerance @ tolerance.T
+    root = found.size * found.prior.root
+    whole = noise + site.values @ root @ root.T @ site.values.T
+    ratio = multivariate_normal.logpdf(e, cov=whole) - multivariate_normal.logpdf(e, cov=noise)
+    assert found.value == pytest.approx(ratio, rel=1e-6, abs=1e-6)
+
+
+def test_no_law_is_proposed_in_white_residuals() -> None:
+    highest = 0.0
+    for seed in range(300):
+        generator = np.random.default_rng([7, seed])
+        rest = rest_of(generator.normal(size=TESTS * STEPS))
+        influence = generator.normal(size=TESTS * STEPS)
+        site = Columns(columns(history(seed), influence, rest.rows, FIRST, 1.0), 1.0)
+        highest = max(highest, rest.evidence(site).value)
+    assert 0.5 < highest < PROPOSED
+
+
+@pytest.mark.parametrize("kind", ["curve", "loop"])
+def test_a_function_is_found_with_its_shape(kind: str) -> None:
+    generator = np.random.default_rng(3)
+    c = history(3)
+    influence = 5.0 * generator.normal(size=c.size)
+    truth = c**3 if kind == "curve" else sliders(c, FIRST, 1.0)[:, 2]
+    rest = rest_of(influence * truth + generator.normal(size=c.size))
+    found = rest.evidence(Columns(columns(c, influence, rest.rows, FIRST, 1.0), 1.0))
+    assert found.value > 30.0
+    assert (found.prior.memory > 0.0) is (kind == "loop")
+    told = basis_of(c, FIRST, 1.0) @ found.weights
+    assert np.sqrt(np.mean((told - truth) ** 2)) < 0.1
+    gains = rest.gains(found.site.values, found.size * found.prior.root, rest.parts(1))
+    assert gains.size == TESTS and gains.sum() - gains.max() > PROPOSED
+
+
+def test_what_was_written_does_not_count_as_a_law() -> None:
+    generator = np.random.default_rng(5)
+    c = history(5)
+    influence = generator.normal(size=c.size)
+    # A number that was written, two standard deviations off, acts just as a linear law would.
+    tolerance = 20.0 * (influence * c)[:, None]
+    e = 2.0 * tolerance[:, 0] + generator.normal(size=c.size)
+    of = columns(c, influence, np.arange(c.size), FIRST, 1.0)
+    with_it, without = rest_of(e, tolerance), rest_of(e)
+    assert with_it.evidence(Columns(of, 1.0)).value < 8.0
+    assert without.evidence(Columns(of, 1.0)).value > 100.0
+
+
+def test_scales_of_coordinate_and_influence_do_not_matter() -> None:
+    generator = np.random.default_rng(9)
+    c = history(9)
+    influence = generator.normal(size=c.size)
+    rest = rest_of(3.0 * influence * np.tanh(3.0 * c) + generator.normal(size=c.size))
+    values = [
+        rest.evidence(Columns(columns(a * c, b * influence, rest.rows, FIRST, a), a)).value
+        for a, b in ((1.0, 1.0), (1e3, 1e-6), (1e-4, 1e5))
+    ]
+    assert values == pytest.approx([values[0]] * 3, rel=1e-6)
+
+
+def test_hats_add_up_to_one_and_meet_their_knots() -> None:
+    at = knots(2.0)
+    assert at.size == KNOTS and at[0] == -2.0 and at[-1] == 2.0
+    assert hats(at, at) == pytest.approx(np.eye(KNOTS))
+    x = np.linspace(-3.0, 3.0, 50)
+    assert hats(x, at).sum(axis=1) == pytest.approx(np.ones(50))
+    assert hats(x, at) @ at == pytest.approx(np.clip(x, -2.0, 2.0))
+
+
+def test_a_slider_starts_relaxed_in_each_test_and_stays_at_its_reach() -> None:
+    x = np.array([0.1, 0.6, 0.5, -0.5, 0.3, 0.3])
+    held = sliders(x, np.array([0, 4, 6]), 1.0)
+    # Reach 0.2: 0.1, 0.2, 0.1, -0.2 and, relaxed again, 0.2, 0.2.
+    assert held[:, 3] * 0.2 == pytest.approx([0.1, 0.2, 0.1, -0.2, 0.2, 0.2])
+
+
+def test_every_prior_is_a_covariance() -> None:
+    for prior in priors():
+        assert np.all(np.linalg.eigvalsh(prior.root @ prior.root.T) > -1e-9)
+
+
+def test_few_tests_are_parted_into_blocks() -> None:
+    rest = rest_of(np.zeros(TESTS * STEPS))
+    explained = np.where(rest.tests == 2, 1.0, 0.0)
+    assert rest.seen_in(explained) == pytest.approx(1.0)
+    assert rest.seen_in(np.ones(explained.size)) == pytest.approx(TESTS)
+    parts = rest.parts(4)
+    assert np.unique(parts).size == 4 * TESTS
+    assert np.all(np.bincount(parts) == STEPS // 4)
