@@ -15,6 +15,8 @@ class Cubic(CurveForm):
     """y = c x³, alone or beside a slope."""
 
     name = "cubic"
+    places = ("parallel",)
+    beside = ("parallel", "series")
     title = "third power"
     equation = "y = c x³"
     limits = "a power beyond the loads measured: it grows fast there"

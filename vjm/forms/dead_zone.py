@@ -15,6 +15,8 @@ class DeadZone(CurveForm):
     """y = k (x - clip(x, ±x0))."""
 
     name = "dead_zone"
+    places = ("parallel",)
+    beside = ("parallel", "series")
     title = "dead zone, linear beyond"
     equation = "y = k (x - x0 sign x) where abs(x) > x0, else 0"
     amplitudes = (Quantity("beyond", 1, -1, "slope beyond the zone"),)

@@ -15,6 +15,8 @@ class Square(CurveForm):
     """y = s x², beside a slope."""
 
     name = "square"
+    places = ("parallel",)
+    beside = ("parallel", "series")
     title = "square"
     equation = "y = s x²"
     limits = "a power beyond the loads measured"

@@ -45,22 +45,12 @@ def test_columns_are_what_the_law_does(name: str, place: str, largest: float) ->
     form = forms()[name]
     x, first = ways(largest)
     amplitudes, shapes = numbers(form, largest)
-    if name == "square" and place == "series":
-        pytest.skip("an even compliance alone rises on one side only")
     if name == "gap":
         pytest.skip("in the mechanism it has a centring spring: see the test of its own")
     y = form.columns(x, first, shapes) @ amplitudes
     law = form.law(amplitudes, shapes, place == "series")
     if place == "parallel":
         assert followed(law, x, first)[0] == pytest.approx(y, rel=1e-9, abs=1e-9 * np.abs(y).max())
-        return
-    if name in ("dead_zone", "tanh", "atan"):
-        # Level or flat: that displacement has no one load.
-        seen = np.gradient(y) != 0.0
-        y, x = y[seen], x[seen]
-        loads = np.array([law.respond(np.array([value]), law.initial_memory).force[0] for value in y])
-        known = np.abs(x) > (0.6 * largest if name == "dead_zone" else 0.0)
-        assert loads[known] == pytest.approx(x[known], rel=1e-6, abs=1e-9 * largest)
         return
     loads, _ = followed(law, y, first)
     assert loads == pytest.approx(x, rel=1e-6, abs=1e-7 * largest)
@@ -71,10 +61,7 @@ def test_the_tangent_is_the_derivative_of_the_force(name: str, place: str) -> No
     form = forms()[name]
     amplitudes, shapes = numbers(form, 1.0)
     law = form.law(amplitudes, shapes, place == "series")
-    if place == "series" and name == "square":
-        strains = np.array([[0.13], [0.31]])
-    else:
-        strains = np.array([[-0.37], [-0.11], [0.013], [0.23], [0.41]])
+    strains = np.array([[-0.37], [-0.11], [0.013], [0.23], [0.41]])
     if place == "series":
         y = np.abs(form.columns(np.array([1.0]), np.array([0, 1]), shapes) @ amplitudes)[0]
         strains = strains * y
