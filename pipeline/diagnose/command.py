@@ -50,4 +50,6 @@ def diagnose_campaign(
 def _following(answer: Answer, folder: Path) -> list[str]:
     if answer.verdict == "identified":
         return [command("add", folder, *answer.added)]
+    if answer.verdict == "unknown" and not answer.doctor:
+        return [command("discover", folder)]
     return []
