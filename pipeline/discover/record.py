@@ -104,6 +104,8 @@ class Entered(Record):
     """Its name."""
     evidence: float
     """ln evidence, as of a site."""
+    sites: tuple[str, ...]
+    """Sites at which a law explains as much, the best first: these tests do not tell."""
     parameters: dict[str, float]
     """Its numbers in the last fit, each in its unit."""
 

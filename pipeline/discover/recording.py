@@ -68,7 +68,12 @@ def _error(fitted: Fit, whole: Program) -> ModelError:
 
 def _entered(step: Added, model: Model) -> Entered:
     own = next(term for term in model.terms if term.effect.name == step.body.effect.name)
-    return Entered(effect=own.effect.name, evidence=step.body.value, parameters=dict(own.values))
+    return Entered(
+        effect=own.effect.name,
+        evidence=step.body.value,
+        sites=tuple(it.site.name for it in step.sites),
+        parameters=dict(own.values),
+    )
 
 
 def _law(step: Law, error: ModelError | None, attempts: Attempts) -> LawFound:

@@ -69,6 +69,11 @@ class Added:
     map: Map
     body: Body
 
+    @property
+    def sites(self) -> tuple[Located, ...]:
+        """Those at which a law explains as much."""
+        return tuple(it for it in self.map.sites if it.value >= self.body.value - criteria.ALIKE)
+
 
 @dataclass(frozen=True, eq=False)
 class Discovery:

@@ -44,6 +44,11 @@ def _first(it: Discovered) -> Iterator[str]:
         yield (
             f"{each.effect} explains as much as a law at any place (ln evidence {short(each.evidence)}) and is none by "
             "nature: it entered the model. diagnose says whether its name is certain."
+            + (
+                f" These tests do not tell it from a law at {', '.join(each.sites[:MANY])}."
+                if each.sites
+                else ""
+            )
         )
 
 
