@@ -1,0 +1,53 @@
+"""A law with the roles of force and coordinate exchanged: the coordinate is given over the load."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from fem.frame.laws.form import Elastic
+from meshes.solid import Floats
+
+ITERATIONS = 200
+"""Of the inversion: bisection alone reaches rounding in about 60."""
+
+
+@dataclass(frozen=True)
+class OverLoad(Elastic):
+    """The coordinate as a function of the force: q = F / k + g(F), g an elastic law that grows and is zero at zero.
+
+    k, positive, is what is left of the stiffness where g is flat. F is found by Newton's method inside a bracket.
+    ValueError for a g that is not zero at zero.
+    """
+
+    law: Elastic
+    stiffness: float
+
+    def __post_init__(self) -> None:
+        at_zero = float(self.law.curve(np.zeros(1))[0][0])
+        if at_zero or not self.stiffness > 0.0:
+            raise ValueError(
+                f"a coordinate over the load starts at {at_zero:g} with the stiffness {self.stiffness:g}, "
+                "allowed are 0 and a positive one"
+            )
+
+    @property
+    def abrupt(self) -> bool:
+        """Of the law inside."""
+        return self.law.abrupt
+
+    def curve(self, q: Floats) -> tuple[Floats, Floats]:
+        """As of `Elastic`. RuntimeError where g falls so steeply that no load is found."""
+        low, high = np.minimum(0.0, self.stiffness * q), np.maximum(0.0, self.stiffness * q)
+        force = 0.0 * q
+        for _ in range(ITERATIONS):
+            more, rate = self.law.curve(force)
+            missing = q - force / self.stiffness - more
+            low, high = np.where(missing > 0.0, force, low), np.where(missing < 0.0, force, high)
+            compliance = 1.0 / self.stiffness + rate
+            new = force + missing / compliance
+            new = np.where((new >= low) & (new <= high), new, 0.5 * (low + high))
+            still = np.abs(new - force) > 1e-15 * np.maximum(np.abs(new), self.stiffness * 1e-12)
+            force = np.where(missing == 0.0, force, new)
+            if not still.any():
+                return force, 1.0 / (1.0 / self.stiffness + self.law.curve(force)[1])
+        raise RuntimeError("no load is found for a coordinate: the law over the load falls")
