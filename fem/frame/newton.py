@@ -77,7 +77,7 @@ def equilibrium(
         if len(keep) < len(index):
             parts, system, rows, index = take((parts, system, rows, index), keep)
         with np.errstate(all="ignore"):
-            state = moved(parts[2], newton_step(parts[0], parts[2], system, rows))
+            state = moved(parts[2], newton_step(parts[0], parts[2], system, rows), parts[0].joints.placed)
         parts = (*parts[:2], state, *parts[3:])
     return out
 

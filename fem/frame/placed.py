@@ -11,7 +11,7 @@ import numpy as np
 
 from fem.frame.batch import Bools
 from fem.frame.chain import NUMBERED, SERIES
-from fem.frame.laws.form import Law, Response
+from fem.frame.laws.form import Elastic, Law, Response
 from fem.frame.sites import BASE, ENDS, HINGE, Site, site_of
 from meshes.solid import Floats
 
@@ -40,6 +40,12 @@ class Placed:
             raise ValueError(
                 f"{self.site}: a law is scaled by {self.force:g} and {self.length:g}, allowed are positive numbers"
             )
+
+    def advanced(self, q: Floats, step: Floats) -> Floats:
+        """Where Newton's method goes on from q (...), told a step (...) along the tangent."""
+        if not isinstance(self.law, Elastic):
+            return q + step
+        return self.length * self.law.advanced(q / self.length, step / self.length)
 
     def respond(self, q: Floats, memory: Floats) -> Response:
         """Force, stiffness and new memory at q (...), as of `Law`."""
@@ -108,6 +114,28 @@ def base_laws(anchored: Sequence[Anchored], coordinates: Floats, memory: Floats)
             force[:, it.slot] += mine[:, 0]
             stiffness[:, it.slot] += slope[:, 0]
     return force, stiffness, left
+
+
+def advanced_joints(anchored: Sequence[Anchored], q: Floats, step: Floats) -> Floats:
+    """Joint coordinates (B, K, 2, S) after a step along the tangent, those of series laws as their laws go on."""
+    out = q + step
+    for it in anchored:
+        if not it.of_base and not it.of_hinge:
+            here, way = CHAIN_ORDER * q[..., it.slot], CHAIN_ORDER * step[..., it.slot]
+            out[..., it.slot] = np.where(
+                it.at, CHAIN_ORDER * it.placed.advanced(here, way), out[..., it.slot]
+            )
+    return out
+
+
+def advanced_base(anchored: Sequence[Anchored], before: Floats, after: Floats) -> Floats:
+    """Base coordinates (B, 6) after a step along the tangent from `before` to `after`, as their laws go on."""
+    out = after.copy()
+    for it in anchored:
+        if it.of_base:
+            here = before[:, it.slot]
+            out[:, it.slot] = it.placed.advanced(here, after[:, it.slot] - here)
+    return out
 
 
 def _answer(it: Anchored, q: Floats, axial: Floats, memory: Floats, left: Floats) -> tuple[Floats, Floats]:

@@ -40,6 +40,10 @@ class Law(ABC):
 class Elastic(Law):
     """A law without memory: conservative."""
 
+    def advanced(self, q: Floats, step: Floats) -> Floats:
+        """Where Newton's method goes on from q (...), told a step (...) along the tangent."""
+        return q + step
+
     @abstractmethod
     def curve(self, q: Floats) -> tuple[Floats, Floats]:
         """Force and stiffness (...) at q (...)."""

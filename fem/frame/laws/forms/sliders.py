@@ -62,14 +62,15 @@ class CoulombTwoLevels(Law):
 
 @dataclass(frozen=True)
 class CoulombByLoad(Law):
-    """A slider that carries `share` of the joint's axial load, N, as it stood at the end of the load step before.
+    """F = k q beside a slider that carries `share` of the joint's axial load, N, at the end of the load step before.
 
-    Explicit by intent: within a load step the limit is constant, zero in the first one. The memory (load, slider)
+    `spring`: stiffness before the slider moves; `stiffness`: k, zero for the slider alone. Explicit by intent: within a load step the limit is constant, zero in the first one. The memory (load, slider)
     moves on with the load step.
     """
 
     share: float
-    stiffness: float
+    spring: float
+    stiffness: float = 0.0
     by_load_step: ClassVar[bool] = True
     loaded: ClassVar[bool] = True
 
@@ -81,8 +82,8 @@ class CoulombByLoad(Law):
     def respond(self, q: Floats, memory: Floats) -> Response:
         """As of `Law`."""
         most = self.share * memory[..., 0]
-        force, slope, slider = jenkins(q, memory[..., 1], self.stiffness, most)
-        return force, slope, np.stack((memory[..., 0], slider), axis=-1)
+        force, slope, slider = jenkins(q, memory[..., 1], self.spring, most)
+        return force + self.stiffness * q, slope + self.stiffness, np.stack((memory[..., 0], slider), axis=-1)
 
 
 @dataclass(frozen=True)

@@ -158,6 +158,11 @@ class Power(Elastic):
     exponent: float
     smooth: float
 
+    @property
+    def abrupt(self) -> bool:
+        """Its slope changes within a small part of its range."""
+        return True
+
     def curve(self, q: Floats) -> tuple[Floats, Floats]:
         """As of `Elastic`."""
         size = q**2 + self.smooth**2

@@ -39,6 +39,11 @@ class Jump(Elastic):
     place: float
     over: float
 
+    @property
+    def abrupt(self) -> bool:
+        """Its slope changes within a small part of its range."""
+        return True
+
     def curve(self, q: Floats) -> tuple[Floats, Floats]:
         """As of `Elastic`."""
         # tanh(2) is 0.964.

@@ -35,19 +35,28 @@ class OverLoad(Elastic):
         """Of the law inside."""
         return self.law.abrupt
 
+    def advanced(self, q: Floats, step: Floats) -> Floats:
+        """The coordinate at the load that the tangent foretells: over the load the law is smooth, over q it is not."""
+        force, stiffness = self.curve(q)
+        return self._at(force + stiffness * step)[0]
+
+    def _at(self, force: Floats) -> tuple[Floats, Floats]:
+        """Coordinate and compliance at a load."""
+        more, rate = self.law.curve(force)
+        return force / self.stiffness + more, 1.0 / self.stiffness + rate
+
     def curve(self, q: Floats) -> tuple[Floats, Floats]:
         """As of `Elastic`. RuntimeError where g falls so steeply that no load is found."""
         low, high = np.minimum(0.0, self.stiffness * q), np.maximum(0.0, self.stiffness * q)
         force = 0.0 * q
         for _ in range(ITERATIONS):
-            more, rate = self.law.curve(force)
-            missing = q - force / self.stiffness - more
+            place, compliance = self._at(force)
+            missing = q - place
             low, high = np.where(missing > 0.0, force, low), np.where(missing < 0.0, force, high)
-            compliance = 1.0 / self.stiffness + rate
             new = force + missing / compliance
             new = np.where((new >= low) & (new <= high), new, 0.5 * (low + high))
             still = np.abs(new - force) > 1e-15 * np.maximum(np.abs(new), self.stiffness * 1e-12)
             force = np.where(missing == 0.0, force, new)
             if not still.any():
-                return force, 1.0 / (1.0 / self.stiffness + self.law.curve(force)[1])
+                return force, 1.0 / self._at(force)[1]
         raise RuntimeError("no load is found for a coordinate: the law over the load falls")
