@@ -179,5 +179,5 @@ EXAMPLES: dict[str, tuple[Law, Route]] = {
 }
 """By the name of the class; forces and coordinates of the order one."""
 WITHIN = {"Power": 1e-5, "OverLoad": 1e-5, "RambergOsgood": 0.02, "Dahl": 1e-6, "BoucWen": 1e-6}
-"""Relative to one: rounding at zero of powers, a polygon for a curve, the midpoint rule; elsewhere 1e-8, of the solver."""
+"""Relative to one: rounding at zero of powers, a polygon for a curve, the midpoint rule; elsewhere 1e-8."""
 CONSERVATIVE = [name for name, (law, _) in EXAMPLES.items() if isinstance(law, Elastic)]

@@ -64,8 +64,8 @@ class CoulombTwoLevels(Law):
 class CoulombByLoad(Law):
     """F = k q beside a slider that carries `share` of the joint's axial load, N, at the end of the load step before.
 
-    `spring`: stiffness before the slider moves; `stiffness`: k, zero for the slider alone. Explicit by intent: within a load step the limit is constant, zero in the first one. The memory (load, slider)
-    moves on with the load step.
+    `spring`: stiffness before the slider moves; `stiffness`: k, zero for the slider alone. Explicit by intent: within a
+    load step the limit is constant, zero in the first one. The memory (load, slider) moves on with the load step.
     """
 
     share: float
