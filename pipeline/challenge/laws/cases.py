@@ -17,6 +17,7 @@ import numpy as np
 from fem.frame.laws.form import Law
 from pipeline.campaign import ParallelogramRig
 from pipeline.challenge.benches import (
+    AXIAL,
     FAIR,
     HELD,
     RICH,
@@ -32,7 +33,7 @@ from pipeline.challenge.dirty.cases import ROUND as DIRTY_ROUND
 from pipeline.challenge.dirty.cases import dirty_case
 from pipeline.challenge.dirty.dirt import BAD_MOST, CELL, CORRELATED, DIALS, Dirt
 from pipeline.challenge.laws.shapes import EVERY, GRAMMAR, OUTSIDE, SMOOTH_LAWS, Draw, Shape
-from pipeline.virtual.plan import AXIAL_N, GAUGES, PlannedTest
+from pipeline.virtual.plan import GAUGES, PlannedTest
 
 Kind = Literal["law", "pair", "clean"]
 SEED = 20_261_128
@@ -82,11 +83,13 @@ class Hidden:
 
 @dataclass(frozen=True, eq=False)
 class LawCase(Case):
-    """laws: what is hidden. poor: whether the plan cannot tell sites apart well. dirt: what the bench has besides."""
+    """laws: what is hidden. poor: whether the plan cannot tell sites apart well. dirt: what the bench has besides.
+    exact: what is written of the rig is vouched for, and so it is."""
 
     laws: tuple[Hidden, ...]
     poor: bool
     dirt: Dirt
+    exact: bool = False
 
 
 def law_case(number: int, share: float = 1.0) -> LawCase:
@@ -116,7 +119,9 @@ def clean_case(number: int, share: float = 1.0) -> LawCase:
     bar = np.ones(4)
     if number >= 100:
         bar = _off(np.random.default_rng([SEED, 2, number]))
-    return LawCase(number, "clean", found.bench, {}, None, found.seed, (), False, _dirt(bar))
+    return LawCase(
+        number, "clean", found.bench, {}, None, found.seed, (), False, _dirt(bar), exact=number < 100
+    )
 
 
 def _clean_numbers(kinds: Sequence[str], count: int) -> int:
@@ -145,7 +150,8 @@ def _drawn(
         tests = tuple(t for t in whole_plan(steps) if t.holdout or _UNTOLD[untold](t))
     plan = scaled([_further(test) for test in tests], rig, share)
     dirt = _drawn_dirt(generator, kind_of_dirt)
-    load = AXIAL_N * float(scaled(tests[:1], rig, 1.0)[0].values[:, 0].max() / tests[0].values[:, 0].max())
+    axial = scaled([t for t in whole_plan(steps) if t.id == AXIAL[0]], rig, 1.0)
+    load = float(np.abs(axial[0].values[:, 0]).max())
     laws: list[Hidden] = []
     for name in names:
         shape = EVERY[name](Draw(generator, second, 0.5 * load))

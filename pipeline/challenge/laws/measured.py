@@ -12,11 +12,10 @@ from numpy.typing import NDArray
 from fem.frame.bench import Readings
 from fem.frame.placed import Placed
 from pipeline.campaign import Campaign, ParallelogramRig
-from pipeline.challenge.benches import Bench
 from pipeline.challenge.dirty.dirt import Knock, read_dirty, true_rig
-from pipeline.challenge.laws.cases import Hidden, LawCase, further
+from pipeline.challenge.laws.cases import BEYOND, Hidden, LawCase, further
 from pipeline.challenge.laws.size import OutOfSight, Scale, placed_at, reach_of, scale_of, sized, unit_of
-from pipeline.challenge.outcome import SHARES
+from pipeline.challenge.outcome import SHARES, campaign_of
 from pipeline.virtual.bench import true_readings
 from pipeline.virtual.plan import GAUGES, PlannedTest
 
@@ -63,7 +62,8 @@ class LawTruth:
 class Truth:
     """case: with the plan as it was done. laws: what was hidden. share: of the loads. bar (4,): true over nominal EA,
     EIy, EIz, GJ. held_out: exact readings (S, 13) of each held-out test by its id. held_out_mu: sigmas by which the
-    laws show in each. knocks: bad readings."""
+    laws show in each; held_out_reach: what the site of each law meets there over what it meets in the fitted
+    tests, the turn of a hinge or the load through a series site. knocks: bad readings."""
 
     case: LawCase
     laws: tuple[LawTruth, ...]
@@ -71,6 +71,7 @@ class Truth:
     bar: Array
     held_out: dict[str, Array]
     held_out_mu: dict[str, float]
+    held_out_reach: dict[str, tuple[float, ...]]
     knocks: tuple[Knock, ...]
 
 
@@ -90,24 +91,18 @@ def measured(make: Callable[[int, float], LawCase], number: int) -> tuple[Campai
 def _measured(it: LawCase, share: float) -> tuple[Campaign, Truth]:
     true = true_rig(it.bench.rig, it.dirt.bar)
     if not it.laws:
-        return _written(it, (), share, true_readings(true, it.bench.plan, {}, GAUGES), {})
+        return _written(it, (), share, true_readings(true, it.bench.plan, {}, GAUGES), _Held((), [], {}, {}))
     fitted = replace(it.bench, plan=tuple(t for t in it.bench.plan if not t.holdout))
     scale = scale_of(fitted, true)
     laws, found = [], scale.without
     for hidden in it.laws:
         law, found = _brought(hidden, scale, true)
         laws.append(law)
-    placed = [law.placed for law in laws]
     if len(laws) > 1:
-        found = true_readings(true, fitted.plan, {}, GAUGES, placed)
-    plan = _held(it, scale, found, share)
-    held = replace(it.bench, plan=tuple(replace(t, holdout=False) for t in plan))
-    beyond = scale_of(held, true)
-    there = true_readings(true, held.plan, {}, GAUGES, placed)
-    shown = beyond.signature(there)
-    sizes = {t.id: float(np.linalg.norm(shown[beyond.tests == k])) for k, t in enumerate(plan)}
-    whole = replace(it, bench=replace(it.bench, plan=(*fitted.plan, *plan)))
-    return _written(whole, tuple(laws), share, [*found, *there], sizes)
+        found = true_readings(true, fitted.plan, {}, GAUGES, [law.placed for law in laws])
+    held = _held(it, scale, found, laws, share)
+    whole = replace(it, bench=replace(it.bench, plan=(*fitted.plan, *held.plan)))
+    return _written(whole, tuple(laws), share, [*found, *held.found], held)
 
 
 def _brought(hidden: Hidden, scale: Scale, true: ParallelogramRig) -> tuple[LawTruth, list[Readings]]:
@@ -132,26 +127,74 @@ def _brought(hidden: Hidden, scale: Scale, true: ParallelogramRig) -> tuple[LawT
     raise last
 
 
-def _held(it: LawCase, scale: Scale, found: list[Readings], share: float) -> tuple[PlannedTest, ...]:
+@dataclass(frozen=True, eq=False)
+class _Held:
+    """Tests that are held out, their exact readings, and by their ids what `Truth` tells of them."""
+
+    plan: tuple[PlannedTest, ...]
+    found: list[Readings]
+    mu: dict[str, float]
+    reach: dict[str, tuple[float, ...]]
+
+
+def _held(it: LawCase, scale: Scale, found: list[Readings], laws: list[LawTruth], share: float) -> _Held:
     """Tests that are held out: those of the plan, and the fitted one that sees the laws best at another angle."""
+    true, placed = true_rig(it.bench.rig, it.dirt.bar), [law.placed for law in laws]
     plan = tuple(t for t in it.bench.plan if t.holdout)
-    shown = scale.signature(found)
-    fitted = scale.bench.plan
+    shown, fitted = scale.signature(found), scale.bench.plan
     best = max(range(len(fitted)), key=lambda k: float(np.linalg.norm(shown[scale.tests == k])))
     names = {t.id for t in plan}
     more = [further(fitted[best], angle, it.bench.rig, share) for angle in AWAY]
-    return (*plan, next(t for t in more if t.id not in names))
+    plan = (*plan, next(t for t in more if t.id not in names))
+    reached = [_met(found, k, law) for k, law in enumerate(laws)]
+    plan = _within(plan, reached, laws, true)
+    # Taken as fitted, so that they are measured by the same scale.
+    bench = replace(it.bench, plan=tuple(replace(t, holdout=False) for t in plan))
+    beyond = scale_of(bench, true)
+    there = true_readings(true, bench.plan, {}, GAUGES, placed)
+    shown = beyond.signature(there)
+    return _Held(
+        plan,
+        there,
+        {t.id: float(np.linalg.norm(shown[beyond.tests == k])) for k, t in enumerate(plan)},
+        {
+            t.id: tuple(_met([one], k, law) / reached[k] for k, law in enumerate(laws))
+            for t, one in zip(plan, there, strict=True)
+        },
+    )
+
+
+def _within(
+    plan: tuple[PlannedTest, ...], reached: list[float], laws: list[LawTruth], true: ParallelogramRig
+) -> tuple[PlannedTest, ...]:
+    """The held-out tests, weaker where a site would meet more than `BEYOND` times what it met in the fitted tests."""
+    found = true_readings(true, plan, {}, GAUGES, [law.placed for law in laws])
+    out = []
+    for test, one in zip(plan, found, strict=True):
+        met = [_met([one], k, law) for k, law in enumerate(laws)]
+        parts = [BEYOND * own / more for own, more in zip(reached, met, strict=True) if more > 0.0]
+        out.append(replace(test, values=min([1.0, *parts]) * test.values))
+    return tuple(out)
+
+
+def _met(found: list[Readings], number: int, law: LawTruth) -> float:
+    """Largest coordinate of a hinge, or load through a series site."""
+    every, unit = [it.followed[number] for it in found], unit_of(law.placed.site)
+    return max(float(np.abs(it.coordinate if unit == "torque" else it.force).max()) for it in every)
 
 
 def _written(
-    it: LawCase, laws: tuple[LawTruth, ...], share: float, found: list[Readings], sizes: dict[str, float]
+    it: LawCase, laws: tuple[LawTruth, ...], share: float, found: list[Readings], held: _Held
 ) -> tuple[Campaign, Truth]:
     """The campaign of exact readings, with the dirt of the bench; and the truth."""
-    bench: Bench = it.bench
-    campaign, knocks = read_dirty(f"{it.kind} {it.number}", bench, it.dirt, found, it.seed)
+    bench, knocks = it.bench, tuple[Knock, ...]()
+    if it.exact:
+        campaign = campaign_of(it, found, it.seed)
+    else:
+        campaign, knocks = read_dirty(f"{it.kind} {it.number}", bench, it.dirt, found, it.seed)
     exact = {
         test.id: np.hstack([one.displacement, one.wrench, one.gauges])
         for test, one in zip(bench.plan, found, strict=True)
         if test.holdout
     }
-    return campaign, Truth(it, laws, share, it.dirt.bar, exact, sizes, knocks)
+    return campaign, Truth(it, laws, share, it.dirt.bar, exact, held.mu, held.reach, knocks)
