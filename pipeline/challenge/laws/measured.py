@@ -13,7 +13,7 @@ from fem.frame.bench import Readings
 from fem.frame.placed import Placed
 from pipeline.campaign import Campaign, ParallelogramRig
 from pipeline.challenge.dirty.dirt import Knock, read_dirty, true_rig
-from pipeline.challenge.laws.cases import BEYOND, Hidden, LawCase, further
+from pipeline.challenge.laws.cases import BEYOND, Hidden, LawCase, further, group_of
 from pipeline.challenge.laws.size import OutOfSight, Scale, placed_at, reach_of, scale_of, sized, unit_of
 from pipeline.challenge.outcome import SHARES, campaign_of
 from pipeline.virtual.bench import true_readings
@@ -22,6 +22,9 @@ from pipeline.virtual.plan import GAUGES, PlannedTest
 Array = NDArray[np.float64]
 AWAY = (15.0, -15.0)
 """Degrees at which the test that sees the site best is done again, held out."""
+REDUCTIONS, NEAR = 4, 0.97
+"""How often the loads of held-out tests are reduced in proportion, and the share that is near enough: the load that
+passes a site is not proportional to that of the test."""
 SEEN = 5.0
 """Sigmas from which a site counts as visible."""
 
@@ -94,9 +97,10 @@ def _measured(it: LawCase, share: float) -> tuple[Campaign, Truth]:
         return _written(it, (), share, true_readings(true, it.bench.plan, {}, GAUGES), _Held((), [], {}, {}))
     fitted = replace(it.bench, plan=tuple(t for t in it.bench.plan if not t.holdout))
     scale = scale_of(fitted, true)
-    laws, found = [], scale.without
+    found = scale.without
+    laws: list[LawTruth] = []
     for hidden in it.laws:
-        law, found = _brought(hidden, scale, true)
+        law, found = _brought(hidden, scale, true, {group_of(one.placed.site) for one in laws})
         laws.append(law)
     if len(laws) > 1:
         found = true_readings(true, fitted.plan, {}, GAUGES, [law.placed for law in laws])
@@ -105,10 +109,15 @@ def _measured(it: LawCase, share: float) -> tuple[Campaign, Truth]:
     return _written(whole, tuple(laws), share, [*found, *held.found], held)
 
 
-def _brought(hidden: Hidden, scale: Scale, true: ParallelogramRig) -> tuple[LawTruth, list[Readings]]:
-    """A law at the first of its sites where it shows by as much as it should, and exact readings with it alone."""
+def _brought(
+    hidden: Hidden, scale: Scale, true: ParallelogramRig, taken: set[str]
+) -> tuple[LawTruth, list[Readings]]:
+    """A law at the first of its sites where it shows by as much as it should, and exact readings with it alone.
+
+    taken: kinds of sites (`GROUPS`) where another law is.
+    """
     last: RuntimeError = OutOfSight("no site")
-    for site in hidden.sites:
+    for site in (s for s in hidden.sites if group_of(s) not in taken):
         try:
             reach = reach_of(site, scale.bench, true)
 
@@ -168,13 +177,18 @@ def _within(
     plan: tuple[PlannedTest, ...], reached: list[float], laws: list[LawTruth], true: ParallelogramRig
 ) -> tuple[PlannedTest, ...]:
     """The held-out tests, weaker where a site would meet more than `BEYOND` times what it met in the fitted tests."""
-    found = true_readings(true, plan, {}, GAUGES, [law.placed for law in laws])
-    out = []
-    for test, one in zip(plan, found, strict=True):
-        met = [_met([one], k, law) for k, law in enumerate(laws)]
-        parts = [BEYOND * own / more for own, more in zip(reached, met, strict=True) if more > 0.0]
-        out.append(replace(test, values=min([1.0, *parts]) * test.values))
-    return tuple(out)
+    placed = [law.placed for law in laws]
+    for _ in range(REDUCTIONS):
+        found = true_readings(true, plan, {}, GAUGES, placed)
+        shares = []
+        for one in found:
+            met = [_met([one], k, law) for k, law in enumerate(laws)]
+            parts = [BEYOND * own / more for own, more in zip(reached, met, strict=True) if more > 0.0]
+            shares.append(min([1.0, *parts]))
+        plan = tuple(replace(t, values=share * t.values) for t, share in zip(plan, shares, strict=True))
+        if min(shares) > NEAR:
+            break
+    return plan
 
 
 def _met(found: list[Readings], number: int, law: LawTruth) -> float:
