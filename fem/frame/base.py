@@ -1,4 +1,4 @@
-"""The base body on six springs at the base origin."""
+"""The base body on springs or laws at the base origin."""
 
 import numpy as np
 
@@ -6,17 +6,31 @@ from fem.frame.so3 import IDENTITY, apply, dot, hat, log, log_rate, outer, trans
 from meshes.solid import Floats
 
 
+def base_coordinates(X: Floats, R: Floats) -> Floats:
+    """(B, 6) place X (B, 3), mm, and rotation vector, rad, of a body that is at rest at zero; R (B, 3, 3)."""
+    return np.concatenate((X, log(R)), axis=-1)
+
+
 def base_spring(X: Floats, R: Floats, stiffness: Floats) -> tuple[Floats, Floats]:
-    """Force (B, 6) and tangent (B, 6, 6) of the springs on a body at X (B, 3), R (B, 3, 3), at rest at zero.
+    """Force (B, 6) and tangent (B, 6, 6) of linear springs on a body at X (B, 3), R (B, 3, 3), at rest at zero.
 
     stiffness (B, 6): N/mm and N mm/rad along and about the axes of the base frame. The energy is half the sum of
-    k X² and k θ² with θ the rotation vector; the tangent is its Hessian along exp(w) R, exact to θ³.
+    k X² and k θ² with θ the rotation vector.
     """
-    theta = log(R)
-    moment = stiffness[:, 3:] * theta
+    coordinates = base_coordinates(X, R)
+    return base_forces(coordinates, stiffness * coordinates, stiffness)
+
+
+def base_forces(coordinates: Floats, own: Floats, stiffness: Floats) -> tuple[Floats, Floats]:
+    """Force (B, 6) and tangent (B, 6, 6) on the base body, along and about the axes of the base frame.
+
+    coordinates (B, 6) as of `base_coordinates`; own (B, 6): force that belongs to each, N, N mm; stiffness (B, 6) its
+    derivative. The tangent is taken along exp(w) R, exact to θ³.
+    """
+    theta, moment = coordinates[:, 3:], own[:, 3:]
     rate = log_rate(theta)
-    force = np.concatenate((stiffness[:, :3] * X, apply(transpose(rate), moment)), axis=-1)
-    tangent = np.zeros((len(X), 6, 6))
+    force = np.concatenate((own[:, :3], apply(transpose(rate), moment)), axis=-1)
+    tangent = np.zeros((len(theta), 6, 6))
     tangent[:, :3, :3] = stiffness[:, :3, None] * IDENTITY
     second = (
         -0.5 * hat(moment) @ rate

@@ -20,6 +20,7 @@ from fem.frame.errors import Errors
 from fem.frame.history import Histories, Records
 from fem.frame.history import run as follow
 from fem.frame.linkages import ELEMENTS, Setup, model
+from fem.frame.placed import Anchored, Placed
 from fem.frame.rig import STEEPEST_DEG, Gauge, Rig, steep
 from meshes.solid import Floats
 
@@ -44,6 +45,16 @@ class Trial:
 
 
 @dataclass(frozen=True, eq=False)
+class Followed:
+    """What a placed law did: coordinate (S, n), mm or rad, and force (S, n), N or N mm, at its n places: bar 1 base,
+    bar 1 tip, bar 2 base, ... as far as it acts there."""
+
+    site: str
+    coordinate: Floats
+    force: Floats
+
+
+@dataclass(frozen=True, eq=False)
 class Readings:
     """What one trial's sensors read at each step, and how it was found.
 
@@ -52,6 +63,7 @@ class Readings:
     tip included, dead loads not), N, N mm. gauges (S, G) mm. All NaN where not converged.
     converged (S,); reason (S,): empty or why not; iterations (S,); residual (S,): over the allowed, 1 at most where
     converged; negative (S,): unstable directions with the controlled displacements and gauges held, 0 is stable.
+    followed: of each placed law; no sensor reads it.
     """
 
     displacement: Floats
@@ -62,6 +74,7 @@ class Readings:
     iterations: np.ndarray
     residual: Floats
     negative: np.ndarray
+    followed: tuple[Followed, ...] = ()
 
 
 def run(
@@ -70,11 +83,12 @@ def run(
     trials: Sequence[Trial],
     gauges: Sequence[Gauge] = (),
     elements: int = ELEMENTS,
+    placed: Sequence[Placed] = (),
 ) -> list[Readings]:
-    """Readings of every trial, in their order; trials are solved together.
+    """Readings of every trial, in their order; trials are solved together, all with the placed laws.
 
-    Raises ValueError for a trial that is no such thing, for errors that the rig cannot have, and for what `Rig`,
-    `Errors` and `section_of` refuse.
+    Raises ValueError for a trial that is no such thing, for errors and sites that the rig cannot have, and for what
+    `Rig`, `Errors` and `section_of` refuse.
     """
     if not trials:
         return []
@@ -82,8 +96,9 @@ def run(
     for trial, setup in zip(trials, setups, strict=True):
         _check(trial, setup.rig, [g.name for g in gauges])
     mechanism = np.array([[c in s.rig.mechanism for c in range(6)] for s in setups])
-    records = follow(model(setups, gauges, elements), _histories(trials, setups, gauges), mechanism)
-    return [_readings(records, i, len(t.values)) for i, t in enumerate(trials)]
+    frames = model(setups, gauges, elements, placed)
+    records = follow(frames, _histories(trials, setups, gauges), mechanism)
+    return [_readings(records, i, len(t.values), frames.joints.placed) for i, t in enumerate(trials)]
 
 
 def _check(trial: Trial, rig: Rig, gauges: list[str]) -> None:
@@ -121,7 +136,7 @@ def _histories(trials: Sequence[Trial], setups: Sequence[Setup], gauges: Sequenc
     return Histories(kind, value, temperature, steps)
 
 
-def _readings(records: Records, i: int, steps: int) -> Readings:
+def _readings(records: Records, i: int, steps: int, laws: tuple[Anchored, ...]) -> Readings:
     return Readings(
         records.displacement[i, :steps],
         records.wrench[i, :steps],
@@ -131,4 +146,13 @@ def _readings(records: Records, i: int, steps: int) -> Readings:
         records.iterations[i, :steps],
         records.residual[i, :steps],
         records.negative[i, :steps],
+        tuple(_followed(records.memory[i, :steps], it, i) for it in laws),
     )
+
+
+def _followed(memory: Floats, it: Anchored, i: int) -> Followed:
+    """What one law did in the trial of that number; memory (S, M)."""
+    own = it.own(memory)
+    if not it.of_base:
+        own = own[:, it.at[i].ravel()]
+    return Followed(it.placed.site, own[..., 0], own[..., 1])

@@ -22,6 +22,21 @@ SLOTS = {
     "contact": ("shift", 0),
 }
 """Joint coordinates in their order from body to bar: kind and axis. Those after the hinge follow the bar."""
+SERIES = {
+    "along": ("shift", 0),
+    "across": ("shift", 2),
+    "out_of_plane": ("shift", 1),
+    "tilt_x": ("turn", 0),
+    "tilt_z": ("turn", 2),
+}
+"""Coordinates of placed laws, after all others: kind and axis of the bar. Each law has its own: kind, #, number."""
+NUMBERED = "#"
+
+
+def motion_of(slot: str) -> tuple[str, int]:
+    """Kind ("shift" or "turn") and axis of a joint coordinate: a key of SLOTS, or of SERIES with a number."""
+    kind, numbered, _ = slot.partition(NUMBERED)
+    return SERIES[kind] if numbered else SLOTS[kind]
 
 
 @dataclass(frozen=True, eq=False)
@@ -36,12 +51,12 @@ class End:
 def end_of(X: Floats, R: Floats, place: Floats, frame: Floats, q: Floats, slots: tuple[str, ...]) -> End:
     """Ends of chains on bodies at X (..., 3), R (..., 3, 3), starting at `place` (..., 3) mm and `frame` in the body.
 
-    q: (..., S) mm and rad, in the order of `slots` (keys of SLOTS).
+    q: (..., S) mm and rad, in the order of `slots` (`motion_of`).
     """
     here, now = X + apply(R, place), R @ frame
     axes, centres = [], []
     for j, slot in enumerate(slots):
-        kind, axis = SLOTS[slot]
+        kind, axis = motion_of(slot)
         direction = now[..., :, axis]
         axes.append(direction)
         centres.append(here)
@@ -53,7 +68,7 @@ def end_of(X: Floats, R: Floats, place: Floats, frame: Floats, q: Floats, slots:
     rates[..., :3, :3] = rates[..., 3:, 3:6] = IDENTITY
     rates[..., :3, 3:6] = -hat(here - X)
     for j, slot in enumerate(slots):
-        turns = SLOTS[slot][0] == "turn"
+        turns = motion_of(slot)[0] == "turn"
         rates[..., :3, 6 + j] = cross(axes[j], here - centres[j]) if turns else axes[j]
         if turns:
             rates[..., 3:, 6 + j] = axes[j]

@@ -8,6 +8,7 @@ from fem.frame.batch import Bools, Ints, put, take
 from fem.frame.control import DISPLACEMENT, FORCE, Targets, displacement, measured, reading
 from fem.frame.model import PLATFORM, Model, State, Unloaded, at_rest
 from fem.frame.newton import CONVERGED, REASONS, Outcome, equilibrium
+from fem.frame.placed import Anchored, held_back
 from fem.frame.reference import bowed_axis, reference
 from meshes.solid import Floats
 
@@ -32,7 +33,8 @@ class Histories:
 class Records:
     """Measured quantities of every step, NaN where there is no equilibrium: displacement (B, S, 6), wrench (B, S, 6)
     read, gauges (B, S, G) mm. converged (B, S); reason (B, S) empty or why not; iterations (B, S), residual (B, S)
-    over the allowed out-of-balance; negative (B, S) eigenvalues with the held coordinates fixed, 0: stable."""
+    over the allowed out-of-balance; negative (B, S) eigenvalues with the held coordinates fixed, 0: stable. memory
+    (B, S, M): memories of placed laws (`placed`)."""
 
     displacement: Floats
     wrench: Floats
@@ -42,6 +44,7 @@ class Records:
     iterations: Ints
     residual: Floats
     negative: Ints
+    memory: Floats
 
 
 def unloaded_bars(model: Model, temperature: Floats) -> Unloaded:
@@ -52,7 +55,7 @@ def unloaded_bars(model: Model, temperature: Floats) -> Unloaded:
 
 
 def settled(model: Model, mechanism: Bools) -> Outcome:
-    """The unloaded linkage as mounted, at its reference temperature, without dead load, hinge spring or friction.
+    """The unloaded linkage as mounted, at its reference temperature, without dead load and without laws of hinges.
 
     mechanism (B, 6): platform coordinates in which the linkage is a mechanism; there it stands where its last bar as
     built, at the angle as drawn, brings the platform.
@@ -61,6 +64,7 @@ def settled(model: Model, mechanism: Bools) -> Outcome:
         model.joints,
         return_spring=np.zeros_like(model.joints.return_spring),
         torque=np.zeros_like(model.joints.torque),
+        placed=tuple(it for it in model.joints.placed if not it.of_hinge),
     )
     # Newton's method may pass through strains that no fibre sees.
     free = replace(model, joints=joints, fibres=None)
@@ -82,11 +86,13 @@ def _as_long_as_built(model: Model, start: State) -> State:
 
 
 def relaxed(model: Model, state: State) -> tuple[Model, State]:
-    """The linkage with return springs and friction of its hinges at rest in this state of it."""
+    """The linkage with return springs, friction and laws of its hinges at rest in this state, placed laws as new."""
     turns = np.zeros_like(state.slider)
     if "hinge" in model.joints.slots:
         turns = state.q[..., model.joints.slots.index("hinge")]
-    return replace(model, joints=replace(model.joints, relaxed=turns)), replace(state, slider=turns)
+    return replace(model, joints=replace(model.joints, relaxed=turns)), replace(
+        state, slider=turns, memory=np.zeros_like(state.memory)
+    )
 
 
 @dataclass(frozen=True, eq=False)
@@ -105,7 +111,7 @@ def run(model: Model, histories: Histories, mechanism: Bools) -> Records:
     first = settled(model, mechanism)
     count, steps = histories.temperature.shape
     zero = first.gauge
-    records = _empty(count, steps, zero.shape[-1])
+    records = _empty(count, steps, zero.shape[-1], first.state.memory.shape[-1])
     failed = first.code != CONVERGED
     reasons = np.array([f"unloaded state: {REASONS[int(c)]}" if c else "" for c in first.code], object)
     still = np.zeros(count)
@@ -133,11 +139,14 @@ def _step(
     warm = histories.temperature[:, step]
     from_value = measured(model, here.state, here.gauge - zero, kind)
     from_warm, from_dead = here.temperature, here.dead
-    count = len(goal)
+    count, begun = len(goal), here.state.memory
     done, size = np.zeros(count), np.ones(count)
     codes = np.full(count, CONVERGED)
     iterations, residual = np.zeros(count, int), np.zeros(count)
-    plays = np.any(model.joints.play.reshape(count, -1) > 0.0, axis=1)
+    laws = model.joints.placed
+    plays = np.any(model.joints.play.reshape(count, -1) > 0.0, axis=1) | any(
+        it.placed.law.abrupt for it in laws
+    )
     shortest = np.where(plays, THROUGH_PLAY, FINEST)
     while True:
         going = np.flatnonzero((done < 1.0) & (codes == CONVERGED))
@@ -158,7 +167,13 @@ def _step(
         lost_stability = (outcome.negative > 0) & (some[1].negative == 0) & ~finest
         good = (outcome.code == CONVERGED) & ~lost_stability
         accepted = np.flatnonzero(good)
-        new = _Here(outcome.state, outcome.gauge, some[3], some[4], outcome.negative)
+        new = _Here(
+            _within_step(laws, outcome.state, to[going], begun[going]),
+            outcome.gauge,
+            some[3],
+            some[4],
+            outcome.negative,
+        )
         here = put(here, going[accepted], take(new, accepted))
         done[going[accepted]] = to[going[accepted]]
         size[going[accepted]] *= 2.0
@@ -167,7 +182,15 @@ def _step(
         size[going[poor]] /= 2.0
 
 
-def _empty(count: int, steps: int, gauges: int) -> Records:
+def _within_step(laws: tuple[Anchored, ...], state: State, to: Floats, begun: Floats) -> State:
+    """The state at the share `to` (B,) of a load step: memories that wait for its end are those it began with."""
+    if not laws:
+        return state
+    waiting = held_back(laws, state.memory, begun)
+    return replace(state, memory=np.where(to[:, None] < 1.0, waiting, state.memory))
+
+
+def _empty(count: int, steps: int, gauges: int, memory: int) -> Records:
     nan = np.full((count, steps), np.nan)
     return Records(
         np.full((count, steps, 6), np.nan),
@@ -178,6 +201,7 @@ def _empty(count: int, steps: int, gauges: int) -> Records:
         np.zeros((count, steps), int),
         nan,
         np.zeros((count, steps), int),
+        np.full((count, steps, memory), np.nan),
     )
 
 
@@ -198,6 +222,7 @@ def _record(
     records.wrench[at, step] = reading(model, here.state)[good]
     records.gauges[at, step] = (here.gauge - zero)[good]
     records.negative[at, step] = here.negative[good]
+    records.memory[at, step] = here.state.memory[good]
     records.converged[going, step] = good
     records.reason[going, step] = [REASONS[int(code)] for code in codes]
     records.iterations[going, step], records.residual[going, step] = effort

@@ -9,6 +9,7 @@ from fem.frame.laws.contact import contact
 from fem.frame.laws.friction import friction
 from fem.frame.laws.play import play
 from fem.frame.laws.spring import spring
+from fem.frame.placed import Anchored
 from meshes.solid import Floats
 
 
@@ -17,10 +18,10 @@ class Joints:
     """Joints of tests, bars and ends: arrays (B, K, 2, ...).
 
     place (..., 3) mm and frame (..., 3, 3): where the chain starts in its body. bodies: for each bar, the body at its
-    base and tip. slots: the coordinates kept (keys of `chain.SLOTS`); active (..., S): those that a joint has.
+    base and tip. slots: the coordinates kept (`chain.motion_of`); active (..., S): those that a joint has.
     compliance (..., S): mm/N or rad/(N mm), of radial and tilt. return_spring N mm/rad, torque N mm and presliding
     rad of the hinges; relaxed rad: turn from as drawn at which a return spring carries nothing (the sliders of friction
-    begin there too); play mm and contact mm/N^(2/3) along the bar.
+    begin there too, and laws placed at hinges); play mm and contact mm/N^(2/3) along the bar. placed: laws at sites.
     """
 
     place: Floats
@@ -35,6 +36,7 @@ class Joints:
     contact: Floats
     bodies: tuple[tuple[int, int], ...]
     slots: tuple[str, ...]
+    placed: tuple[Anchored, ...] = ()
 
 
 def joint_forces(joints: Joints, q: Floats, slider: Floats) -> tuple[Floats, Floats, Floats]:

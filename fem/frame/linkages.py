@@ -1,18 +1,21 @@
 """Rigs with errors as frames: parallelogram and single bar."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
+from fem.frame.batch import Bools
 from fem.frame.chain import SLOTS
 from fem.frame.errors import BarSectionError, Errors
 from fem.frame.fibres import Fibres, grid
 from fem.frame.joints import Joints
 from fem.frame.model import Gauges, Model
+from fem.frame.placed import Placed, anchored
 from fem.frame.reference import Bars
 from fem.frame.rig import Gauge, Rig
 from fem.frame.section import Section
+from fem.frame.sites import BASE
 from fem.frame.so3 import exp, hat
 from meshes.solid import Floats
 
@@ -29,10 +32,17 @@ class Setup:
     errors: Errors
 
 
-def model(setups: Sequence[Setup], gauges: Sequence[Gauge] = (), elements: int = ELEMENTS) -> Model:
-    """The frames of several tests. All rigs need the same number of bars; `elements` a power of two.
+def model(
+    setups: Sequence[Setup],
+    gauges: Sequence[Gauge] = (),
+    elements: int = ELEMENTS,
+    placed: Sequence[Placed] = (),
+) -> Model:
+    """The frames of several tests, all with the placed laws. All rigs need the same number of bars; `elements` a power
+    of two.
 
-    Raises ValueError for other rigs, for a gauge on no bar, and for errors that a rig cannot have.
+    Raises ValueError for other rigs, for a gauge on no bar, for errors that a rig cannot have and for sites that it
+    does not have.
     """
     count = {s.rig.bars for s in setups}
     if len(count) != 1:
@@ -47,6 +57,7 @@ def model(setups: Sequence[Setup], gauges: Sequence[Gauge] = (), elements: int =
     mount = exp(_rows(e, "mounting_tilt", "rx_rad", "ry_rad", "rz_rad"))
     compliance = np.array([_values(x.base_compliance) for x in e])
     there = compliance > 0.0
+    base_active = _with_base_laws(there, placed)
     weights = np.array([_known_weights(s.rig) for s in setups])
     lengths = np.array([s.rig.length + s.errors.dimension_error.length_mm for s in setups])
     length = np.repeat(lengths[:, None], bars, axis=1)
@@ -56,10 +67,10 @@ def model(setups: Sequence[Setup], gauges: Sequence[Gauge] = (), elements: int =
         length=length,
         expansion=np.array([x.thermal_expansion.alpha_per_K for x in e]),
         reference_temperature=np.array([s.rig.reference_temperature for s in setups]),
-        joints=_joints(setups, mount),
+        joints=_with_laws(_joints(setups, mount), placed, setups),
         nominal=np.array([s.rig.platform(s.q) for s in setups]),
         mount=mount,
-        base_active=there,
+        base_active=base_active,
         base_stiffness=np.where(there, 1.0 / np.where(there, compliance, 1.0), 0.0),
         platform_force=weights[:, :3] + _rows(e, "self_weight", "fx_N", "fy_N", "fz_N"),
         line_load=weights[:, 3:] + _rows(e, "self_weight", *(f"line_{a}_N_per_mm" for a in "xyz")),
@@ -161,6 +172,35 @@ def _joints(setups: Sequence[Setup], mount: Floats) -> Joints:
         bodies=((0, 1),) * bars,
         slots=slots,
     )
+
+
+def _with_laws(joints: Joints, placed: Sequence[Placed], setups: Sequence[Setup]) -> Joints:
+    """The joints with the coordinates of series laws after their own."""
+    if not placed:
+        return joints
+    hinged = np.array([[s.rig.hinged(0), s.rig.hinged(1)] for s in setups], bool)
+    laws, slots = anchored(placed, joints.slots, hinged, joints.active.shape[1])
+    active = np.zeros((*joints.active.shape[:3], len(slots)), bool)
+    active[..., : len(joints.slots)] = joints.active
+    for law in laws:
+        if not law.of_base and not law.of_hinge:
+            active[..., law.slot] = law.at
+    compliance = np.zeros(active.shape)
+    compliance[..., : len(joints.slots)] = joints.compliance
+    return replace(joints, active=active, compliance=compliance, slots=slots, placed=laws)
+
+
+def _with_base_laws(springs: Bools, placed: Sequence[Placed]) -> Bools:
+    """(B, 6) coordinates of the base that give, by springs or by laws."""
+    out = springs.copy()
+    for it in placed:
+        if it.site in BASE:
+            if out[:, BASE.index(it.site)].any():
+                raise ValueError(
+                    f"{it.site}: the base gives along it already, allowed is one law or compliance"
+                )
+            out[:, BASE.index(it.site)] = True
+    return out
 
 
 def _gauges(gauges: Sequence[Gauge], tests: int) -> Gauges:

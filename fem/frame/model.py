@@ -8,6 +8,7 @@ from fem.frame.batch import Bools
 from fem.frame.fibres import Fibres
 from fem.frame.joints import Joints
 from fem.frame.local import Reference
+from fem.frame.placed import memory_size
 from fem.frame.reference import Bars
 from fem.frame.so3 import IDENTITY, apply
 from meshes.solid import Floats
@@ -64,7 +65,8 @@ class Model:
 @dataclass(frozen=True, eq=False)
 class State:
     """Bodies X (B, 2, 3), R (B, 2, 3, 3); inner bar nodes x (B, K, n - 1, 3) and r (..., 3, 3); joint coordinates q
-    (B, K, 2, S); platform wrench F (B, 6); memories: sliders (B, K, 2) and plastic strains (B, K, n, 3, fibres)."""
+    (B, K, 2, S); platform wrench F (B, 6); memories: sliders (B, K, 2), plastic strains (B, K, n, 3, fibres) and those
+    of placed laws (B, M)."""
 
     X: Floats
     R: Floats
@@ -74,6 +76,7 @@ class State:
     F: Floats
     slider: Floats
     plastic: Floats
+    memory: Floats
 
 
 @dataclass(frozen=True, eq=False)
@@ -100,6 +103,5 @@ def at_rest(model: Model, x: Floats, r: Floats) -> State:
     zero = np.zeros((count, bars, 2))
     fibres = 0 if model.fibres is None else model.fibres.y.shape[-1]
     plastic = np.zeros((count, bars, x.shape[2] - 1, 3, fibres))
-    return State(
-        X, R, inner, frame @ r[:, :, 1:-1], np.zeros(j.active.shape), np.zeros((count, 6)), zero, plastic
-    )
+    q, memory = np.zeros(j.active.shape), np.zeros((count, memory_size(j.placed)))
+    return State(X, R, inner, frame @ r[:, :, 1:-1], q, np.zeros((count, 6)), zero, plastic, memory)

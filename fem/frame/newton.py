@@ -5,7 +5,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from fem.frame.batch import Bools, Ints, put, take
-from fem.frame.chain import SLOTS
+from fem.frame.chain import motion_of
 from fem.frame.control import Conditions, Targets, conditions
 from fem.frame.model import Model, State, Unloaded
 from fem.frame.so3 import orthonormal
@@ -77,7 +77,7 @@ def equilibrium(
         if len(keep) < len(index):
             parts, system, rows, index = take((parts, system, rows, index), keep)
         with np.errstate(all="ignore"):
-            state = moved(parts[2], newton_step(parts[0], parts[2], system, rows))
+            state = moved(parts[2], newton_step(parts[0], parts[2], system, rows), parts[0].joints.placed)
         parts = (*parts[:2], state, *parts[3:])
     return out
 
@@ -109,7 +109,7 @@ def _kinds(model: Model) -> tuple[Bools, Bools]:
     """Which unknowns are shifts and which are turns, (m,) each."""
     bodies = [True] * 3 + [False] * 3
     ends = 2 * model.length.shape[1]
-    shifts = np.array(2 * bodies + ends * [SLOTS[s][0] == "shift" for s in model.joints.slots])
+    shifts = np.array(2 * bodies + ends * [motion_of(s)[0] == "shift" for s in model.joints.slots])
     return shifts, ~shifts
 
 
@@ -140,6 +140,7 @@ def _recorded(
         r=orthonormal(found.r),
         slider=some_system.slider,
         plastic=some_system.plastic,
+        memory=some_system.memory,
     )
     where = index[ready]
     out.code[where] = CONVERGED

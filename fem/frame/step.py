@@ -4,9 +4,11 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from fem.frame.base import base_coordinates
 from fem.frame.condensation import inner_motion, solve
 from fem.frame.control import Conditions
-from fem.frame.model import Model, State
+from fem.frame.model import BASE, Model, State
+from fem.frame.placed import Anchored, advanced_base, advanced_joints
 from fem.frame.so3 import apply, exp, hat
 from fem.frame.system import BODIES, PLATFORM_ROWS, System, active
 from meshes.solid import Floats
@@ -73,15 +75,21 @@ def _ends(model: Model, system: System, outer: Floats) -> Floats:
     return ends.reshape(count, bars, 12)
 
 
-def moved(state: State, step: Step) -> State:
-    """The state at the end of a step."""
+def moved(state: State, step: Step, laws: tuple[Anchored, ...] = ()) -> State:
+    """The state at the end of a step; laws: those that are placed at sites."""
     body = step.outer[:, :BODIES].reshape(-1, 2, 6)
-    return replace(
+    out = replace(
         state,
         X=state.X + body[..., :3],
         R=exp(body[..., 3:]) @ state.R,
         x=state.x + step.inner[..., :3],
         r=exp(step.inner[..., 3:]) @ state.r,
-        q=state.q + step.outer[:, BODIES:].reshape(state.q.shape),
+        q=advanced_joints(laws, state.q, step.outer[:, BODIES:].reshape(state.q.shape)),
         F=state.F + step.wrench,
     )
+    if not any(it.of_base for it in laws):
+        return out
+    before, after = (base_coordinates(it.X[:, BASE], it.R[:, BASE]) for it in (state, out))
+    there = advanced_base(laws, before, after)
+    out.X[:, BASE], out.R[:, BASE] = there[:, :3], exp(there[:, 3:])
+    return out

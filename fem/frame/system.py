@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from fem.frame import chain
-from fem.frame.base import base_spring
+from fem.frame.base import base_coordinates, base_forces
 from fem.frame.batch import Bools
 from fem.frame.condensation import Condensed, condense
 from fem.frame.element import force_and_tangent, turned_over
@@ -17,7 +17,8 @@ from fem.frame.fibres import yielded
 from fem.frame.joints import joint_forces
 from fem.frame.loads import line_load, point_on_axis
 from fem.frame.model import BASE, PLATFORM, Model, State, Unloaded
-from fem.frame.so3 import apply, transpose
+from fem.frame.placed import base_laws, joint_laws
+from fem.frame.so3 import apply, dot, transpose
 from meshes.solid import Floats
 
 BODIES = 12
@@ -40,8 +41,8 @@ class System:
     tangent (B, m, m), load (B, m): condensed stiffness and out-of-balance force, without the platform wrench;
     raw (B, m): the same force before condensation; inner (B, K, n - 1, 6): out-of-balance at inner nodes.
     gauge (B, G): coordinates of the gauged points, mm; gauge_rates (B, G, m); gauge_shift (B, G): what the inner
-    out-of-balance adds to them in the next step. slider, plastic: memories that this state would leave. turned (B,):
-    whether an element has turned over, so that the frame is none.
+    out-of-balance adds to them in the next step. slider, plastic, memory: memories that this state would leave.
+    turned (B,): whether an element has turned over, so that the frame is none.
     """
 
     tangent: Floats
@@ -55,6 +56,7 @@ class System:
     rates: Floats
     slider: Floats
     plastic: Floats
+    memory: Floats
     turned: Bools
 
 
@@ -109,7 +111,11 @@ def evaluate(model: Model, unloaded: Unloaded, state: State, dead: Floats) -> Sy
             at = np.array(place)
             K[:, at[:, None], at] += added[:, bar, end]
             raw[:, at] += chain.work_rate(nodes.rates[:, bar, end], ends[:, bar, end])
-    rest, springs = _concentrated(model, state, joint_force, joint_stiffness, dead)
+    memory = state.memory
+    if model.joints.placed:
+        more, stiffer, memory = _placed(model, state, nodes, ends)
+        joint_force, joint_stiffness = joint_force + more, joint_stiffness + stiffer
+    rest, springs, memory = _concentrated(model, state, (joint_force, joint_stiffness, memory), dead)
     K += springs
     shift = -condensed.products[..., 1:].sum(1)
     rates = transpose(sides[..., 1:])
@@ -126,6 +132,7 @@ def evaluate(model: Model, unloaded: Unloaded, state: State, dead: Floats) -> Sy
         nodes.rates,
         slider,
         plastic,
+        memory,
         np.any(turned_over(nodes.x, nodes.R), axis=(1, 2)),
     )
 
@@ -150,10 +157,21 @@ def _elements(
     return force, tangent, left[0]
 
 
+def _placed(model: Model, state: State, nodes: Nodes, ends: Floats) -> tuple[Floats, Floats, Floats]:
+    """Forces and stiffnesses (B, K, 2, S) of placed joint laws and their memories; ends (B, K, 2, 6): bars' loads."""
+    axes = nodes.R[:, :, [0, -1]][..., 0]
+    axial = dot(axes, ends[..., :3])
+    return joint_laws(model.joints.placed, state.q, model.joints.relaxed, axial, state.memory)
+
+
 def _concentrated(
-    model: Model, state: State, joint_force: Floats, joint_stiffness: Floats, dead: Floats
-) -> tuple[Floats, Floats]:
-    """Forces (B, m) and stiffness (B, m, m) of joint laws, base springs and the platform's dead load."""
+    model: Model, state: State, joints: tuple[Floats, Floats, Floats], dead: Floats
+) -> tuple[Floats, Floats, Floats]:
+    """Forces (B, m) and stiffness (B, m, m) of joint laws, what holds the base, and the platform's dead load; memories.
+
+    joints: forces and stiffnesses (B, K, 2, S) and the memories (B, M) that they leave.
+    """
+    joint_force, joint_stiffness, memory = joints
     count = len(dead)
     size = BODIES + joint_force[0].size
     force, stiffness = np.zeros((count, size)), np.zeros((count, size, size))
@@ -161,11 +179,12 @@ def _concentrated(
     place = np.arange(BODIES, size)
     stiffness[:, place, place] = joint_stiffness.reshape(count, -1)
     if model.base_active.any():
-        force[:, :6], stiffness[:, :6, :6] = base_spring(
-            state.X[:, BASE], state.R[:, BASE], model.base_stiffness
-        )
+        at = base_coordinates(state.X[:, BASE], state.R[:, BASE])
+        more, stiffer, memory = base_laws(model.joints.placed, at, memory)
+        own = model.base_stiffness * at + more
+        force[:, :6], stiffness[:, :6, :6] = base_forces(at, own, model.base_stiffness + stiffer)
     force[:, 6 * PLATFORM : 6 * PLATFORM + 3] -= dead[:, None] * model.platform_force
-    return force, stiffness
+    return force, stiffness, memory
 
 
 def _gauges(model: Model, unloaded: Unloaded, nodes: Nodes) -> tuple[Floats, Floats]:

@@ -10,6 +10,7 @@ import numpy as np
 from fem.frame import bench
 from fem.frame.errors import Errors
 from fem.frame.linkages import ELEMENTS
+from fem.frame.placed import Placed
 from fem.frame.rig import Gauge as FrameGauge
 from fem.frame.rig import Rig as FrameRig
 from fem.frame.section import Section, uniform
@@ -47,14 +48,20 @@ def measure(
 
 
 def true_readings(
-    rig: RigOfBars, plan: Sequence[PlannedTest], hidden: Mapping[str, float], gauges: tuple[Gauge, ...] = ()
+    rig: RigOfBars,
+    plan: Sequence[PlannedTest],
+    hidden: Mapping[str, float],
+    gauges: tuple[Gauge, ...] = (),
+    placed: Sequence[Placed] = (),
 ) -> list[bench.Readings]:
-    """What sensors without noise would read in each test; errors as in `measure`."""
+    """What sensors without noise would read in each test, with the placed laws; errors as in `measure`."""
     try:
         errors = Errors.of(as_frame(hidden, rig))
         trials = [bench.Trial(np.radians(t.q_deg), t.control, t.values, t.temperature) for t in plan]
         sights = [FrameGauge(g.name, g.bar, g.station, g.vector, g.offset) for g in gauges]
-        found = bench.run(frame_rig(rig), errors, trials, sights, YIELDING if _yields(hidden) else ELEMENTS)
+        found = bench.run(
+            frame_rig(rig), errors, trials, sights, YIELDING if _yields(hidden) else ELEMENTS, placed
+        )
     except ValueError as error:
         raise InputError(str(error)) from error
     for planned, readings in zip(plan, found, strict=True):

@@ -33,7 +33,7 @@ class Dirt:
     """bar: (4,) true over nominal EA, EIy, EIz, GJ. gains: (C,) of the sensors. shares: (C,) true share of the reading.
     bad: part of the readings that are knocked. declared: (C,) declared sigma over the true one. correlated: channel and
     correlation of its noise from row to row, or None. rounded: (C,) resolution of displays in true
-    sigmas."""
+    sigmas. tails: degrees of freedom of a Student t that the noise has instead of a normal distribution, or None."""
 
     bar: Array
     gains: Array
@@ -42,6 +42,7 @@ class Dirt:
     declared: Array
     correlated: tuple[int, float] | None
     rounded: Array
+    tails: float | None = None
 
     @property
     def words(self) -> dict[str, float]:
@@ -111,7 +112,7 @@ def read_dirty(
     for number, (planned, it) in enumerate(zip(bench.plan, found, strict=True)):
         exact = np.hstack([it.displacement, it.wrench, it.gauges])
         scatter = np.hypot(sigma, dirt.shares * np.abs(exact))
-        read = exact * dirt.gains + scatter * _noise(generator, exact.shape, dirt.correlated)
+        read = exact * dirt.gains + scatter * _noise(generator, exact.shape, dirt.correlated, dirt.tails)
         some = generator.random(read.shape) < dirt.bad / exact.shape[1]
         for row, channel in zip(*np.nonzero(some), strict=True):
             size = generator.uniform(*BAD_SIZES) * generator.choice((-1.0, 1.0))
@@ -146,10 +147,16 @@ def _declared(noise: Noise, sigma: Array, dirt: Dirt) -> Noise:
 
 
 def _noise(
-    generator: np.random.Generator, shape: tuple[int, ...], correlated: tuple[int, float] | None
+    generator: np.random.Generator,
+    shape: tuple[int, ...],
+    correlated: tuple[int, float] | None,
+    tails: float | None = None,
 ) -> Array:
     """Of unit variance; of one channel a first-order autoregression from row to row."""
-    out = generator.normal(size=shape)
+    if tails is None:
+        out = generator.normal(size=shape)
+    else:
+        out = generator.standard_t(tails, size=shape) / np.sqrt(tails / (tails - 2.0))
     if correlated is not None:
         channel, r = correlated
         for row in range(1, shape[0]):
