@@ -36,7 +36,7 @@ GEOMETRY = "bar_geometric_nonlinearity"
 class Law:
     """A law that was found. map: what was seen before it. group: sites that are not told apart, the best first.
     left_out: (parts,) gains of `Rest.gains`. ways: forms fitted through the mechanism, the chosen one first, then those
-    tied with it; empty for a sensor's column, of which there is no law in the mechanism."""
+    tied with it; empty for a sensor's column, of which there is no law in the mechanism, and where no form is one."""
 
     map: Map
     group: tuple[Located, ...]
@@ -198,7 +198,11 @@ def _ways(seen: Map, it: Located, cases: Program, name: str, say: Say) -> tuple[
         if other.form.name not in done:
             say(f"{other.form.title} through the mechanism")
             done[other.form.name] = through(other, base, cases, name)
-    ordered = sorted(done.values(), key=lambda way: way.cost)
+    # One that leaves as much as the model without it is no law there.
+    before = seen.found.chi_square - criteria.PROPOSED
+    ordered = sorted((way for way in done.values() if way.cost < before), key=lambda way: way.cost)
+    if not ordered:
+        return ()
     tied = [way for way in ordered if way.cost <= ordered[0].cost + criteria.ALIKE]
     # Of those that are as good, what stays finite or grows linearly beyond the loads comes before a power.
     return tuple(

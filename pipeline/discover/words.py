@@ -63,7 +63,7 @@ def _law(it: LawFound) -> Iterator[str]:
             f"{short(criteria.ALIKE)} of its own."
         )
     if it.form is None:
-        yield f"No law in the mechanism was put there (ln evidence {short(it.evidence)})."
+        yield f"No form of a law in the mechanism explains it there (ln evidence {short(it.evidence)})."
         return
     numbers = ", ".join(phrase(k, estimate(v.model_dump()), v.unit) for k, v in it.parameters.items())
     yield f"The form that explains most: {it.equation}, {numbers}."
