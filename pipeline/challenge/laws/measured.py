@@ -20,8 +20,9 @@ from pipeline.virtual.bench import true_readings
 from pipeline.virtual.plan import GAUGES, PlannedTest
 
 Array = NDArray[np.float64]
-AWAY = (15.0, -15.0)
-"""Degrees at which the test that sees the site best is done again, held out."""
+AWAY = {0.0: (15.0, -15.0), 30.0: (25.0, 20.0), -30.0: (-25.0, -20.0)}
+"""Degrees at which a test of an angle is done again, held out: the first that the plan has not; near enough for a site
+to meet as much."""
 REDUCTIONS, NEAR = 4, 0.97
 """How often the loads of held-out tests are reduced in proportion, and the share that is near enough: the load that
 passes a site is not proportional to that of the test."""
@@ -147,16 +148,16 @@ class _Held:
 
 
 def _held(it: LawCase, scale: Scale, found: list[Readings], laws: list[LawTruth], share: float) -> _Held:
-    """Tests that are held out: those of the plan, and the fitted one that sees the laws best at another angle."""
+    """Tests that are held out: those of the plan, and by law the fitted one in which its site meets most, at another
+    angle."""
     true, placed = true_rig(it.bench.rig, it.dirt.bar), [law.placed for law in laws]
-    plan = tuple(t for t in it.bench.plan if t.holdout)
-    shown, fitted = scale.signature(found), scale.bench.plan
-    best = max(range(len(fitted)), key=lambda k: float(np.linalg.norm(shown[scale.tests == k])))
-    names = {t.id for t in plan}
-    more = [further(fitted[best], angle, it.bench.rig, share) for angle in AWAY]
-    plan = (*plan, next(t for t in more if t.id not in names))
+    held = {t.id: t for t in it.bench.plan if t.holdout}
+    for name in dict.fromkeys(_most(scale.bench.plan, found, k, law) for k, law in enumerate(laws)):
+        (best,) = [t for t in scale.bench.plan if t.id == name]
+        more = [further(best, angle, it.bench.rig, share) for angle in AWAY[best.q_deg]]
+        held |= {t.id: t for t in [next(t for t in more if t.id not in held)]}
     reached = [_met(found, k, law) for k, law in enumerate(laws)]
-    plan = _within(plan, reached, laws, true)
+    plan = _within(tuple(held.values()), reached, laws, true)
     # Taken as fitted, so that they are measured by the same scale.
     bench = replace(it.bench, plan=tuple(replace(t, holdout=False) for t in plan))
     beyond = scale_of(bench, true)
@@ -189,6 +190,12 @@ def _within(
         if min(shares) > NEAR:
             break
     return plan
+
+
+def _most(plan: tuple[PlannedTest, ...], found: list[Readings], number: int, law: LawTruth) -> str:
+    """The id of the test in which the site of a law meets most."""
+    met = [_met([one], number, law) for one in found]
+    return plan[int(np.argmax(met))].id
 
 
 def _met(found: list[Readings], number: int, law: LawTruth) -> float:

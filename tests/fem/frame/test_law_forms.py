@@ -59,7 +59,8 @@ def test_each_law_is_its_closed_form_on_a_bar_that_moves_along_alone(name: str) 
     ways = np.concatenate([np.linspace(0.1, 1.4, 9), np.linspace(1.2, -1.4, 14)[:-1]])
     bar = Rig("bar", LENGTH, SLENDER)
     trial = Trial(0.0, control("x", "y", "z", "rx", "ry", "rz"), steps(x=length * ways * 3.0))
-    (it,) = run(bar, Errors(), [trial], placed=[Placed("along@base", law, force, length)])
+    # A straight bar under an axial load is exact with any number of elements.
+    (it,) = run(bar, Errors(), [trial], elements=2, placed=[Placed("along@base", law, force, length)])
     assert it.converged.all(), it.reason
     pull = it.wrench[:, 0]
     q = it.displacement[:, 0] - pull * LENGTH / SLENDER.EA
@@ -74,9 +75,9 @@ def test_each_law_is_its_closed_form_on_a_bar_that_moves_along_alone(name: str) 
 def test_no_loop_gives_work(name: str) -> None:
     law, _ = EXAMPLES[name]
     generator = np.random.default_rng(4)
-    for _ in range(3):
+    for _ in range(2):
         corners = [0.0, *generator.uniform(-1.2, 1.2, 4), 0.0]
-        once = np.concatenate([np.linspace(a, b, 400)[1:] for a, b in pairwise(corners)])
+        once = np.concatenate([np.linspace(a, b, 250)[1:] for a, b in pairwise(corners)])
         path = np.concatenate(([0.0], once, once))
         force = followed(law, path)
         work = 0.5 * (force[1:] + force[:-1]) * np.diff(path)

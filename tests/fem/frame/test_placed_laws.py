@@ -9,11 +9,16 @@ import pytest
 
 from fem.frame.bench import Readings, Trial, run
 from fem.frame.errors import Errors
+from fem.frame.laws.forms.hysteresis import Creep
 from fem.frame.laws.forms.kinked import DeadZone
 from fem.frame.laws.forms.sliders import Coulomb
-from fem.frame.laws.forms.smooth import EvenPart, Linear
+from fem.frame.laws.forms.smooth import Cubic, EvenPart, Linear
+from fem.frame.laws.forms.wrapped import OverLoad
+from fem.frame.newton import ITERATIONS
 from fem.frame.placed import Placed
 from fem.frame.rig import Gauge, Rig
+from meshes.solid import Floats
+from tests.fem.frame.law_examples import crept
 from tests.fem.frame.rigs import LENGTH, SLENDER, control, parallelogram, steps
 
 ALL_HELD = ("y", "z", "rx", "ry", "rz")
@@ -52,6 +57,13 @@ SAME = {
         {"joint_torsional_stiffness.stiffness_Nmm_per_rad": 3e3},
         [Placed(f"hinge_torque@{end}.{bar}", Linear(3e3)) for end in ("base", "tip") for bar in (1, 2)],
     ),
+    "a spring at the hinges of unequal bars": (
+        {
+            "joint_torsional_stiffness.stiffness_Nmm_per_rad": 3e4,
+            "bar_length_mismatch.mismatch_mm": 0.5,
+        },
+        [Placed("hinge_torque", Linear(3e4))],
+    ),
     "friction of the hinges": (
         {"joint_friction.torque_Nmm": 400.0, "joint_friction.presliding_rad": 2e-3},
         [Placed("hinge_torque", Coulomb(1.0, 1.0), 400.0, 2e-3)],
@@ -82,7 +94,8 @@ WITHIN = {"axes tilt": 2e-4}
 @pytest.mark.parametrize("name", SAME)
 def test_linear_laws_and_friction_are_the_effects_that_they_spell_out(name: str) -> None:
     effects, placed = SAME[name]
-    plain, expected, found = read({}), read(effects), read({}, placed)
+    known = {path: value for path, value in effects.items() if path.startswith("bar_length")}
+    plain, expected, found = read(known), read(effects), read(known, placed)
     np.testing.assert_allclose(found, expected, rtol=0.0, atol=WITHIN.get(name, 1e-8))
     assert np.abs(expected - plain).max() > 1e-3
 
@@ -134,6 +147,46 @@ def test_a_gap_without_stiffness_to_speak_of_is_gone_through() -> None:
     beyond = np.abs(it.followed[0].coordinate) - 0.02
     np.testing.assert_allclose(beyond[[0, 1, 3]], np.abs(it.followed[0].force[[0, 1, 3]]) / 5e8, atol=1e-6)
     assert np.all(np.abs(it.followed[0].force[0]) > 1000.0)
+
+
+def test_a_memory_of_load_steps_does_not_see_how_the_solver_divides_them() -> None:
+    """Creep at the tip, a gap at the base: passing the gap takes parts of load steps."""
+    force, length = 3000.0, 0.05
+    creep, gap = Placed("along@tip", Creep(0.7, 0.6, 3.0), force, length), DeadZone(1.0, 1e5, 1e-4)
+    trial = Trial(0.0, control(*ALL_HELD), steps(x=[3000.0, 3000.0, -3000.0, -3000.0, 1000.0]))
+    (it,) = run(
+        Rig("bar", LENGTH, SLENDER), Errors(), [trial], placed=[creep, Placed("along@base", gap, 1e3, 0.2)]
+    )
+    assert it.converged.all(), it.reason
+    # More iterations than one solution may take: a step was divided.
+    assert it.iterations.max() > ITERATIONS
+    expected = crept((it.followed[0].coordinate[:, 0] / length).tolist())
+    np.testing.assert_allclose(it.wrench[:, 0] / force, expected, rtol=0.0, atol=1e-8)
+
+
+@pytest.mark.parametrize(
+    ("site", "force", "length", "values"),
+    [
+        ("along@tip", 3000.0, 0.02, steps(x=[3000.0, -2000.0, 500.0])),
+        ("base_x", 3000.0, 0.02, steps(x=[3000.0, -2000.0, 500.0])),
+        ("tilt_z@base", 6000.0, 2e-3, steps(y=[20.0, -14.0, 3.0])),
+        ("base_rz", 6000.0, 2e-3, steps(y=[20.0, -14.0, 3.0])),
+    ],
+)
+def test_a_coordinate_over_the_load_is_found_in_a_few_iterations(
+    site: str, force: float, length: float, values: Floats
+) -> None:
+    """The cube root of a coordinate cannot be found along its own tangent: that passes zero further away each time."""
+    held = ALL_HELD if values[:, 0].any() else ("z", "rx", "ry")
+    placed = Placed(site, OverLoad(Cubic(1.0), 200.0), force, length)
+    (it,) = run(Rig("bar", LENGTH, SLENDER), Errors(), [Trial(0.0, control(*held), values)], placed=[placed])
+    assert it.converged.all(), it.reason
+    assert it.iterations.max() <= 12
+    share = it.followed[0].force / force
+    np.testing.assert_allclose(
+        it.followed[0].coordinate / length, share / 200.0 + share**3, rtol=1e-6, atol=1e-10
+    )
+    assert np.abs(share).max() > 0.9
 
 
 BAD = {

@@ -124,7 +124,7 @@ def test_what_is_written_is_the_truth_with_noise(found: tuple[Campaign, Truth]) 
     # Held out: further than anything fitted, and seen.
     reach = [max(it) for it in truth.held_out_reach.values()]
     assert BEYOND * 0.95 < max(reach) < BEYOND * 1.05
-    assert max(truth.held_out_mu.values()) > law.mu
+    assert max(truth.held_out_mu.values()) > 0.5 * law.mu
     words = json.loads(json.dumps(law.words))
     assert words["site"].startswith("hinge_torque") and words["law"] == "Coulomb"
     assert words["parameters"]["presliding"] > 0.0
@@ -178,6 +178,6 @@ def _proved(campaign: Campaign, truth: Truth) -> None:
         assert law.visible and hidden.name == law.name
     reach = np.array(list(truth.held_out_reach.values()))
     assert reach.max() < BEYOND * 1.06
-    assert reach.max() > 1.2
+    assert reach.max(0).min() > 1.1
     assert all(np.isfinite(it).all() for it in truth.held_out.values())
     assert sum(test.role == "fit" for test in campaign.tests) >= 3
