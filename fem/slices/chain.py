@@ -1,0 +1,107 @@
+"""A swept mesh as a chain of slices that is kept: displacements for loads on its nodes and motions of its tip face."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from fem.material import Isotropic
+from fem.reduction import node_dofs
+from fem.slices.classes import classes, mirrors, said
+from fem.slices.condensed import Slice
+from fem.slices.layer_matrix import LayerMatrix
+from fem.slices.pieces import ClassChain, pieces_of_run
+from fem.slices.stiffness import ClassOfLayer
+from fem.virtual_experiments import rigid_motions
+from meshes.layers import SweptMesh
+from meshes.solid import Floats, Ints
+
+
+@dataclass(frozen=True, eq=False)
+class Chain:
+    """A sweep with both end faces held, ready to solve.
+
+    views    : for each class, the view of every shape of layer
+    chains   : for each class, its pieces
+    matrices : of every shape of layer
+    """
+
+    swept: SweptMesh
+    axes: tuple[int, ...]
+    views: tuple[tuple[ClassOfLayer, ...], ...]
+    chains: tuple[ClassChain, ...]
+    matrices: tuple[LayerMatrix, ...]
+
+    @staticmethod
+    def of(swept: SweptMesh, material: Isotropic, axes: Sequence[int] | None = None) -> "Chain":
+        """The chain of a mesh, by the mirrors `axes` of its section, by default all it has (`mirrors`).
+
+        Keeps four matrices of the size of a plane for every doubling and joint. Raises SolveError if a slice is not
+        held, ValueError if the section has no such mirror.
+        """
+        sweep = swept.sweep
+        axes = mirrors(sweep) if axes is None else tuple(axes)
+        matrices = tuple(LayerMatrix.of(layer, material) for layer in sweep.shapes)
+        views = tuple(tuple(ClassOfLayer(layer, signs) for layer in sweep.shapes) for signs in classes(axes))
+        pieces: list[list] = [[] for _ in views]
+        known: list[dict[tuple[int, float], Slice]] = [{} for _ in views]
+        for run in sweep.runs():
+            key = (run.shape, run.thickness)
+            stiffness = None if key in known[0] else matrices[run.shape].stiffness(run.thickness)
+            for view, slices, found in zip(views, known, pieces, strict=True):
+                if stiffness is not None:
+                    slices[key] = view[run.shape].slice(stiffness, run.thickness)
+                found += pieces_of_run(slices[key], run.start, run.count, view[run.shape].rigid[0])
+        return Chain(swept, axes, views, tuple(ClassChain.of(p) for p in pieces), matrices)
+
+    @property
+    def name(self) -> str:
+        """What it is, for results."""
+        return f"slice chain, {said(self.axes)}"
+
+    def solve(self, loads: Floats, tip: Floats | None = None) -> Floats:
+        """Node displacements (dofs, r) for nodal forces (dofs, r), N; base face at rest, tip face at rest or moved.
+
+        tip : (3 f, r) displacements of the last plane's nodes, in the order of `swept.planes[-1]`
+        Forces on the two faces have no effect.
+        """
+        s, count = self.swept, self.swept.sweep.shape_of
+        out = np.zeros_like(loads)
+        plane_dofs, middle_dofs = [node_dofs(n) for n in s.planes], [node_dofs(n) for n in s.middles]
+        end = np.zeros((len(plane_dofs[-1]), loads.shape[1])) if tip is None else tip
+        for view, chain in zip(self.views, self.chains, strict=True):
+            bases = [view[shape].bases[0] for shape in count] + [view[count[-1]].bases[2]]
+            inner = [view[shape].bases[1] for shape in count]
+            planes, middles = chain.solve(
+                [b.T @ loads[d] for b, d in zip(bases, plane_dofs, strict=True)],
+                [b.T @ loads[d] for b, d in zip(inner, middle_dofs, strict=True)],
+                bases[-1].T @ end,
+            )
+            for basis, dofs, u in zip((*bases, *inner), (*plane_dofs, *middle_dofs), (*planes, *middles), strict=True):
+                out[dofs] += basis @ u
+        return out
+
+    def unit_fields(self) -> Floats:
+        """Node displacements (dofs, 6), mm, for the six unit motions of the rigid tip about the middle of its face."""
+        places = self.swept.sweep.shapes[self.swept.sweep.shape_of[-1]].last_places
+        motions = rigid_motions(np.insert(places, 0, 0.0, axis=1))
+        return self.solve(np.zeros((self.swept.mesh.dofs, 6)), motions)
+
+    def product(self, u: Floats) -> Floats:
+        """Nodal forces (dofs,) of node displacements `u` (dofs,): the stiffness of the whole mesh, layer by layer."""
+        out = np.zeros_like(u)
+        for run in self.swept.sweep.runs():
+            stiffness = self.matrices[run.shape].stiffness(run.thickness)
+            dofs = np.stack([self._layer_dofs(i) for i in range(run.start, run.start + run.count)], axis=1)
+            np.add.at(out, dofs, stiffness @ u[dofs])
+        return out
+
+    def _layer_dofs(self, number: int) -> Ints:
+        """The mesh's unknown for each of a layer's own."""
+        s = self.swept
+        layer = s.sweep.shapes[s.sweep.shape_of[number]]
+        node = np.empty(len(layer.mesh.points), dtype=np.int64)
+        parts = (s.planes[number], s.middles[number], s.planes[number + 1])
+        for own, nodes in zip((layer.first, layer.middle, layer.last), parts, strict=True):
+            node[own[own >= 0]] = nodes[own >= 0]
+        return node_dofs(node)
