@@ -2,19 +2,49 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
+import scipy.sparse as sp
 
 from fem.material import Isotropic
 from fem.reduction import node_dofs
 from fem.slices.classes import classes, mirrors, said
 from fem.slices.condensed import Slice
 from fem.slices.layer_matrix import LayerMatrix
-from fem.slices.pieces import ClassChain, pieces_of_run
+from fem.slices.pieces import ClassChain, Piece, pieces_of_run
 from fem.slices.stiffness import ClassOfLayer
 from fem.virtual_experiments import rigid_motions
 from meshes.layers import SweptMesh
 from meshes.solid import Floats, Ints
+
+
+@dataclass(frozen=True, eq=False)
+class Coordinates:
+    """Unknowns of one class over the whole mesh: all planes, then all middles.
+
+    spread : sparse (dofs, k), orthonormal; node displacements for unknowns, and its transpose for loads
+    bounds : where the second part starts, the third one, ..
+    """
+
+    spread: sp.csr_matrix
+    bounds: Ints
+
+    @staticmethod
+    def of(
+        swept: SweptMesh, planes: Sequence[sp.csc_matrix], middles: Sequence[sp.csc_matrix]
+    ) -> "Coordinates":
+        """From the bases of every plane and every middle."""
+        rows, columns, values, start = [], [], [], [0]
+        for basis, nodes in zip((*planes, *middles), (*swept.planes, *swept.middles), strict=True):
+            entries = basis.tocoo()
+            rows.append(node_dofs(nodes)[entries.row])
+            columns.append(start[-1] + entries.col)
+            values.append(entries.data)
+            start.append(start[-1] + basis.shape[1])
+        parts = (np.concatenate(values), (np.concatenate(rows), np.concatenate(columns)))
+        spread = sp.csr_matrix(parts, shape=(swept.mesh.dofs, start[-1]))
+        return Coordinates(spread, np.array(start[1:-1]))
 
 
 @dataclass(frozen=True, eq=False)
@@ -43,7 +73,7 @@ class Chain:
         axes = mirrors(sweep) if axes is None else tuple(axes)
         matrices = tuple(LayerMatrix.of(layer, material) for layer in sweep.shapes)
         views = tuple(tuple(ClassOfLayer(layer, signs) for layer in sweep.shapes) for signs in classes(axes))
-        pieces: list[list] = [[] for _ in views]
+        pieces: list[list[Piece]] = [[] for _ in views]
         known: list[dict[tuple[int, float], Slice]] = [{} for _ in views]
         for run in sweep.runs():
             key = (run.shape, run.thickness)
@@ -59,26 +89,31 @@ class Chain:
         """What it is, for results."""
         return f"slice chain, {said(self.axes)}"
 
+    @cached_property
+    def coordinates(self) -> tuple["Coordinates", ...]:
+        """The unknowns of each class."""
+        shapes = self.swept.sweep.shape_of
+        found = []
+        for view in self.views:
+            planes = [view[shape].bases[0] for shape in shapes] + [view[shapes[-1]].bases[2]]
+            middles = [view[shape].bases[1] for shape in shapes]
+            found.append(Coordinates.of(self.swept, planes, middles))
+        return tuple(found)
+
     def solve(self, loads: Floats, tip: Floats | None = None) -> Floats:
         """Node displacements (dofs, r) for nodal forces (dofs, r), N; base face at rest, tip face at rest or moved.
 
         tip : (3 f, r) displacements of the last plane's nodes, in the order of `swept.planes[-1]`
         Forces on the two faces have no effect.
         """
-        s, count = self.swept, self.swept.sweep.shape_of
         out = np.zeros_like(loads)
-        plane_dofs, middle_dofs = [node_dofs(n) for n in s.planes], [node_dofs(n) for n in s.middles]
-        end = np.zeros((len(plane_dofs[-1]), loads.shape[1])) if tip is None else tip
-        for view, chain in zip(self.views, self.chains, strict=True):
-            bases = [view[shape].bases[0] for shape in count] + [view[count[-1]].bases[2]]
-            inner = [view[shape].bases[1] for shape in count]
-            planes, middles = chain.solve(
-                [b.T @ loads[d] for b, d in zip(bases, plane_dofs, strict=True)],
-                [b.T @ loads[d] for b, d in zip(inner, middle_dofs, strict=True)],
-                bases[-1].T @ end,
-            )
-            for basis, dofs, u in zip((*bases, *inner), (*plane_dofs, *middle_dofs), (*planes, *middles), strict=True):
-                out[dofs] += basis @ u
+        end = np.zeros((3 * len(self.swept.planes[-1]), loads.shape[1])) if tip is None else tip
+        last = self.swept.sweep.shape_of[-1]
+        for view, chain, own in zip(self.views, self.chains, self.coordinates, strict=True):
+            parts = np.split(own.spread.T @ loads, own.bounds)
+            count = len(self.swept.planes)
+            planes, middles = chain.solve(parts[:count], parts[count:], view[last].bases[2].T @ end)
+            out += own.spread @ np.concatenate((*planes, *middles))
         return out
 
     def unit_fields(self) -> Floats:

@@ -119,14 +119,8 @@ class ChainFactor(Factor):
             out[own] = chain.solve(nodal)[r.inner[i]]
         return out
 
-    def once(self, rhs: Floats) -> Floats:
-        """The solution of (n, r) right-hand sides as far as the chain's rounding goes."""
-        inner = self.inner_solved(rhs[: self.inner])
-        ends = np.linalg.solve(self.schur, rhs[self.inner :] - self.border.T @ inner)
-        return np.concatenate((inner - self.answer @ ends, ends))
-
     def solve(self, rhs: Floats) -> Floats:
         columns = rhs.reshape(len(rhs), -1)
-        x = self.once(columns)
-        x += self.once(columns - self.matrix @ x)
-        return x.reshape(rhs.shape)
+        inner = self.inner_solved(columns[: self.inner])
+        ends = np.linalg.solve(self.schur, columns[self.inner :] - self.border.T @ inner)
+        return np.concatenate((inner - self.answer @ ends, ends)).reshape(rhs.shape)

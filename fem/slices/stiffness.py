@@ -13,7 +13,17 @@ import scipy.sparse as sp
 
 from fem.material import Isotropic
 from fem.slices.classes import Signs, along_x, class_basis, classes, mirrors, section
-from fem.slices.condensed import Prism, Slice, Stretch, condensed, doubled, joined_to_base
+from fem.slices.condensed import (
+    Prism,
+    Slice,
+    Stretch,
+    cholesky,
+    condensed,
+    doubled,
+    joined_to_base,
+    rigid_at,
+    solved,
+)
 from fem.slices.layer_matrix import LayerMatrix
 from fem.virtual_experiments import rigid_motions
 from meshes.layers import Layer, Sweep
@@ -63,18 +73,56 @@ def chain_stiffness(sweep: Sweep, material: Isotropic, axes: Sequence[int] | Non
     """
     kinds = classes(mirrors(sweep) if axes is None else axes)
     views = [[ClassOfLayer(layer, signs) for signs in kinds] for layer in sweep.shapes]
+    half = first_half(sweep)
+    held = held_planes(half or sweep, material, views)
+    last = views[int(sweep.shape_of[-1])]
+    ends = [view.rigid[1] for view in last]
+    if half is None:
+        total = sum((r.T @ k @ r for k, r in zip(held, ends, strict=True)), np.zeros((6, 6)))
+    else:
+        # The rigid tip's motions as the middle plane would follow them.
+        middle = [rigid_at(r, -0.5 * sweep.length) for r in ends]
+        parts = zip(held, middle, last, strict=True)
+        total = sum((in_series(k, r, along_x(v.bases[2])) for k, r, v in parts), np.zeros((6, 6)))
+    return np.asarray(0.5 * (total + total.T))
+
+
+def held_planes(sweep: Sweep, material: Isotropic, views: Sequence[Sequence[ClassOfLayer]]) -> list[Floats]:
+    """Stiffness (k, k) of the last plane of a sweep fixed at its base, for each class; `views` by shape, then class."""
     matrices = [LayerMatrix.of(layer, material) for layer in sweep.shapes]
-    held: list[Floats | None] = [None] * len(kinds)
+    held: list[Floats | None] = [None] * len(views[0])
     for run in sweep.runs():
         stiffness = matrices[run.shape].stiffness(run.thickness)
         for number, view in enumerate(views[run.shape]):
             unit = view.slice(stiffness, run.thickness).ends
             held[number] = run_joined(held[number], unit, run.count, view.rigid[0])
+    return [k for k in held if k is not None]
+
+
+def first_half(sweep: Sweep) -> Sweep | None:
+    """The half at the base of a sweep that is its own mirror image along x; None where it is not."""
+    count, odd = divmod(len(sweep.shape_of), 2)
+    alike = (
+        np.array_equal(sweep.shape_of, sweep.shape_of[::-1])
+        and np.array_equal(sweep.thickness, sweep.thickness[::-1])
+        and all(layer.even for layer in sweep.shapes)
+    )
+    return Sweep(sweep.shapes, sweep.shape_of[:count], sweep.thickness[:count]) if alike and not odd else None
+
+
+def in_series(held: Floats, rigid: Floats, along: int) -> Floats:
+    """(6, 6) of two mirrored halves in series: Rᵀ C (C + D C D)⁻¹ D C D R.
+
+    held  : (k, k) C, of the middle plane with one half that is fixed at its far end; the first `along` unknowns along x
+    rigid : (k, 6) R, the motions of the other half's far end, as a rigid body has them at the middle plane
+    The sum has nothing between the unknowns along x and the others.
+    """
+    flip = np.where(np.arange(len(held)) < along, -1.0, 1.0)[:, None]
+    here, there = held @ rigid, flip * (held @ (flip * rigid))
     total = np.zeros((6, 6))
-    for tip, view in zip(held, views[int(sweep.shape_of[-1])], strict=True):
-        assert tip is not None
-        total += view.rigid[1].T @ tip @ view.rigid[1]
-    return 0.5 * (total + total.T)
+    for own in (slice(None, along), slice(along, None)):
+        total += here[own].T @ solved(cholesky(2.0 * held[own, own]), there[own])
+    return total
 
 
 def run_joined(held: Floats | None, unit: Stretch, count: int, rigid: Floats) -> Floats:
