@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from itertools import groupby
+from itertools import groupby, pairwise
 
 import numpy as np
 
@@ -109,13 +109,16 @@ def as_sweep(mesh: SolidMesh) -> SweptMesh:
         raise ValueError("the mesh is no sweep: a cell reaches over a plane that other cells end at")
     plane = np.clip(np.searchsorted(stations, x - near), 0, len(stations) - 1)
     on_plane = np.abs(stations[plane] - x) <= near
+    half_way = 0.5 * (stations[plane - 1] + stations[plane])
+    if np.any(np.abs(half_way - x)[~on_plane] > near):
+        raise ValueError("the mesh is no sweep: a node stands neither on a plane nor half-way between two")
     # Rows of nodes along the bar, told by y and z alone.
     (across, _), (up, _) = (clusters(mesh.points[:, a], near) for a in (1, 2))
     row = np.unique(np.stack((across, up), axis=1), axis=0, return_inverse=True)[1].ravel()
     order = np.lexsort((row, 2 * plane - ~on_plane))
     where = (2 * plane - ~on_plane)[order]
     bounds = np.searchsorted(where, np.arange(2 * len(stations)))
-    slots = tuple(order[a:b] for a, b in zip(bounds[:-1], bounds[1:], strict=True))
+    slots = tuple(order[a:b] for a, b in pairwise(bounds))
     require_ends(mesh, slots)
     thickness = equal_thickness(np.diff(stations), SAME_THICKNESS * length)
     cells = np.split(mesh.cells[np.argsort(layer_of, kind="stable")], np.cumsum(np.bincount(layer_of))[:-1])
@@ -171,9 +174,7 @@ def unit_layer(mesh: SolidMesh, row: Ints, parts: tuple[Ints, ...], cells: Ints)
         points[number[nodes[number[nodes] >= 0]], 0] = level
     levels = np.full(len(mesh.points), 1)
     levels[parts[0]], levels[parts[2]] = 0, 2
-    before, behind = (
-        np.sort(np.where(levels[cells] == side, row[cells], -1), axis=1) for side in (0, 2)
-    )
+    before, behind = (np.sort(np.where(levels[cells] == side, row[cells], -1), axis=1) for side in (0, 2))
     if not np.array_equal(before, behind) or not np.all(np.isin(row[parts[1]], row[parts[0]])):
         raise ValueError("the mesh is no sweep: a layer's two planes are not alike")
     # Exactly drawn along x: the places of the first plane count for all.
@@ -185,7 +186,8 @@ def unit_layer(mesh: SolidMesh, row: Ints, parts: tuple[Ints, ...], cells: Ints)
     places = [mesh.points[nodes, 1:] for nodes in parts]
     if len(parts[0]) == len(parts[2]) and np.array_equal(row[parts[0]], row[parts[2]]):
         places[2] = places[0]
-    return Layer(unit, *(number[nodes] for nodes in parts), *places)
+    first_nodes, middle_nodes, last_nodes = (number[nodes] for nodes in parts)
+    return Layer(unit, first_nodes, middle_nodes, last_nodes, *places)
 
 
 def clusters(values: Floats, near: float) -> tuple[Ints, Floats]:

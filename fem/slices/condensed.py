@@ -13,7 +13,7 @@ from scipy.linalg.blas import dgemm, dtrsm
 
 from fem.factor import SolveError
 from meshes.layers import Layer
-from meshes.solid import Floats
+from meshes.solid import Floats, Ints
 
 
 @dataclass(frozen=True, eq=False)
@@ -27,9 +27,10 @@ class Ends:
 
 @dataclass(frozen=True, eq=False)
 class Prism:
-    """A stretch that is its own mirror image along x: `last` = D first D, `coupling` = D turned, with `turned` symmetric.
+    """A stretch that is its own mirror image along x.
 
-    D is the identity with -1 for the `along` unknowns along x: mirroring reverses those.
+    `last` = D first D and `coupling` = D turned, with `turned` symmetric. D is the identity with
+    -1 for the `along` unknowns along x: mirroring reverses those.
 
     first, turned : (k, k) N/mm
     along         : number of unknowns along x
@@ -127,12 +128,11 @@ def condensed(
     return Slice(without_rigid(prism, rigid), lower, to_first, to_last)
 
 
-def placed(nodes: Sequence[int], basis: sp.csc_matrix, count: int) -> sp.csr_matrix:
+def placed(nodes: Ints, basis: sp.csc_matrix, count: int) -> sp.csr_matrix:
     """Sparse (count, k): a basis (3 n, k) on `nodes` (n,) among all unknowns; a node below zero has none."""
-    numbers = np.asarray(nodes)
-    rows = np.flatnonzero(np.repeat(numbers >= 0, 3))
-    dofs = (3 * numbers[:, None] + np.arange(3)).ravel()[rows]
-    spread = sp.csr_matrix((np.ones(len(rows)), (dofs, rows)), shape=(count, 3 * len(numbers)))
+    rows = np.flatnonzero(np.repeat(nodes >= 0, 3))
+    dofs = (3 * nodes[:, None] + np.arange(3)).ravel()[rows]
+    spread = sp.csr_matrix((np.ones(len(rows)), (dofs, rows)), shape=(count, 3 * len(nodes)))
     return sp.csr_matrix(spread @ basis)
 
 
@@ -182,7 +182,7 @@ def subtract_product(target: Floats, a: Floats, b: Floats) -> None:
 
 
 def rigid_at(rigid: Floats, x: float) -> Floats:
-    """Rigid motions (k, 6) of a plane at `x` mm along the bar, for those of one at zero: a rotation moves it sideways."""
+    """Rigid motions (k, 6) of a plane at `x` mm along the bar, from those of the plane at zero."""
     out = rigid.copy()
     out[:, 4] -= x * rigid[:, 2]
     out[:, 5] += x * rigid[:, 1]

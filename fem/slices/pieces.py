@@ -109,7 +109,9 @@ class CondensedLoads:
         piece.raised(inside)
         return CondensedLoads(inside[:, 0].copy(), inside[:, -1].copy(), inside, own)
 
-    def displacements(self, piece: Piece, before: Floats, behind: Floats) -> tuple[list[Floats], list[Floats]]:
+    def displacements(
+        self, piece: Piece, before: Floats, behind: Floats
+    ) -> tuple[list[Floats], list[Floats]]:
         """Of the piece's planes but the first one, and of its middles, for those of its end planes (k, r)."""
         planes = [before, behind]
         if piece.count > 1:

@@ -92,10 +92,7 @@ class ChainFactor(Factor):
         self.answer = self.inner_solved(self.border)
         corner = self.matrix[self.inner :, self.inner :].toarray()
         self.schur = corner - self.border.T @ self.answer
-        values = np.linalg.eigvalsh(self.schur)
-        if len(values) and np.abs(values).min() == 0.0:
-            raise SolveError("the matrix is singular: the model is not held")
-        self.negative = int(np.count_nonzero(values < 0.0))
+        self.negative = int(np.count_nonzero(np.linalg.eigvalsh(self.schur) < 0.0))
 
     @property
     def negative_eigenvalues(self) -> int:
@@ -122,5 +119,8 @@ class ChainFactor(Factor):
     def solve(self, rhs: Floats) -> Floats:
         columns = rhs.reshape(len(rhs), -1)
         inner = self.inner_solved(columns[: self.inner])
-        ends = np.linalg.solve(self.schur, columns[self.inner :] - self.border.T @ inner)
+        try:
+            ends = np.linalg.solve(self.schur, columns[self.inner :] - self.border.T @ inner)
+        except np.linalg.LinAlgError as error:
+            raise SolveError("the linear system is singular: the model is not held") from error
         return np.concatenate((inner - self.answer @ ends, ends)).reshape(rhs.shape)

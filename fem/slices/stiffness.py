@@ -134,7 +134,7 @@ def run_joined(held: Floats | None, unit: Stretch, count: int, rigid: Floats) ->
 
 
 def powers(unit: Stretch, count: int, rigid: Floats) -> Iterator[Stretch]:
-    """The stretches of `count` layers' binary digits, shortest first; a stretch that is no prism once for each layer."""
+    """The stretches of the binary digits of `count` layers, shortest first; what is no prism once for each layer."""
     if not isinstance(unit, Prism):
         yield from [unit] * count
         return
