@@ -1,4 +1,4 @@
-"""The chain as a solver: fields, stress, geometric stiffness and buckling by the code that is there, on the same mesh."""
+"""The chain as a solver: fields, stress, geometric stiffness and buckling by the code that is there, on one mesh."""
 
 from __future__ import annotations
 
