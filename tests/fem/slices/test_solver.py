@@ -98,7 +98,12 @@ def test_stiffness_and_its_derivative_by_axial_force(name: str) -> None:
 
 @pytest.mark.parametrize(
     ("name", "supports"),
-    [("graded", "free"), ("stepped", "guided"), ("stepped", "pinned"), ("lugs", "clamped")],
+    [
+        ("graded", "free"),
+        ("stepped", "guided"),
+        ("stepped", "pinned"),
+        pytest.param("lugs", "clamped", marks=pytest.mark.long),
+    ],
 )
 def test_buckling(name: str, supports: str) -> None:
     """Loads to 1e-6, where 1e-3 would do, and the planes of the modes."""
@@ -108,6 +113,7 @@ def test_buckling(name: str, supports: str) -> None:
     assert [m.plane for m in other] == [m.plane for m in one]
 
 
+@pytest.mark.long
 def test_parallelogram() -> None:
     """Two bars share one chain."""
     one, other = two(parallelogram(bar_p.space(1), bar_p.LENGTH, bar_p.WIDTH, 0.5))

@@ -105,7 +105,7 @@ def test_bending_of_a_bar_that_is_its_own_mirror_image(count: int) -> None:
 
 
 @given(count=st.integers(1, 60))
-@settings(max_examples=12, deadline=None)
+@settings(max_examples=8, deadline=None)
 def test_doubling_equals_joining_one_by_one(count: int) -> None:
     """To 1e-10 beside the entries' own size, with the middle plane of an even number or without."""
     sweep = bar_p_sweep([0.9] * count)
@@ -118,7 +118,7 @@ def test_doubling_equals_joining_one_by_one(count: int) -> None:
 
 
 @given(order=st.permutations([0.5, 0.5, 0.5, 2.0, 2.0, 8.0, 8.0, 8.0]))
-@settings(max_examples=8, deadline=None)
+@settings(max_examples=5, deadline=None)
 def test_order_of_joining(order: list[float]) -> None:
     """The same layers from tip to base: the bar mirrored along x, moved at what was its base."""
     k = chain_stiffness(bar_p_sweep(order), bar_p.MATERIAL)
@@ -154,7 +154,7 @@ def test_section_without_mirrors_and_its_mirror_image() -> None:
 
 
 @given(scale=st.floats(0.01, 100.0))
-@settings(max_examples=10, deadline=None)
+@settings(max_examples=6, deadline=None)
 def test_lengths_and_modulus(scale: float) -> None:
     """All lengths times s: forces per length grow with s, moments per length with s², moments per angle with s³."""
     section = Rectangle(6.0, 10.0)
