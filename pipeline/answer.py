@@ -6,12 +6,8 @@ Values in the units of their parameters: N, mm, rad, MPa, N·mm.
 
 from __future__ import annotations
 
-import json
-from pathlib import Path
 from typing import Any, Literal
 
-from meshes.files import replacing
-from pipeline.errors import InputError
 from pipeline.record import Record
 
 Verdict = Literal["nothing_tested", "within_noise", "identified", "ambiguous", "unknown"]
@@ -286,15 +282,3 @@ class Answer(Record):
     """Versions of the program and its libraries."""
     data: dict[str, str] = {}  # noqa: RUF012
     """SHA-256 of each file that was read, by its name."""
-
-    def text(self) -> str:
-        """JSON; what is not finite is null."""
-        return json.dumps(self.model_dump(mode="json"), indent=1, ensure_ascii=False, allow_nan=False) + "\n"
-
-    def write(self, path: Path) -> None:
-        """Write the JSON whole or not at all. InputError where nothing can be written."""
-        try:
-            with replacing(path) as part:
-                part.write_text(self.text(), encoding="utf-8")
-        except OSError as error:
-            raise InputError(f"{path} cannot be written: {error.strerror}") from error

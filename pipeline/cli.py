@@ -11,6 +11,7 @@ import typer
 from pipeline.discover.wiring import register as register_discover
 from pipeline.errors import InputError
 from pipeline.export.wiring import register as register_export
+from pipeline.options import CampaignFolder, EffectsFrom, Json, ModelFile
 from pipeline.system import missing_libraries, wanted
 from pipeline.typed import typed
 
@@ -26,19 +27,6 @@ Out = Annotated[
     typer.Option(help="Folder of the result; default reports/validation, or results/CASE-DETAIL."),
 ]
 Quiet = Annotated[bool, typer.Option("--quiet", help="No progress.")]
-
-CampaignFolder = Annotated[
-    Path, typer.Argument(metavar="CAMPAIGN", help="Folder with campaign.toml and measurements.csv.")
-]
-ModelFile = Annotated[
-    Path | None, typer.Option("--model", help="Saved model; default model.toml of the campaign, if there.")
-]
-EffectsFrom = Annotated[
-    list[Path] | None,
-    typer.Option("--effects-from", help="Python file with an effect of your own; repeatable."),
-]
-Json = Annotated[Path | None, typer.Option("--json", help="File for the whole result.")]
-
 
 ManipulatorFile = Annotated[
     str, typer.Argument(metavar="FILE", help="A manipulator as .toml, or the name of a shipped one.")

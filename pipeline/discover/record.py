@@ -2,12 +2,7 @@
 
 from __future__ import annotations
 
-import json
-from pathlib import Path
-
-from meshes.files import replacing
 from pipeline.answer import ModelError, SetAside, Value
-from pipeline.errors import InputError
 from pipeline.record import Record
 
 
@@ -145,15 +140,3 @@ class Discovered(Record):
     """Of the program and its libraries."""
     data: dict[str, str] = {}  # noqa: RUF012
     """SHA-256 of each file of the campaign."""
-
-    def text(self) -> str:
-        """JSON; what is not finite is null."""
-        return json.dumps(self.model_dump(mode="json"), indent=1, ensure_ascii=False, allow_nan=False) + "\n"
-
-    def write(self, path: Path) -> None:
-        """Write the JSON whole or not at all. InputError where nothing can be written."""
-        try:
-            with replacing(path) as part:
-                part.write_text(self.text(), encoding="utf-8")
-        except OSError as error:
-            raise InputError(f"{path} cannot be written: {error.strerror}") from error

@@ -8,24 +8,20 @@ from typing import Annotated
 
 import typer
 
+from pipeline.options import CampaignFolder, EffectsFrom, Json, ModelFile
+
 
 def register(app: typer.Typer, guarded: Callable[[Callable[[], object]], None]) -> None:
     """Add the command; guarded: turns what went wrong into one sentence and an exit code."""
 
     def discover(
-        campaign: Annotated[Path, typer.Argument(metavar="CAMPAIGN", help="Folder of the campaign.")],
+        campaign: CampaignFolder,
         write: Annotated[
             Path | None, typer.Option("--write", metavar="EFFECT.py", help="Effect file of the laws.")
         ] = None,
-        model: Annotated[
-            Path | None,
-            typer.Option("--model", help="Saved model; default model.toml of the campaign, if there."),
-        ] = None,
-        effects_from: Annotated[
-            list[Path] | None,
-            typer.Option("--effects-from", help="Python file with an effect of your own; repeatable."),
-        ] = None,
-        json: Annotated[Path | None, typer.Option("--json", help="File for the laws as JSON.")] = None,
+        model: ModelFile = None,
+        effects_from: EffectsFrom = None,
+        json: Json = None,
         out: Annotated[Path | None, typer.Option(help="Folder for laws.json and pictures.")] = None,
         seed: Annotated[int | None, typer.Option(help="Kept with the laws; nothing here is random.")] = None,
         quiet: Annotated[bool, typer.Option("--quiet", help="Only the first sentence.")] = False,

@@ -9,6 +9,7 @@ from typing import Annotated
 import typer
 
 from pipeline.export.formats import names
+from pipeline.options import EffectsFrom, ModelFile
 
 
 def register(app: typer.Typer, guarded: Callable[[Callable[[], object]], None]) -> None:
@@ -25,14 +26,8 @@ def register(app: typer.Typer, guarded: Callable[[Callable[[], object]], None]) 
             float | None,
             typer.Option("--q", metavar="DEG", help="The parallelogram at this angle; default its bar."),
         ] = None,
-        model: Annotated[
-            Path | None,
-            typer.Option("--model", help="Saved model; default model.toml of the campaign, if there."),
-        ] = None,
-        effects_from: Annotated[
-            list[Path] | None,
-            typer.Option("--effects-from", help="Python file with an effect of your own; repeatable."),
-        ] = None,
+        model: ModelFile = None,
+        effects_from: EffectsFrom = None,
         quiet: Annotated[bool, typer.Option("--quiet", help="Only the names of the files.")] = False,
     ) -> None:
         """K_b of the bar, K_p of the parallelogram, for other programs.

@@ -135,14 +135,7 @@ def diagnosed(it: Subject, stage: Stage) -> Subject:
 
 def read_answer(path: Path) -> Answer:
     """An answer that diagnose or add has written. InputError for a file that is none."""
-    try:
-        return Answer.model_validate_json(path.read_bytes())
-    except OSError as error:
-        raise InputError(f"{path}: cannot be read: {error.strerror}") from error
-    except ValidationError as error:
-        first = error.errors()[0]
-        place = ".".join(map(str, first["loc"])) or "the file"
-        raise InputError(f"{path} is no saved answer: {place}: {first['msg']}") from error
+    return Answer.read(path, "saved answer")
 
 
 def _answered(it: Subject, answer: Answer, path: Path, stage: Stage) -> Subject:

@@ -7,10 +7,9 @@ compression is negative; in `buckling` and `critical` a compression load is posi
 import json
 from pathlib import Path
 
-from pydantic import Field, ValidationError
+from pydantic import Field
 
 from meshes.files import replacing
-from pipeline.errors import InputError
 from pipeline.manipulator.table_record import Table1
 from pipeline.record import Record
 
@@ -293,14 +292,7 @@ class Result(Record):
 
 def read_result(path: Path) -> Result:
     """A saved result. InputError where it cannot be read or is none."""
-    try:
-        return Result.model_validate_json(path.read_bytes())
-    except OSError as error:
-        raise InputError(f"{path} cannot be read: {error.strerror}") from error
-    except ValidationError as error:
-        first = error.errors()[0]
-        place = ".".join(map(str, first["loc"])) or "the file"
-        raise InputError(f"{path} is not a saved result: {place}: {first['msg']}") from error
+    return Result.read(path, "saved result")
 
 
 def write_text(path: Path, text: str) -> None:
