@@ -35,6 +35,10 @@ SHIFT, TURN = 0.1, 1e-3
 ORDER = 2
 
 
+class NoSites(ValueError):
+    """A rig that has no places where a law could sit."""
+
+
 @dataclass(frozen=True, eq=False)
 class Element:
     """One place where a law could sit.
@@ -59,7 +63,7 @@ class Element:
 def elements(found: Fit) -> tuple[Element, ...]:
     """All places of the rig of a fit's campaign and all its columns, at the states and inputs of the fit.
 
-    ValueError for a rig that has no such places.
+    NoSites for a rig that has no such places.
     """
     cases = found.residual.program
     weights = whitening(cases, found.prediction)
@@ -89,10 +93,10 @@ def _of_mechanism(found: Fit, flat: Callable[[Array], Array]) -> Iterator[Elemen
 
 
 def _bench(found: Fit, group: Group) -> Rig:
-    """The mechanism of a fit on the rig of some tests. ValueError where that is no bar and no parallelogram."""
+    """The mechanism of a fit on the rig of some tests. NoSites where that is no bar and no parallelogram."""
     mechanism = found.model.mechanism(group.rig, found.residual.program.campaign.gauges)
     if not isinstance(mechanism, Bar | Parallelogram):
-        raise ValueError(f"sites of laws are those of a bar or a parallelogram, not of a {group.rig.kind}")
+        raise NoSites(f"sites of laws are those of a bar or a parallelogram, not of a {group.rig.kind}")
     return mechanism
 
 

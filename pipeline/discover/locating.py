@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -56,9 +56,12 @@ class Map:
         return tuple(it for it in self.sites if it.value >= self.best - within)
 
 
-def mapped(found: Fit, effects: Mapping[str, Effect]) -> Map:
-    """Of a fit whose tests may all be fitted. effects: those that bodies are taken from."""
+def mapped(found: Fit, effects: Mapping[str, Effect], beside: Array | None = None) -> Map:
+    """Of a fit whose tests may all be fitted. effects: those that bodies are taken from. beside: (N, P) columns that
+    are fitted anew in both hypotheses, in standard deviations before any data."""
     every, rest = elements(found), Rest.of(found.residual)
+    if beside is not None:
+        rest = replace(rest, tolerance=np.hstack([rest.tolerance, beside]))
     largest: dict[str, float] = {}
     for each in every:
         size = float(np.max(np.abs(each.coordinate), initial=0.0))

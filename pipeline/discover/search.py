@@ -101,6 +101,11 @@ class Discovery:
         return tuple(step for step in self.steps if isinstance(step, Law))
 
 
+def fitted_to(model: Model, cases: Program) -> Fit:
+    """A model fitted to the readings of a program; as it is where it has no numbers."""
+    return fit(model, cases) if model.free else unfitted(model, cases)
+
+
 def discover(
     cases: Program, model: Model, effects: Mapping[str, Effect], say: Say = lambda _: None
 ) -> Discovery:
@@ -120,8 +125,8 @@ def discover(
             say("without single bad readings")
             rounds, bad = rounds + 1, [*bad, *new]
             cases = program(set_aside(cases.campaign, new))
-            given, begin = (_again(each.model, cases) for each in (given, begin))
-            here = begin if not steps else _again(here.model, cases)
+            given, begin = (fitted_to(each.model, cases) for each in (given, begin))
+            here = begin if not steps else fitted_to(here.model, cases)
             continue
         step = _step(seen, cases, len(steps) + 1, say)
         if step is None or len(steps) >= criteria.LAWS:
@@ -135,18 +140,13 @@ def discover(
             return Discovery(given, begin, tuple(steps), here, seen, False, tuple(bad))
 
 
-def _again(model: Model, cases: Program) -> Fit:
-    """A model fitted to other readings."""
-    return fit(model, cases) if model.free else unfitted(model, cases)
-
-
 def _begin(cases: Program, model: Model, effects: Mapping[str, Effect]) -> tuple[Fit, Fit]:
     """The model, and that or the one with the geometric nonlinearity of its bars where that leaves less."""
-    plain = _again(model, cases)
+    plain = fitted_to(model, cases)
     if GEOMETRY not in effects:
         return plain, plain
     other = model.with_effects([effects[GEOMETRY]])
-    bent = _again(other, cases)
+    bent = fitted_to(other, cases)
     return plain, min(plain, bent, key=lambda it: it.order)
 
 

@@ -5,13 +5,14 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
-from pipeline.answer import Answer, Value
+from pipeline.answer import Answer
 from pipeline.campaign.reading import DESCRIPTION
 from pipeline.page.record import Page, TestPage
 from pipeline.page.words import why
 from pipeline.parameter_names import parted
 from pipeline.studio.planning import planning
 from pipeline.studio.session import Session
+from pipeline.value import Value
 from reports.campaign.names import channel_label, measured, test_label
 from reports.formats import number
 from reports.quantities import estimate, phrase, sigma

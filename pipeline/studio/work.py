@@ -13,6 +13,7 @@ from pipeline.answer import Answer
 from pipeline.campaign import read
 from pipeline.diagnose.diagnosis import diagnose
 from pipeline.diagnose.words import answered
+from pipeline.discover.beyond_catalogue import with_laws
 from pipeline.inference.model_file import NAME, ModelFile, model_text
 from pipeline.inference.model_reading import read_model_file
 from pipeline.inference.suitable import known_effects, named_effects
@@ -75,7 +76,7 @@ def do(task: Task, say: Say) -> Done:
     told = dict(read_model_file(saved, known).uncertainty) if saved.exists() else {}
     subject = Subject(campaign, model, known, told)
     if task.kind == "diagnose":
-        found = diagnose(campaign, model, known.effects, say)
+        found = with_laws(diagnose(campaign, model, known.effects, say), say)
         answer = answered(found)
         return Done("diagnose", answer=answer, isolability=attempted_isolability(found))
     if task.kind == "plan":
