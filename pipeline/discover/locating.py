@@ -9,9 +9,10 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
+from pipeline.discover.bases import basis_of, unloaded
 from pipeline.discover.bodies import Body, bodies, weighed
 from pipeline.discover.elements import Element, elements
-from pipeline.discover.evidence import Columns, Evidence, Rest, columns
+from pipeline.discover.evidence import Columns, Evidence, Rest
 from pipeline.discover.sites import Site, sites
 from pipeline.inference.fit import Fit
 from vjm.effects.base import Effect
@@ -71,8 +72,8 @@ def mapped(found: Fit, effects: Mapping[str, Effect], beside: Array | None = Non
     def of(element: Element, sign: float) -> Array:
         key = (id(element), sign)
         if key not in done:
-            c, s = sign * element.coordinate, sign * element.influence
-            done[key] = columns(c, s, rest.rows, rest.first, largest[element.kind])
+            says = basis_of(sign * element.coordinate, rest.first, largest[element.kind])
+            done[key] = rest.without_zeros(sign * element.moved(says, unloaded(), rest.rows))
         return done[key]
 
     best: dict[str, Located] = {}

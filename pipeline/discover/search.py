@@ -17,7 +17,7 @@ from pipeline.discover import criteria
 from pipeline.discover.bodies import Body, started
 from pipeline.discover.elements import elements
 from pipeline.discover.evidence import Rest
-from pipeline.discover.forming import Formed, formed
+from pipeline.discover.forming import Formed, columns_of, formed
 from pipeline.discover.locating import Located, Map, mapped
 from pipeline.discover.settling import bad_beside
 from pipeline.discover.sites import Site
@@ -219,11 +219,7 @@ def _about(way: Through, before: list[Formed]) -> list[Formed]:
     places = {(each.kind, each.place) for each in old.elements}
     some = tuple(each for each in elements(way.fit) if (each.kind, each.place) in places)
     site, form = replace(old, elements=some), way.there
-    done = np.zeros(rest.residuals.size)
-    for each in some:
-        sign = site.sign(each)
-        y = form.form.columns(sign * each.coordinate, rest.first, form.shapes) @ form.amplitudes
-        done += sign * each.influence * y[rest.rows]
+    done = columns_of(form.form, site, rest, form.shapes) @ form.amplitudes
     largest = max(float(np.max(np.abs(each.coordinate))) for each in some)
     return _near(formed(site, replace(rest, residuals=rest.residuals + done), largest))
 

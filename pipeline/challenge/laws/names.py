@@ -21,7 +21,7 @@ FORMS: Mapping[str, tuple[str, ...]] = {
     "Iwan": ("iwan",),
     "LinearAndCoulomb": ("linear+coulomb", "slip"),
     "LinearAndCubic": ("linear+cubic",),
-    "Creep": ("creep",),
+    "Creep": ("creep", "creep_in_series"),
     "Periodic": ("periodic", "linear+periodic"),
     "PreloadedLinear": ("linear+constant", "two_slopes"),
     "Linear": ("linear",),
