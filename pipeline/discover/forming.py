@@ -23,6 +23,10 @@ from vjm.law_sites import SITE_KINDS, SiteKind
 Array = NDArray[np.float64]
 BEYOND = 1.5
 """Times the largest load or coordinate up to which a compliance must rise."""
+LOADS = 241
+"""At which that is looked at."""
+LEVEL = 1e-9
+"""Of the whole rise, below which a part of it may be by rounding."""
 LOOKS = 40
 """Evaluations of the shapes from each start, at most."""
 
@@ -84,6 +88,9 @@ def _from(form: Form, site: Site, rest: Rest, largest: float, start: Array) -> I
     def at(shapes: Array) -> tuple[Array, Array]:
         columns = rest.weakened(columns_of(form, site, rest, shapes))
         amplitudes = _amplitudes(form, columns, whitened)
+        slopes = _slopes(form, site, shapes, largest)
+        if slopes is not None and np.any(slopes @ amplitudes < 0.0):
+            amplitudes = rising(columns, whitened, slopes)
         return amplitudes, whitened - columns @ amplitudes
 
     def done(shapes: Array) -> Formed:
@@ -134,12 +141,40 @@ def _amplitudes(form: Form, columns: Array, residuals: Array) -> Array:
     return np.asarray(found / scale)
 
 
+def _slopes(form: Form, site: Site, shapes: Array, largest: float) -> Array | None:
+    """(n, A) rises of a compliance between loads up to which it must rise, by its amplitudes; None where no curve
+    has to."""
+    if not SITE_KINDS[site.kind].series or form.memory:
+        return None
+    loads = np.linspace(-BEYOND, BEYOND, LOADS) * largest
+    return np.diff(form.columns(loads, np.array([0, loads.size]), shapes), axis=0)
+
+
+def rising(columns: Array, residuals: Array, slopes: Array) -> Array:
+    """(A,) amplitudes that leave least of residuals (N,) through columns (N, A), with no rise `slopes` (n, A) below
+    zero: least squares with inequalities as a least distance problem (C. L. Lawson, R. J. Hanson, Solving Least
+    Squares Problems, SIAM 1995, chapter 23)."""
+    scale = np.linalg.norm(columns, axis=0)
+    scale[scale == 0.0] = 1.0
+    q, r = np.linalg.qr(columns / scale)
+    inverse = np.linalg.pinv(r, rcond=1e-10)
+    aim, rises = q.T @ residuals, (slopes / scale) @ inverse
+    rises = rises / np.maximum(np.linalg.norm(rises, axis=1, keepdims=True), 1e-300)
+    # z = r a - aim of least length with rises z >= -rises aim.
+    system = np.vstack([rises.T, -(rises @ aim)])
+    dual, _ = nnls(system, np.eye(aim.size + 1)[-1])
+    left = system @ dual - np.eye(aim.size + 1)[-1]
+    if not abs(left[-1]) > 0.0:
+        return np.zeros(aim.size)
+    return np.asarray(inverse @ (aim - left[:-1] / left[-1]) / scale)
+
+
 def _is_law(it: Formed) -> bool:
     """Whether there is one: something acts, and in series the displacement rises with the load as far as is asked."""
     if not np.any(it.amplitudes):
         return False
-    if not it.kind.series or it.form.memory:
+    slopes = _slopes(it.form, it.site, it.shapes, it.largest)
+    if slopes is None:
         return True
-    loads = np.linspace(-BEYOND, BEYOND, 241) * it.largest
-    y = it.form.columns(loads, np.array([0, loads.size]), it.shapes) @ it.amplitudes
-    return bool(np.all(np.diff(y) >= 0.0) and y[-1] > y[0])
+    rises = slopes @ it.amplitudes
+    return bool(rises.sum() > 0.0 and np.all(rises >= -LEVEL * rises.sum()))

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 from abc import abstractmethod
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
+from scipy.optimize import brentq
 
 from vjm.forms.base import Form
 from vjm.frames import Array
@@ -14,6 +16,10 @@ from vjm.laws import Law, Response
 NEAR = 1e-14
 """Of the bracket, to which a load is found."""
 ROUNDS = 200
+LEAST_SLOPE = 0.05
+"""Of the slope without load, at which a curve that would fall goes on straight."""
+SCANNED = 400
+"""Loads at which it is looked whether a curve falls."""
 FARTHEST = 1e15
 """N or N·mm up to which a load is looked for."""
 
@@ -66,10 +72,12 @@ class Spring:
 
 @dataclass(frozen=True, eq=False)
 class Compliance:
-    """Displacement over load along a curve that rises everywhere; the force at a displacement is looked for, from the
-    displacement without load on.
+    """Displacement over load along a curve; the force at a displacement is looked for, from the displacement without
+    load on.
 
-    Where the curve does not rise there is no such law: force and tangent are no numbers there.
+    Where a curve with a slope without load would fall it goes on straight, from where its slope is `LEAST_SLOPE` of
+    that: what was measured is before. Any other curve that does not rise is no such law: force and tangent are no
+    numbers there.
     """
 
     form: CurveForm
@@ -82,16 +90,53 @@ class Compliance:
 
     def give(self, force: Array) -> Array:
         """Strain at a force; both (...)."""
-        return np.asarray(self.form.points(force, self.shapes).value @ self.amplitudes)
+        return self._at(force)[0]
+
+    @cached_property
+    def _ends(self) -> tuple[float, float]:
+        """Loads between which the curve is what its form says."""
+        first = float(self._curve(np.zeros(()))[1])
+        if not (np.isfinite(first) and first > 0.0):
+            return -np.inf, np.inf
+        low, high = (self._end(sign, first) for sign in (-1.0, 1.0))
+        return -low, high
+
+    def _end(self, sign: float, first: float) -> float:
+        """The load of a sign at which the slope is the least one, of a curve that falls somewhere; else infinite."""
+        loads = np.logspace(-12.0, np.log10(FARTHEST), SCANNED)
+        slopes = self._curve(sign * loads)[1]
+        falls = np.flatnonzero(slopes <= 0.0)
+        if not falls.size:
+            return np.inf
+        k = int(np.flatnonzero(slopes <= LEAST_SLOPE * first)[0])
+        low = loads[k - 1] if k else 0.0
+        return float(
+            brentq(lambda x: float(self._curve(sign * np.asarray(x))[1]) - LEAST_SLOPE * first, low, loads[k])
+        )
+
+    def _curve(self, force: Array) -> tuple[Array, Array, Array]:
+        """Displacement, slope and integral as the form says."""
+        there = self.form.points(force, self.shapes)
+        value, slope, integral = (
+            each @ self.amplitudes for each in (there.value, there.slope, there.integral)
+        )
+        return value, slope, integral
+
+    def _at(self, force: Array) -> tuple[Array, Array, Array]:
+        """Displacement, slope and integral (...) at a force (...), straight beyond the ends."""
+        low, high = self._ends
+        inside = np.clip(force, low, high)
+        value, slope, integral = self._curve(inside)
+        beyond = force - inside
+        return value + slope * beyond, slope, integral + value * beyond + 0.5 * slope * beyond**2
 
     def respond(self, strain: Array, memory: Array) -> Response:
         u = strain[..., 0]
         force = self._force(u)
-        there = self.form.points(force, self.shapes)
-        slope = there.slope @ self.amplitudes
+        _, slope, integral = self._at(force)
         with np.errstate(divide="ignore", invalid="ignore"):
             tangent = np.where(slope > 0.0, 1.0 / slope, np.nan)
-        energy = u * force - there.integral @ self.amplitudes
+        energy = u * force - integral
         return Response(energy, force[..., None], tangent[..., None, None], memory)
 
     def _force(self, u: Array) -> Array:
@@ -101,8 +146,8 @@ class Compliance:
         aim = np.abs(u - unloaded)
 
         def give(size: Array) -> tuple[Array, Array]:
-            there = self.form.points(sign * size, self.shapes)
-            return sign * (there.value @ self.amplitudes - unloaded), there.slope @ self.amplitudes
+            value, slope, _ = self._at(sign * size)
+            return sign * (value - unloaded), slope
 
         low, high = np.zeros(u.shape), np.ones(u.shape)
         beyond = give(high)[0] < aim

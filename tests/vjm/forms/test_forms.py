@@ -7,6 +7,7 @@ import pytest
 
 from vjm.forms import forms
 from vjm.forms.base import Form
+from vjm.forms.curve import LEAST_SLOPE
 from vjm.frames import Array
 from vjm.laws import Law
 
@@ -116,3 +117,20 @@ def test_names_of_units() -> None:
     assert cubic.unit("N·mm", "rad") == "N·mm/rad³"
     assert cubic.identifier("N·mm", "rad") == "cubic_Nmm_per_rad3"
     assert cubic.unit("rad", "N·mm") == "rad/(N·mm)³"
+
+
+def test_a_compliance_that_would_fall_goes_on_straight() -> None:
+    """y = k x + s x² with s below zero has its vertex at -k / 2 s."""
+    form = forms()["linear+square"]
+    law = form.law(np.array([2.0, -0.01]), np.zeros(0), True)
+    end = (1.0 - LEAST_SLOPE) * 100.0
+    loads = np.array([-50.0, 30.0, end, 300.0, 1e4])
+    slope = 2.0 * LEAST_SLOPE
+    at_end = 2.0 * end - 0.01 * end**2
+    y = np.where(loads > end, at_end + slope * (loads - end), 2.0 * loads - 0.01 * loads**2)
+    answer = law.respond(y[:, None], law.initial_memory)
+    assert answer.force[:, 0] == pytest.approx(loads, rel=1e-9)
+    assert answer.tangent[-1, 0, 0] == pytest.approx(1.0 / slope)
+    step = 1e-4
+    work = [law.respond(y[:, None] + d, law.initial_memory).energy for d in (-step, step)]
+    assert (work[1] - work[0]) / (2.0 * step) == pytest.approx(loads, rel=1e-6)
