@@ -18,6 +18,7 @@ _THRESHOLDS = {
     "beyond": criteria.BEYOND,
     "unknown beyond": criteria.UNKNOWN_BEYOND,
     "preferred": criteria.PREFERRED,
+    "several": criteria.SEVERAL,
 }
 
 
