@@ -14,7 +14,7 @@ like any residual. G. E. P. Box, G. M. Jenkins, G. C. Reinsel, Time Series Analy
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -134,6 +134,15 @@ def correlated(found: Fit, criteria: Criteria) -> tuple[Correlated, ...]:
     if not correlations.any() or not _explains(found, it, correlations, criteria):
         return ()
     return tuple(_each(it, correlations))
+
+
+def decorrelating(found: Fit, sensors: Sequence[Correlated]) -> Callable[[Array], Array]:
+    """What takes columns (N, ...) of the residuals of a fit to units of noise that is correlated so."""
+    it = _residual(found)
+    correlations = np.zeros(len(it.sensors))
+    for each in sensors:
+        correlations[np.searchsorted(it.sensors, each.channel)] = each.correlation
+    return lambda columns: it.whitened(columns, correlations)
 
 
 def _residual(found: Fit) -> _Residual:

@@ -61,7 +61,7 @@ def weighed(found: Fit, rest: Rest, effects: Mapping[str, Effect]) -> list[Body]
     there = predict(model, cases, start=here, shift=here.shift)
     columns = whitening(cases, here).apply(there.by_free[..., new])
     columns[here.lost | there.lost] = 0.0
-    free = found.residual.without_zeros(columns)
+    free = rest.seen(found.residual.flat(columns))
     out = []
     for name, effect in effects.items():
         own = [k for k, n in enumerate(new) if model.free[n].effect == name]

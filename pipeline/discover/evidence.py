@@ -14,7 +14,8 @@ W that eliminates G (`pipeline.inference.marginal`).
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Callable
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -23,6 +24,7 @@ from numpy.typing import NDArray
 from pipeline.discover.bases import Prior, priors
 from pipeline.inference.marginal import Marginal
 from pipeline.inference.residual import Residual
+from pipeline.inference.span import basis
 
 Array = NDArray[np.float64]
 SIZES = np.logspace(-1.0, 5.0, 19)
@@ -58,7 +60,8 @@ class Evidence:
 class Rest:
     """What a model leaves, in which sites are looked for. residuals: (N,), what was written as it was written, unknown
     zeros projected out. rows, tests: (N,) of each. first: (tests + 1,). tolerance: (N, K) of what was written. zeros:
-    (N, r) orthonormal basis of what unknown zeros can make."""
+    (N, r) orthonormal basis of what unknown zeros can make. correlated: what takes columns (N, ...) of whitened
+    residuals to units of noise that is correlated from row to row, None where it is not."""
 
     residuals: Array
     rows: np.ndarray
@@ -66,6 +69,7 @@ class Rest:
     first: np.ndarray
     tolerance: Array
     zeros: Array
+    correlated: Callable[[Array], Array] | None = None
 
     @classmethod
     def of(cls, left: Residual) -> Rest:
@@ -80,9 +84,16 @@ class Rest:
             left.zeros,
         )
 
-    def without_zeros(self, columns: Array) -> Array:
-        """Columns (N, P), unknown zeros projected out."""
-        return np.asarray(columns - self.zeros @ (self.zeros.T @ columns))
+    def with_noise(self, correlated: Callable[[Array], Array]) -> Rest:
+        """The same in units of noise that is correlated so."""
+        zeros = basis(correlated(self.zeros)) if self.zeros.shape[1] else self.zeros
+        it = replace(self, zeros=zeros, correlated=correlated)
+        return replace(it, residuals=it.seen(self.residuals), tolerance=it.seen(self.tolerance))
+
+    def seen(self, columns: Array) -> Array:
+        """Columns (N, ...) of whitened readings, unknown zeros projected out, in units of the noise."""
+        own = columns if self.correlated is None else self.correlated(columns)
+        return np.asarray(own - self.zeros @ (self.zeros.T @ own))
 
     @cached_property
     def _marginal(self) -> Marginal:

@@ -122,7 +122,7 @@ def columns_of(form: Form, site: Site, rest: Rest, shapes: Array) -> Array:
         sign = site.sign(each)
         there = form.columns(sign * each.coordinate, rest.first, shapes)
         total = total + sign * each.moved(there, unloaded, rest.rows)
-    return rest.without_zeros(total)
+    return rest.seen(total)
 
 
 def _amplitudes(form: Form, columns: Array, residuals: Array) -> Array:

@@ -2,19 +2,22 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
 
+from pipeline.adequacy.correlated import correlated, decorrelating
+from pipeline.discover import criteria
 from pipeline.discover.bases import basis_of, unloaded
 from pipeline.discover.bodies import Body, bodies, weighed
 from pipeline.discover.elements import Element, elements
 from pipeline.discover.evidence import Columns, Evidence, Rest
 from pipeline.discover.sites import Site, sites
 from pipeline.inference.fit import Fit
+from pipeline.selection.criteria import CRITERIA
 from vjm.effects.base import Effect
 
 Array = NDArray[np.float64]
@@ -35,12 +38,19 @@ class Located:
 
 @dataclass(frozen=True, eq=False)
 class Map:
-    """What was found about a fit. sites: the best first, of two signs of one site the better. bodies: likewise."""
+    """What was found about a fit. sites: the best first, of two signs of one site the better. bodies: likewise.
+    independent: the same as if noise were not correlated from row to row, None where it is not."""
 
     found: Fit
     rest: Rest
     sites: tuple[Located, ...]
     bodies: tuple[Body, ...]
+    independent: Map | None = None
+
+    @property
+    def plain(self) -> Map:
+        """In whitened residuals, whatever noise is from row to row."""
+        return self.independent or self
 
     @cached_property
     def best(self) -> float:
@@ -59,10 +69,45 @@ class Map:
 
 def mapped(found: Fit, effects: Mapping[str, Effect], beside: Array | None = None) -> Map:
     """Of a fit whose tests may all be fitted. effects: those that bodies are taken from. beside: (N, P) columns that
-    are fitted anew in both hypotheses, in standard deviations before any data."""
+    are fitted anew in both hypotheses, in standard deviations before any data.
+
+    Where a law might be proposed, noise that is correlated from row to row beside it counts as what it is.
+    """
     every, rest = elements(found), Rest.of(found.residual)
     if beside is not None:
         rest = replace(rest, tolerance=np.hstack([rest.tolerance, beside]))
+    plain = _mapped(found, effects, every, rest)
+    if max(plain.best, plain.body.value if plain.body else 0.0) < criteria.PROPOSED:
+        return plain
+    there = without_best(plain)
+    sensors = correlated(there, CRITERIA)
+    if not sensors:
+        return plain
+    again = _mapped(found, effects, every, rest.with_noise(decorrelating(there, sensors)))
+    return replace(again, independent=plain)
+
+
+def without_best(seen: Map) -> Fit:
+    """A map's fit with the function at its best site, or the best body, taken off what it leaves, and fitted beside
+    its numbers."""
+    seen = seen.plain
+    found, left, body = seen.found, seen.found.residual, seen.body
+    if body is not None and (not seen.sites or body.value > seen.best):
+        columns, explained = body.columns, body.columns @ body.weights
+    elif seen.sites:
+        evidence = seen.sites[0].evidence
+        columns, explained = evidence.site.values, evidence.explained
+    else:
+        return found
+    at = (left.rows[:, 0], left.rows[:, 1])
+    slopes = np.zeros((*left.values.shape, columns.shape[1]))
+    slopes[at] = columns
+    values = left.values.copy()
+    values[at] -= explained
+    return Fit(found.model, found.prediction, replace(left, values=values, slopes=slopes), 0)
+
+
+def _mapped(found: Fit, effects: Mapping[str, Effect], every: Sequence[Element], rest: Rest) -> Map:
     largest: dict[str, float] = {}
     for each in every:
         size = float(np.max(np.abs(each.coordinate), initial=0.0))
@@ -73,7 +118,7 @@ def mapped(found: Fit, effects: Mapping[str, Effect], beside: Array | None = Non
         key = (id(element), sign)
         if key not in done:
             says = basis_of(sign * element.coordinate, rest.first, largest[element.kind])
-            done[key] = rest.without_zeros(sign * element.moved(says, unloaded(), rest.rows))
+            done[key] = rest.seen(sign * element.moved(says, unloaded(), rest.rows))
         return done[key]
 
     best: dict[str, Located] = {}

@@ -203,7 +203,7 @@ def _kind(site: Site) -> SiteKind | None:
 def _by_steps(step: Law) -> tuple[Array, Array]:
     """What each load step says of the law by itself: coordinate and value, of those that see the site by a twentieth of
     the one that sees it best. The other elements take part with the sign of their coordinates, as of an odd law."""
-    rest = step.map.rest
+    rest = step.map.plain.rest
     some, count = step.site.elements, int(rest.first[-1])
     signs = np.array([step.site.sign(each) for each in some])
     at = signs[:, None] * np.array([each.coordinate for each in some])

@@ -12,14 +12,14 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from pipeline.adequacy.bad_readings import BadReading, set_aside
+from pipeline.adequacy.bad_readings import BadReading
 from pipeline.discover import criteria
 from pipeline.discover.bodies import Body, started
 from pipeline.discover.elements import elements
 from pipeline.discover.evidence import Rest
 from pipeline.discover.forming import Formed, columns_of, formed
 from pipeline.discover.locating import Located, Map, mapped
-from pipeline.discover.settling import bad_beside
+from pipeline.discover.settling import Beside, beside
 from pipeline.discover.sites import Site
 from pipeline.discover.through import Through, through
 from pipeline.inference.fit import Fit, fit, unfitted
@@ -120,11 +120,12 @@ def discover(
     while True:
         say("where the rest sits")
         seen = mapped(here, effects)
-        new = bad_beside(seen) if rounds < criteria.SETTLED else ()
-        if new:
-            say("without single bad readings")
-            rounds, bad = rounds + 1, [*bad, *new]
-            cases = program(set_aside(cases.campaign, new))
+        new = beside(seen) if rounds < criteria.SETTLED else Beside()
+        settled = new.applied(cases.campaign)
+        if settled is not None:
+            say("with the readings as they are")
+            rounds, bad = rounds + 1, [*bad, *new.bad]
+            cases = program(settled)
             given, begin = (fitted_to(each.model, cases) for each in (given, begin))
             here = begin if not steps else fitted_to(here.model, cases)
             continue
@@ -194,7 +195,7 @@ def _ways(seen: Map, it: Located, cases: Program, name: str, say: Say) -> tuple[
     say(f"{first[0].form.title} through the mechanism")
     done = {first[0].form.name: through(first[0], base, cases, name)}
     about = next(iter(done.values()))
-    for other in _about(about, first)[: criteria.FORMS]:
+    for other in _about(about, first, seen.rest)[: criteria.FORMS]:
         if other.form.name not in done:
             say(f"{other.form.title} through the mechanism")
             done[other.form.name] = through(other, base, cases, name)
@@ -210,12 +211,13 @@ def _ways(seen: Map, it: Located, cases: Program, name: str, say: Say) -> tuple[
     )
 
 
-def _about(way: Through, before: list[Formed]) -> list[Formed]:
+def _about(way: Through, before: list[Formed], noise: Rest) -> list[Formed]:
     """Forms near the best, fitted anew about the fit with one of them, whose loads and coordinates are nearer to those
     that are there; those of before where it is no fit."""
     if way.fit.lost:
         return _near(before)
     old, rest = way.formed.site, Rest.of(way.fit.residual)
+    rest = rest if noise.correlated is None else rest.with_noise(noise.correlated)
     places = {(each.kind, each.place) for each in old.elements}
     some = tuple(each for each in elements(way.fit) if (each.kind, each.place) in places)
     site, form = replace(old, elements=some), way.there

@@ -1,5 +1,7 @@
 """The evidence of a function at a site: against normal densities, and on residuals without any function."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from scipy.stats import multivariate_normal
@@ -57,6 +59,33 @@ def test_no_law_is_proposed_in_white_residuals() -> None:
         site = Columns(columns(history(seed), influence, rest.rows, FIRST, 1.0), 1.0)
         highest = max(highest, rest.evidence(site).value)
     assert 0.5 < highest < PROPOSED
+
+
+def test_noise_that_is_correlated_from_row_to_row_is_no_law() -> None:
+    """Taken for white it is one; in units of what it is, it is none."""
+    apart = np.abs(np.subtract.outer(np.arange(STEPS), np.arange(STEPS)))
+    root = np.kron(np.eye(TESTS), np.linalg.cholesky(0.85**apart))
+    as_white, as_it_is = [], []
+    for seed in range(30):
+        generator = np.random.default_rng([11, seed])
+        rest = rest_of(root @ generator.normal(size=TESTS * STEPS))
+        site = columns(history(seed), np.ones(TESTS * STEPS), rest.rows, FIRST, 1.0)
+        as_white.append(rest.evidence(Columns(site, 1.0)).value)
+        own = rest.with_noise(lambda it: np.linalg.solve(root, it))
+        as_it_is.append(own.evidence(Columns(own.seen(site), 1.0)).value)
+    assert sum(value > PROPOSED for value in as_white) >= 5
+    assert max(as_it_is) < PROPOSED
+
+
+def test_unknown_zeros_stay_out_in_units_of_correlated_noise() -> None:
+    generator = np.random.default_rng(2)
+    zeros = np.linalg.qr(generator.normal(size=(TESTS * STEPS, 2)))[0]
+    rest = replace(rest_of(generator.normal(size=TESTS * STEPS)), zeros=zeros)
+    root = np.tril(generator.normal(size=(TESTS * STEPS, TESTS * STEPS))) + 15.0 * np.eye(TESTS * STEPS)
+    own = rest.with_noise(lambda it: np.linalg.solve(root, it))
+    assert np.abs(own.seen(zeros)).max() < 1e-12
+    shifted = replace(rest, residuals=rest.residuals + zeros @ [3.0, -5.0]).with_noise(own.correlated)  # type: ignore[arg-type]
+    assert shifted.residuals == pytest.approx(own.residuals, abs=1e-10)
 
 
 @pytest.mark.parametrize("kind", ["curve", "loop"])
