@@ -25,8 +25,8 @@ def sheet(
 ) -> pd.DataFrame:
     """Cells as text, one row a line, columns named by the header; the index is the line, the header being 1.
 
-    known: the columns that may be there; needed: those that have to be. Rows that are not as wide as the header are left out with a complaint;
-    BadCampaign where no table can be made.
+    known: the columns that may be there; needed: those that have to be. Rows that are not as wide as the header are
+    left out with a complaint; BadCampaign where no table can be made.
     """
     source = csv.reader(io.StringIO(text, newline=""), strict=True, skipinitialspace=True)
     header: list[str] = []

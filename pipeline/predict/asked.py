@@ -1,8 +1,8 @@
 """What is asked for: the campaign's own rows, or load cases of a table laid out like the measurements.
 
-A table has the columns of measurements.csv, and may have q_deg (or at_x_mm, at_y_mm, at_z_mm) and numbers of [rig], such
-as length_mm. Rows one after the other that agree in all but the loads are one history, done in order from the unloaded
-state. Where `test` names one of the campaign, they are controlled as that is, at its posture unless the row says
+A table has the columns of measurements.csv, and may have q_deg (or at_x_mm, at_y_mm, at_z_mm) and numbers of [rig],
+such as length_mm. Rows one after the other that agree in all but the loads are one history, done in order from the
+unloaded state. Where `test` names one of the campaign, they are controlled as that is, at its posture unless the row says
 another; else a coordinate is held where its displacement is written, and loaded by its force where it is not.
 """
 
@@ -10,7 +10,8 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
+from hashlib import sha256
 from pathlib import Path
 
 import numpy as np
@@ -49,12 +50,13 @@ LARGEST = 2**26
 @dataclass(frozen=True, eq=False)
 class Asked:
     """Tests to predict. own: whether they are the campaign's own. values: of [rig], by the id of the test that has
-    others than the campaign."""
+    others than the campaign. digests: SHA-256 of the table, by its name."""
 
     tests: tuple[Test, ...]
     own: bool
     values: dict[str, dict[str, float]]
     remarks: tuple[str, ...] = ()
+    digests: dict[str, str] = field(default_factory=dict)
 
 
 @dataclass(frozen=True)
@@ -80,7 +82,8 @@ def read_table(path: Path, campaign: Campaign) -> Asked:
     known = (*known_columns(g.name for g in campaign.gauges), ANGLE, *PLACES, *allowed)
     frame = sheet(_text(path), tuple(dict.fromkeys(known)), complaints, ())
     complaints.check()
-    return _Table(frame, campaign, complaints, allowed).asked()
+    asked = _Table(frame, campaign, complaints, allowed).asked()
+    return replace(asked, digests={path.name: sha256(path.read_bytes()).hexdigest()})
 
 
 def _text(path: Path) -> str:
@@ -253,8 +256,8 @@ def _key(value: float) -> float | None:
 
 
 def filled(tests: tuple[Test, ...], values: Array) -> tuple[Test, ...]:
-    """The tests with values (R, C) in the place of readings that are not there, those that control them left alone: what
-    a sensor of each column would read."""
+    """The tests with values (R, C), what a sensor of each column would read, in the place of readings that are not
+    there; loads that control them are left alone."""
     out, start = [], 0
     for test in tests:
         count = test.data.steps.size

@@ -23,8 +23,8 @@ Z = float(norm.ppf(0.975))
 class Bands:
     """Readings (R, C), in the units of their columns. value: at the fit, or the median of the samples. low, high: ends
     of the 95 % interval of a reading. parameters, tolerances, noise: its three parts, each as a standard deviation.
-    lost: (R,) rows without a stable equilibrium; reasons: of those. sampled: (R,) rows whose intervals are by samples and
-    not from the tangent."""
+    lost: (R,) rows without a stable equilibrium; reasons: of those. sampled: (R,) rows whose intervals are by samples
+    and not from the tangent."""
 
     value: Array
     low: Array

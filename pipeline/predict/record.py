@@ -63,6 +63,8 @@ class PredictedRow(Record):
     """What is prescribed, by column."""
     beyond: tuple[str, ...]
     """What lies beyond the range of the fitted tests, one sentence each."""
+    sampled: bool
+    """Whether its intervals are by samples, each solved for, and not from the tangent at the fit."""
     lost: str
     """Why the model has no stable state there; empty where it has one."""
     readings: tuple[Reading, ...]
@@ -90,7 +92,7 @@ class ColumnBand(Record):
     """Readings of tests that were not fitted inside their intervals."""
 
 
-class Comparison20(Record):
+class ColumnComparison(Record):
     """Comparison of one column with its readings in tests that were not fitted, in the terms of ASME V&V 20-2009;
     standard uncertainties, root mean squares over the readings."""
 
@@ -106,12 +108,11 @@ class Comparison20(Record):
     """Of the parameters and of what is written about the rig."""
     u_data: float
     """Of the readings, and of what was prescribed."""
-    u_num: float
-    """Of the numerical solution."""
     u_val: float
-    """Root of the sum of the squares of the three."""
-    area: float
-    """Area between the distribution of the readings in their predicted laws and the uniform one, 0 to 0.5."""
+    """Root of the sum of the squares of the two; equilibria are solved to rounding, so that u_num is left out."""
+    area: float | None
+    """Area between the distribution of the readings in their predicted laws and the uniform one, 0 to 0.5; None
+    where nothing is uncertain."""
 
 
 class Source(Record):
@@ -145,10 +146,8 @@ class Predictions(Record):
     """Name of the campaign."""
     effects: tuple[str, ...]
     """Effects of the model."""
-    method: Literal["linear", "sampled"]
-    """linear: from the tangent of the model at the fit; sampled: by samples, each solved for."""
-    why: str
-    """Why that method."""
+    sampled: int
+    """Rows whose intervals are by samples, each solved for; those of the others are from the tangent at the fit."""
     noise_factor: float
     """By which noise and parameters are widened, as more is left than noise; 1 where it is noise."""
     rows: tuple[PredictedRow, ...]
@@ -163,7 +162,7 @@ class Predictions(Record):
     """Parameters that end at a bound other than the absence of their effect."""
     combined: tuple[tuple[str, ...], ...]
     """Parameters of which the fitted tests determine only combinations, or nothing."""
-    comparison: tuple[Comparison20, ...] = ()
+    comparison: tuple[ColumnComparison, ...] = ()
     """Predicted and measured readings of tests that were not fitted, by column."""
     budget: tuple[Budget, ...] = ()
     """What limits each parameter."""

@@ -1,0 +1,83 @@
+"""Predicted readings in sentences, written from the record."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from pipeline.predict.record import Counted, Predictions
+from reports.quantities import percent, short
+
+SHOWN = 3
+
+
+def sentences(it: Predictions, remarks: tuple[str, ...] = (), nothing: str = "") -> tuple[str, ...]:
+    """All that is worth saying, the headline first. remarks: about the campaign and the table. nothing: why the model
+    was tested by nothing."""
+    return (headline(it), *_how(it, nothing), *_where(it), *(f"{said}." for said in (*remarks, *it.not_done)))
+
+
+def headline(it: Predictions) -> str:
+    """How many readings are predicted, and how many that were made lie inside."""
+    count = sum(len(row.readings) for row in it.rows)
+    rows = len(it.rows)
+    said = f"{count} readings predicted at {rows} {'row' if rows == 1 else 'rows'}"
+    parts = [
+        f"95 % intervals hold {_counted(counts)} {name}"
+        for counts, name in ((it.held_out, "that were not fitted"), (it.fitted, "that were fitted"))
+        if counts.of
+    ]
+    return f"{'; '.join([said, *parts])}."
+
+
+def _counted(it: Counted) -> str:
+    return f"{percent(it.share)} of the {it.of} readings"
+
+
+def _how(it: Predictions, nothing: str) -> Iterator[str]:
+    model = ", ".join(it.effects) or "no effect"
+    way = "from the tangent of the model at the fit"
+    if it.sampled == len(it.rows):
+        way = "by samples, each solved for: the model is not straight over its uncertainty"
+    elif it.sampled:
+        way = (
+            f"{way}, of {it.sampled} rows by samples, each solved for: the model is not straight there over its "
+            "uncertainty"
+        )
+    yield f"Model: {model}, fitted to the tests that may be fitted; intervals {way}."
+    if nothing:
+        yield f"The parameters count as exact: {nothing.rstrip('.')}."
+    if it.noise_factor > 1.0:
+        yield (
+            f"What the fit leaves is {short(it.noise_factor)} times the noise: noise and parameters are wider by that "
+            "factor, and what the model lacks may be larger elsewhere."
+        )
+    for name in it.at_bound:
+        yield f"{name} ends at its bound: the intervals count it as free on both sides of that."
+    for group in it.combined:
+        names = " and ".join([", ".join(group[:-1]), group[-1]] if len(group) > 1 else group)
+        what = "only combinations of" if len(group) > 1 else "nothing of"
+        yield (
+            f"The fitted tests determine {what} {names}; a reading that depends on it otherwise has a wide interval, "
+            "by its plausible size."
+        )
+
+
+def _where(it: Predictions) -> Iterator[str]:
+    beyond = [row for row in it.rows if row.beyond]
+    if beyond:
+        first = beyond[0]
+        said = "; ".join(first.beyond[:SHOWN])
+        yield (
+            f"{len(beyond)} of {len(it.rows)} rows lie beyond what was fitted, there the model extrapolates; the first "
+            f"is {first.test}, step {first.step}: {said}."
+        )
+    lost = [row for row in it.rows if row.lost]
+    if lost:
+        yield f"{len(lost)} rows have no prediction; the first is {lost[0].test}, step {lost[0].step}: {lost[0].lost}."
+    for each in it.budget:
+        if each.sources:
+            first_source = each.sources[0]
+            what = "what is written about" if first_source.kind == "tolerance" else "the noise of"
+            yield (
+                f"{each.parameter} is limited by {what} {first_source.name}: {percent(first_source.share)} of its variance."
+            )
