@@ -2,8 +2,8 @@
 
 A table has the columns of measurements.csv, and may have q_deg (or at_x_mm, at_y_mm, at_z_mm) and numbers of [rig],
 such as length_mm. Rows one after the other that agree in all but the loads are one history, done in order from the
-unloaded state. Where `test` names one of the campaign, they are controlled as that is, at its posture unless the row says
-another; else a coordinate is held where its displacement is written, and loaded by its force where it is not.
+unloaded state. Where `test` names one of the campaign, they are controlled as that is, at its posture unless the row
+says another; else a coordinate is held where its displacement is written, and loaded by its force where it is not.
 """
 
 from __future__ import annotations

@@ -1,8 +1,9 @@
 """Predicted beside measured in the terms of ASME V&V 20-2009: comparison error E and validation uncertainty, by column.
 
 E = S - D, prediction less reading; u_val² = u_num² + u_input² + u_D². u_input: of the fitted parameters and of what is
-written about the rig. u_D: of the readings and of what was prescribed. u_num, of the numerical solution, is not estimated
-here and left out: the equilibria are solved to rounding, and that of a bar's K_b from a mesh is a tolerance of the rig.
+written about the rig. u_D: of the readings and of what was prescribed. u_num, of the numerical solution, is not
+estimated here and left out: the equilibria are solved to rounding, and the error of a K_b that comes from a mesh is a
+tolerance of the rig.
 
 Area metric: where the law of each reading is F, F(D) is uniform if the predictions are right; the area is that between
 the empirical distribution of F(D) and the uniform one, pooled over load steps (S. Ferson, W. L. Oberkampf, L. Ginzburg,

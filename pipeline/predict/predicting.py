@@ -20,6 +20,7 @@ from pipeline.inference.parts import carried
 from pipeline.inference.prediction import predict
 from pipeline.inference.program import Program, program
 from pipeline.inference.sigmas import completed
+from pipeline.inference.solvers import far
 from pipeline.inference.suitable import check_suitable, sized_model
 from pipeline.predict.asked import Asked, filled
 from pipeline.predict.bands import Bands, Tangent, Z
@@ -60,8 +61,8 @@ class Fitted:
 
 @dataclass(frozen=True, eq=False)
 class Predicted:
-    """Intervals of the rows that were asked for. wanted: (R, C) readings that are predicted. measured: (R, C), NaN where
-    nothing was read."""
+    """Intervals of the rows that were asked for. wanted: (R, C) readings that are predicted. measured: (R, C), NaN
+    where nothing was read."""
 
     fitted: Fitted
     tangent: Tangent
@@ -128,7 +129,10 @@ def predicted(it: Fitted, asked: Asked, seed: int = 0, say: Say = lambda _: None
     wanted = np.isfinite(measured) if asked.own else _outputs(cases)
     say("intervals")
     tangent = Tangent.of(posterior, cases)
-    bands = sampled(tangent, bent(tangent, wanted, seed), seed, say)
+    off = far(it.fit.chi_square, it.fit.whitened.size)
+    # Intervals of a model that is far off are as wide as what it leaves; where they end exactly says nothing.
+    turned = np.zeros(len(asked.tests), dtype=bool) if off else bent(tangent, wanted, seed)
+    bands = sampled(tangent, turned, seed, say)
     return Predicted(it, tangent, asked, bands, wanted, measured)
 
 

@@ -94,6 +94,7 @@ def _rows(it: Predicted) -> Iterator[PredictedRow]:
             lost = bool(it.bands.lost[row])
             readings = () if lost else tuple(_readings(it, row, names))
             known = inputs | {each.column: each.value for each in readings}
+            fitted = it.asked.own and test.role == "fit"
             yield PredictedRow(
                 test=test.id,
                 step=step,
@@ -102,7 +103,7 @@ def _rows(it: Predicted) -> Iterator[PredictedRow]:
                 at_mm=test.rig.point,
                 values=it.asked.values.get(test.id, {}),
                 inputs=inputs,
-                beyond=(*posture, *ranges.of_readings(known)),
+                beyond=() if fitted else (*posture, *ranges.of_readings(known)),
                 lost=str(it.bands.reasons.get(row, "no stable state")) if lost else "",
                 sampled=bool(it.bands.sampled[row]),
                 readings=readings,

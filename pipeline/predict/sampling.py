@@ -97,8 +97,8 @@ def sampled(at: Tangent, tests: Mask, seed: int, say: Say = lambda _: None, coun
 
 
 def _samples(at: Tangent, cases: Program, seed: int, say: Say, count: int) -> tuple[Array, Array]:
-    """(S / 3, R, C) readings at what was prescribed, and (S, R, C) at inputs that were drawn, of some histories; where a
-    draw has no state, what the tangent says of the fit."""
+    """(S / 3, R, C) readings at what was prescribed, and (S, R, C) at inputs that were drawn, of some histories; where
+    a draw has no state, what the tangent says of the fit."""
     it, generator = at.posterior, np.random.default_rng([seed, 2])
     values, departures = it.draws(count, generator)
     start = predict(it.model, cases, slopes=False, order=0)

@@ -11,7 +11,7 @@ from rich.text import Text
 
 from pipeline.predict.record import Counted, PredictedRow, Predictions
 from pipeline.terminal import cell, lean, terminal
-from reports.quantities import percent, short
+from reports.quantities import short
 
 FEW = 12
 """Readings of a table of load cases that are listed one by one, at most."""
@@ -19,7 +19,7 @@ NAME = 18
 
 
 def show(it: Predictions, following: Iterable[str], quiet: bool, console: Console | None = None) -> None:
-    """Print the headline; unless quiet also the intervals by column, few readings one by one, and what is to be said."""
+    """Print the headline; unless quiet also the intervals by column, few readings one by one, and all sentences."""
     out = terminal(console)
     out.print(escape(it.sentences[0]))
     if quiet:
@@ -47,7 +47,7 @@ def by_column(it: Predictions) -> Table:
 
 
 def _inside(it: Counted) -> str:
-    return f"{percent(it.share)} of {it.of}" if it.of else "–"
+    return f"{100.0 * it.inside / it.of:.1f} % of {it.of}" if it.of else "–"
 
 
 def one_by_one(rows: Iterable[PredictedRow]) -> Table:

@@ -30,11 +30,11 @@ def headline(it: Predictions) -> str:
 
 
 def _counted(it: Counted) -> str:
-    return f"{percent(it.share)} of the {it.of} readings"
+    return f"{100.0 * it.inside / it.of:.1f} % of the {it.of} readings"
 
 
 def _how(it: Predictions, nothing: str) -> Iterator[str]:
-    model = ", ".join(it.effects) or "no effect"
+    model = ", ".join(it.effects) or "plain virtual springs"
     way = "from the tangent of the model at the fit"
     if it.sampled == len(it.rows):
         way = "by samples, each solved for: the model is not straight over its uncertainty"
@@ -43,7 +43,7 @@ def _how(it: Predictions, nothing: str) -> Iterator[str]:
             f"{way}, of {it.sampled} rows by samples, each solved for: the model is not straight there over its "
             "uncertainty"
         )
-    yield f"Model: {model}, fitted to the tests that may be fitted; intervals {way}."
+    yield f"Model: {model}; intervals {way}."
     if nothing:
         yield f"The parameters count as exact: {nothing.rstrip('.')}."
     if it.noise_factor > 1.0:
@@ -78,6 +78,5 @@ def _where(it: Predictions) -> Iterator[str]:
         if each.sources:
             first_source = each.sources[0]
             what = "what is written about" if first_source.kind == "tolerance" else "the noise of"
-            yield (
-                f"{each.parameter} is limited by {what} {first_source.name}: {percent(first_source.share)} of its variance."
-            )
+            share = percent(first_source.share)
+            yield f"{each.parameter} is limited by {what} {first_source.name}: {share} of its variance."

@@ -30,8 +30,8 @@ COLUMNS = (
 
 
 class Part(Record):
-    """Readings at some loads. inside: over all cases. least: smallest share of a case, and its number. below: cases under
-    85 %. columns: share inside by column."""
+    """Readings at some loads. inside: over all cases. least: smallest share of a case, and its number. below: cases
+    under 85 %. columns: share inside by column."""
 
     inside: Share
     least: float
@@ -125,7 +125,8 @@ def page(it: Study) -> str:
             "was not fitted to, at what was prescribed as it was read, and the share of them inside their 95 %",
             "intervals is counted: the tests that were held out, at angles between the fitted ones and 0.9 times their",
             "loads, and the fitted tests done once more at 1.5 times their loads and travels.",
-            f"Wanted: {100 * LOW:.0f} to {100 * HIGH:.0f} % of all readings together, no case under {100 * LEAST:.0f} %.",
+            f"Wanted: {100 * LOW:.0f} to {100 * HIGH:.0f} % of all readings together, no case under "
+            f"{100 * LEAST:.0f} %.",
             "",
             f"{it.cases} cases, {it.named} of them with a named effect, {it.true} with exactly what was hidden.",
             "",
