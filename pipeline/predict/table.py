@@ -16,6 +16,8 @@ from reports.quantities import short
 FEW = 12
 """Readings of a table of load cases that are listed one by one, at most."""
 NAME = 18
+ROUNDING = 1e-6
+"""Of the width of an interval: a reading that is no larger is zero but for rounding."""
 
 
 def show(it: Predictions, following: Iterable[str], quiet: bool, console: Console | None = None) -> None:
@@ -57,6 +59,8 @@ def one_by_one(rows: Iterable[PredictedRow]) -> Table:
         for k, each in enumerate(row.readings):
             name = cell(f"{row.test}{' (beyond)' if row.beyond else ''}", NAME) if k == 0 else Text("")
             step = str(row.step) if k == 0 else ""
-            ends = (f"  {short(value, 4)}" for value in (each.value, each.low95, each.high95))
+            small = ROUNDING * (each.high95 - each.low95)
+            told = (0.0 if abs(value) < small else value for value in (each.value, each.low95, each.high95))
+            ends = (f"  {short(value, 4)}" for value in told)
             table.add_row(name, step, f" {each.column}", *ends)
     return table

@@ -40,6 +40,7 @@ RECORDS = (
     "pipeline.compare.record",
     "pipeline.discover.record",
     "pipeline.plan.record",
+    "pipeline.predict.record",
     "pipeline.manipulator.table_record",
 )
 

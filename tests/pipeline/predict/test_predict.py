@@ -76,8 +76,8 @@ def test_what_is_fitted_at_low_load_holds_the_truth_at_one_and_a_half_times(tmp_
 
 
 def test_tolerances_and_parameters_are_parted() -> None:
-    """Where ry is held, the moment about it follows from the angle at which the linkage is mounted, which is open by its
-    tolerance; the one about z follows from the stiffness of the bars, which was fitted."""
+    """Where ry is held, the moment about it follows from the angle at which the linkage is mounted, which is open by
+    its tolerance; the one about z follows from the stiffness of the bars, which was fitted."""
     record = recorded(predicted(fitted(), own_rows(bench())))
     parts = {each.column: each for each in record.columns}
     assert parts["my_Nmm"].tolerances > 100.0 * parts["my_Nmm"].parameters
