@@ -19,7 +19,7 @@ from pipeline.predict.predicting import fitted_to, predicted
 from pipeline.predict.record import Predictions
 from pipeline.predict.recording import recorded
 from pipeline.predict.table import show
-from pipeline.predict.words import sentences
+from pipeline.predict.words import about, sentences
 from pipeline.progress import Progress
 
 CSV, JSON = "predictions.csv", "predictions.json"
@@ -52,7 +52,7 @@ def predict_readings(asking: Asking) -> Predictions:
         fitted = fitted_to(campaign, model, stage.say)
         found = predicted(fitted, asked, asking.seed, stage.say)
         record = recorded(found, perf_counter() - begin, asking.seed)
-    remarks = (*asked.remarks, *fitted.whole.remarks)
+    remarks = (*about(found), *asked.remarks, *fitted.whole.remarks)
     record = record.model_copy(update={"sentences": sentences(record, remarks, fitted.untested)})
     show(record, _written(asking, record), asking.quiet)
     return record

@@ -12,6 +12,7 @@ from scipy.stats import t
 from pipeline.adequacy.judgement import judge
 from pipeline.adequacy.untested import untested
 from pipeline.campaign import Campaign
+from pipeline.compare.error import Discrepancy
 from pipeline.diagnose.readings import AS_DECLARED, Readings
 from pipeline.inference.claims import trusted
 from pipeline.inference.fit import Fit, fit, unfitted
@@ -133,7 +134,19 @@ def predicted(it: Fitted, asked: Asked, seed: int = 0, say: Say = lambda _: None
     # Intervals of a model that is far off are as wide as what it leaves; where they end exactly says nothing.
     turned = np.zeros(len(asked.tests), dtype=bool) if off else bent(tangent, wanted, seed)
     bands = sampled(tangent, turned, seed, say)
-    return Predicted(it, tangent, asked, bands, wanted, measured)
+    return Predicted(it, tangent, asked, bands, wanted, _less_zeros(tangent, measured))
+
+
+def _less_zeros(at: Tangent, measured: Array) -> Array:
+    """(R, C) readings, those of tests with unknown zeros less the zeros that fit the test best: no model foretells
+    them."""
+    cases = at.cases
+    unknown = np.array([test.zero == "fitted" for test in cases.campaign.tests])[cases.test]
+    if not unknown.any():
+        return measured
+    left = Discrepancy(cases, at.found).units
+    kept = unknown[:, None] & np.isfinite(measured) & cases.predicted
+    return np.where(kept, at.found.values + left, measured)
 
 
 def _outputs(cases: Program) -> Mask:

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from pipeline.predict.predicting import Predicted
 from pipeline.predict.record import Counted, Predictions
 from reports.quantities import percent, short
+from vjm.effects.sensor_fault import SensorFault
 
 SHOWN = 3
 
@@ -14,6 +16,29 @@ def sentences(it: Predictions, remarks: tuple[str, ...] = (), nothing: str = "")
     """All that is worth saying, the headline first. remarks: about the campaign and the table. nothing: why the model
     was tested by nothing."""
     return (headline(it), *_how(it, nothing), *_where(it), *(f"{said}." for said in (*remarks, *it.not_done)))
+
+
+def about(it: Predicted) -> tuple[str, ...]:
+    """Remarks about what was asked that the record does not say: zeros, sensors, temperatures."""
+    said = []
+    unknown = [test.id for test in it.asked.tests if it.asked.own and test.zero == "fitted"]
+    if unknown:
+        said.append(
+            f"Sensors were not zeroed in {len(unknown)} tests, the first is {unknown[0]}: their readings are compared "
+            "less the zero that fits each test best"
+        )
+    if it.asked.own:
+        return tuple(said)
+    faults = [t.effect.name for t in it.tangent.posterior.model.terms if isinstance(t.effect, SensorFault)]
+    if faults:
+        said.append(
+            f"{', '.join(faults)} is in the predicted readings; what follows the rows of a campaign follows those of "
+            "the table"
+        )
+    heated = any(test.data.temperature is not None for test in it.fitted.whole.tests)
+    if heated and all(test.data.temperature is None for test in it.asked.tests):
+        said.append("The table has no temperature_C: the rig counts as at its reference temperature")
+    return tuple(said)
 
 
 def headline(it: Predictions) -> str:
@@ -74,6 +99,13 @@ def _where(it: Predictions) -> Iterator[str]:
     lost = [row for row in it.rows if row.lost]
     if lost:
         yield f"{len(lost)} rows have no prediction; the first is {lost[0].test}, step {lost[0].step}: {lost[0].lost}."
+    if it.comparison:
+        worst = max(it.comparison, key=lambda each: abs(each.error) / max(each.u_val, 1e-300))
+        yield (
+            f"Predicted less measured in tests that were not fitted is farthest from zero in {worst.column}: "
+            f"{short(worst.error)} on average of {worst.readings}, with a standard uncertainty of one reading of "
+            f"{short(worst.u_val)} (ASME V&V 20)."
+        )
     for each in it.budget:
         if each.sources:
             first_source = each.sources[0]
