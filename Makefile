@@ -63,6 +63,11 @@ coverage: $(STAMP)
 extrapolation: $(STAMP)
 	$(PYTHON) -m pipeline.extrapolation
 
+# How often the intervals of `predict` hold a reading, on the benches of the challenge: an hour, to be stopped too.
+.PHONY: predict
+predict: $(STAMP)
+	$(PYTHON) -m pipeline.predict.study
+
 # Every criterion of the diagnosis halved and doubled on sixty benches: an hour or two, to be stopped and started too.
 .PHONY: sensitivity
 sensitivity: $(STAMP)

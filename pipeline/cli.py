@@ -12,6 +12,7 @@ from pipeline.discover.wiring import register as register_discover
 from pipeline.errors import InputError
 from pipeline.export.wiring import register as register_export
 from pipeline.options import CampaignFolder, EffectsFrom, Json, ModelFile
+from pipeline.predict.wiring import register as register_predict
 from pipeline.system import missing_libraries, wanted
 from pipeline.typed import typed
 
@@ -380,3 +381,4 @@ def guarded(work: Callable[[], object]) -> None:
 
 register_discover(app, guarded)
 register_export(app, guarded)
+register_predict(app, guarded)

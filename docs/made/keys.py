@@ -19,6 +19,7 @@ from pipeline.inference import model_reading as model
 from pipeline.manipulator import table_record as table_1
 from pipeline.manipulator import tables as manipulator
 from pipeline.plan import record as plan
+from pipeline.predict import record as predict
 from pipeline.toml.fields import BarTable
 from pipeline.validation import case_tables as case
 
@@ -82,6 +83,14 @@ ANSWERS: dict[str, type[BaseModel]] = {
     "Entered": laws.Entered,
     "Plan": plan.Plan,
     "Size": plan.Size,
+    "Predictions": predict.Predictions,
+    "PredictedRow": predict.PredictedRow,
+    "Reading": predict.Reading,
+    "ColumnBand": predict.ColumnBand,
+    "Counted": predict.Counted,
+    "ColumnComparison": predict.ColumnComparison,
+    "Budget": predict.Budget,
+    "Source": predict.Source,
     "Table1": table_1.Table1,
     "Unknown": table_1.Unknown,
     "Cell": table_1.Cell,

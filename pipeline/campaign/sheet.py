@@ -9,7 +9,7 @@ import numpy as np
 import pandas as pd
 
 from pipeline.campaign.model import Array
-from pipeline.campaign.names import wrong_column
+from pipeline.campaign.names import KEYS, wrong_column
 from pipeline.toml.complaints import Complaints, shown
 
 LARGEST = 1e9
@@ -20,11 +20,13 @@ _NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d{1,4})?", re.ASCII)
 _DECIMAL_COMMA = re.compile(r"[+-]?\d*,\d+([eE][+-]?\d+)?", re.ASCII)
 
 
-def sheet(text: str, known: tuple[str, ...], complaints: Complaints) -> pd.DataFrame:
+def sheet(
+    text: str, known: tuple[str, ...], complaints: Complaints, needed: tuple[str, ...] = KEYS
+) -> pd.DataFrame:
     """Cells as text, one row a line, columns named by the header; the index is the line, the header being 1.
 
-    known: the columns that may be there. Rows that are not as wide as the header are left out with a complaint;
-    BadCampaign where no table can be made.
+    known: the columns that may be there; needed: those that have to be. Rows that are not as wide as the header are
+    left out with a complaint; BadCampaign where no table can be made.
     """
     source = csv.reader(io.StringIO(text, newline=""), strict=True, skipinitialspace=True)
     header: list[str] = []
@@ -33,7 +35,7 @@ def sheet(text: str, known: tuple[str, ...], complaints: Complaints) -> pd.DataF
     try:
         for cells in source:
             if not header:
-                header = _header([cell.strip() for cell in cells], start, known, complaints)
+                header = _header([cell.strip() for cell in cells], start, (known, needed), complaints)
             elif len(cells) == len(header):
                 rows.append(cells)
                 lines.append(start)
@@ -54,8 +56,12 @@ def sheet(text: str, known: tuple[str, ...], complaints: Complaints) -> pd.DataF
     return pd.DataFrame(rows, index=pd.Index(lines, name="line"), columns=header, dtype=object)
 
 
-def _header(names: list[str], line: int, known: tuple[str, ...], complaints: Complaints) -> list[str]:
-    """The header as it is; complaints about every name in it that is not allowed."""
+def _header(
+    names: list[str], line: int, allowed: tuple[tuple[str, ...], tuple[str, ...]], complaints: Complaints
+) -> list[str]:
+    """The header as it is; complaints about every name in it that is not allowed. allowed: names that may be there, and
+    those that have to be."""
+    known, needed = allowed
     if not any(names):
         return []
     _is_header(names, line, known, complaints)
@@ -66,7 +72,7 @@ def _header(names: list[str], line: int, known: tuple[str, ...], complaints: Com
             complaints.add(f"column {shown(name)[1:-1]}", "is there twice", line)
         elif name not in known:
             complaints.add(f"column {shown(name)[1:-1]}", wrong_column(name, known), line)
-    for key in ("test", "step"):
+    for key in needed:
         if key not in names:
             complaints.add(f"column {key}", "is missing", line)
     return names

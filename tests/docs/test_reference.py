@@ -42,6 +42,7 @@ RECORDS = (
     "pipeline.law_record",
     "pipeline.value",
     "pipeline.plan.record",
+    "pipeline.predict.record",
     "pipeline.manipulator.table_record",
 )
 

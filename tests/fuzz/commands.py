@@ -25,6 +25,9 @@ from pipeline.improve.steps import steps
 from pipeline.inference.model import Model
 from pipeline.inference.suitable import Known, known_effects, named_effects
 from pipeline.plan.command import plan_of
+from pipeline.predict.asked import own_rows
+from pipeline.predict.predicting import fitted_to, predicted
+from pipeline.predict.recording import recorded
 from pipeline.record import Record
 from tests.fuzz.tables import Files
 
@@ -115,7 +118,14 @@ def _commands(seen: Seen, files: Files, campaign: Campaign, model: Model, known:
         _judged(seen, "add", it.answer)
         return it.answer.verdict
 
+    def foretold() -> str:
+        found = recorded(predicted(fitted_to(campaign, model), own_rows(campaign)))
+        seen.faults += [f"predict: {fault}" for fault in _record(found)]
+        seen.failed += [f"predict: {said}" for said in found.not_done]
+        return "predicted"
+
     seen.attempt("compare", compared)
+    seen.attempt("predict", foretold)
     seen.attempt("diagnose", diagnosed)
     seen.attempt("plan", planned)
     if found:

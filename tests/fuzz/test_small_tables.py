@@ -58,7 +58,7 @@ def test_a_saved_effect_that_the_rig_cannot_have_is_refused(effect: str, said: s
     seen = looked(Files(CANTILEVER, ROWS, model_text(ModelFile(model), Path()), "base_compliance"))
     assert seen.done == {
         "read": "read",
-        **dict.fromkeys(("compare", "diagnose", "plan", "add"), "refused"),
+        **dict.fromkeys(("compare", "predict", "diagnose", "plan", "add"), "refused"),
     }
     assert all(said in sentence for sentence in seen.refusals) and not seen.faults
 

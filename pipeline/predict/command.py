@@ -1,0 +1,100 @@
+"""`predict` from the command line: campaign, model and a table of load cases in; terminal, CSV, JSON, pictures out."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from time import perf_counter
+
+from meshes.files import replacing
+from pipeline.add.command import starting_model
+from pipeline.campaign import read
+from pipeline.command import usable
+from pipeline.errors import InputError
+from pipeline.inference.suitable import known_effects
+from pipeline.predict.asked import own_rows, read_table
+from pipeline.predict.files import compensation_table, readings_table
+from pipeline.predict.predicting import fitted_to, predicted
+from pipeline.predict.record import Predictions
+from pipeline.predict.recording import recorded
+from pipeline.predict.table import show
+from pipeline.predict.words import about, sentences
+from pipeline.progress import Progress
+
+CSV, JSON = "predictions.csv", "predictions.json"
+
+
+@dataclass(frozen=True)
+class Asking:
+    """What the command line asks for."""
+
+    folder: Path
+    at: Path | None = None
+    model: Path | None = None
+    effects_from: Sequence[Path] = ()
+    compensation: Path | None = None
+    json: Path | None = None
+    out: Path | None = None
+    seed: int = 0
+    quiet: bool = False
+
+
+def predict_readings(asking: Asking) -> Predictions:
+    """Predict and print. InputError for bad input; nothing is written then."""
+    known = known_effects(asking.effects_from)
+    campaign = read(asking.folder)
+    model, _ = starting_model(campaign, asking.folder, asking.model, known)
+    asked = own_rows(campaign) if asking.at is None else read_table(asking.at, campaign)
+    _check(asking)
+    begin, progress = perf_counter(), Progress(asking.quiet)
+    with progress.stage("predict") as stage:
+        fitted = fitted_to(campaign, model, stage.say)
+        found = predicted(fitted, asked, asking.seed, stage.say)
+        record = recorded(found, perf_counter() - begin, asking.seed)
+    remarks = (*about(found), *asked.remarks, *fitted.whole.remarks)
+    record = record.model_copy(update={"sentences": sentences(record, remarks, fitted.untested)})
+    show(record, _written(asking, record), asking.quiet)
+    return record
+
+
+def _check(asking: Asking) -> None:
+    for path, named in (
+        (asking.json and asking.json.parent, f"--json {asking.json}"),
+        (asking.compensation and asking.compensation.parent, f"--compensation {asking.compensation}"),
+        (asking.out, f"--out {asking.out}"),
+    ):
+        if path is not None:
+            usable(path, named)
+    for path in (asking.json, asking.compensation):
+        if path is not None and path.resolve().parent == asking.folder.resolve():
+            raise InputError(
+                f"{path} is in the campaign's folder, which stays as it is; allowed is another one"
+            )
+
+
+def _written(asking: Asking, it: Predictions) -> list[str]:
+    """Writes what was asked for; sentences that say where."""
+    said = []
+    if asking.compensation is not None:
+        _write(asking.compensation, compensation_table(it).encode())
+        said.append(f"correction to be subtracted: {asking.compensation}")
+    if asking.json is not None:
+        it.write(asking.json)
+    if asking.out is not None:
+        from reports.prediction import drawn
+
+        _write(asking.out / CSV, readings_table(it).encode())
+        it.write(asking.out / JSON)
+        for name, content in drawn(it.model_dump()).items():
+            _write(asking.out / name, content)
+        said.append(f"every reading: {asking.out / CSV}")
+    return said
+
+
+def _write(path: Path, content: bytes) -> None:
+    try:
+        with replacing(path) as part:
+            part.write_bytes(content)
+    except OSError as error:
+        raise InputError(f"{path} cannot be written: {error.strerror}") from error

@@ -1,0 +1,87 @@
+"""What the fitted tests covered, and what of a row lies beyond it: there a model extrapolates."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pipeline.campaign import Campaign, Test
+from pipeline.campaign.names import PLACES, TEMPERATURE, channel_columns
+from pipeline.inference.driving import control_channels
+from reports.quantities import short
+
+Array = NDArray[np.float64]
+Span = tuple[float, float]
+EDGE = 0.01
+"""Of a range, by which a number must lie beyond it: readings at its edge have noise."""
+
+
+@dataclass(frozen=True)
+class Ranges:
+    """Least and greatest of what was fitted, by column; angles: of the bars, degrees."""
+
+    spans: dict[str, Span]
+    angles: Span
+    tables: tuple[str, ...]
+
+    @classmethod
+    def of(cls, campaign: Campaign) -> Ranges:
+        """Of the tests that may be fitted; of all where none may."""
+        tests = [test for test in campaign.tests if test.role == "fit"] or list(campaign.tests)
+        found: dict[str, list[float]] = {}
+        for test in tests:
+            for column, values in _columns(test, campaign):
+                there = values[np.isfinite(values)]
+                found.setdefault(column, []).extend(there.tolist())
+        spans = {column: (min(values), max(values)) for column, values in found.items() if values}
+        angles = [test.q_deg for test in tests]
+        return cls(spans, (min(angles), max(angles)), tuple({repr(test.rig.keys()) for test in tests}))
+
+    def of_test(self, test: Test) -> Iterator[str]:
+        """What of a test's posture and rig lies beyond."""
+        if _beyond(test.q_deg, self.angles):
+            yield _said("q_deg", test.q_deg, self.angles)
+        for column, value in zip(PLACES, test.rig.point or (), strict=False):
+            if column in self.spans and _beyond(value, self.spans[column]):
+                yield _said(column, value, self.spans[column])
+        if repr(test.rig.keys()) not in self.tables:
+            yield "the rig has other values than any that was fitted"
+
+    def of_readings(self, columns: dict[str, float]) -> Iterator[str]:
+        """What of the inputs and predicted readings of a row lies beyond, by column."""
+        for column, value in columns.items():
+            span = self.spans.get(column)
+            if span is None:
+                if value:
+                    yield f"{column} {short(value)}, in no fitted test"
+            elif _beyond(value, span):
+                yield _said(column, value, span)
+
+
+def _columns(test: Test, campaign: Campaign) -> Iterator[tuple[str, Array]]:
+    names = channel_columns(campaign.gauges)
+    readings = test.data.readings.copy()
+    # What is prescribed and was not read is zero.
+    for channel, values in zip(
+        control_channels(test, campaign.gauges), test.inputs(campaign.gauges).T, strict=True
+    ):
+        readings[:, channel] = values
+    yield from zip(names, readings.T, strict=True)
+    if test.data.temperature is not None:
+        yield TEMPERATURE, test.data.temperature
+    for column, value in zip(PLACES, test.rig.point or (), strict=False):
+        yield column, np.array([value])
+
+
+def _beyond(value: float, span: Span) -> bool:
+    low, high = span
+    margin = EDGE * (high - low) + 1e-9 * max(abs(low), abs(high))
+    return not low - margin <= value <= high + margin
+
+
+def _said(name: str, value: float, span: Span) -> str:
+    low, high = span
+    return f"{name} {short(value)}, fitted {short(low)} to {short(high)}"

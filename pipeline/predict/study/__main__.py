@@ -1,0 +1,51 @@
+"""`python -m pipeline.predict.study`: runs the study, or goes on with it, and writes reports/predict."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from meshes.files import replacing
+from pipeline.predict.study.runs import run
+from pipeline.predict.study.table import page, study
+from pipeline.predict.study.trial import Trial
+from pipeline.progress import Progress
+
+OUT = Path("reports/predict")
+STORE = OUT / "trials.jsonl"
+
+
+def main(
+    cases: Annotated[
+        int, typer.Option(min=1, help="Campaigns with hidden effects, from the first one on.")
+    ] = 100,
+    workers: Annotated[int, typer.Option(min=1, help="Processes.")] = 2,
+    store: Annotated[Path, typer.Option(help="Where finished campaigns are kept.")] = STORE,
+    out: Annotated[Path, typer.Option(help="Folder of the page.")] = OUT,
+) -> None:
+    """Count how many held-out readings lie inside their intervals. Stopped and started again, it goes on."""
+    found: list[Trial] = []
+    try:
+        with Progress().stage("predict") as stage:
+            for it in run(cases, store, workers):
+                found.append(it)
+                stage.say(f"{len(found)} of {cases} campaigns")
+    finally:
+        # A study that is stopped leaves the page of what it has.
+        if any(it.named and it.true for it in found):
+            written(found, out)
+    print(f"{out / 'predict.md'}: {len(found)} campaigns")
+
+
+def written(found: list[Trial], out: Path) -> None:
+    """The page and its record, in a folder."""
+    it = study(found)
+    for name, text in (("predict.json", it.model_dump_json(indent=1) + "\n"), ("predict.md", page(it))):
+        with replacing(out / name) as part:
+            part.write_text(text, encoding="utf-8")
+
+
+if __name__ == "__main__":
+    typer.run(main)
