@@ -32,7 +32,7 @@ def sets_of(answer: Answer) -> tuple[tuple[str, ...], ...]:
 
 def _tries(answer: Answer) -> Iterator[str]:
     verdict, last = answer.verdict, answer.error[-1]
-    said, plain = _said(answer), f"{verdict}: {NOTHING[verdict]}"
+    plain = f"{verdict}: {NOTHING[verdict]}"
     before = sigma(answer.error[0].fit)
     fall = f"{before} -> {sigma(last.fit)} sigma" if len(answer.error) > 1 else f"{sigma(last.fit)} sigma"
     if answer.doctor:
@@ -40,9 +40,8 @@ def _tries(answer: Answer) -> Iterator[str]:
         yield f"{verdict}: a mistake of the table comes first, see below"
         return
     if verdict != "nothing_tested":
-        if said:
+        for said in _said(answer):
             yield f"{answer.campaign}: {verdict}: {said}; {fall}"
-            yield f"{answer.campaign}: {verdict}: {said}"
             yield f"{verdict}: {said}; {fall}"
             yield f"{verdict}: {said}"
         yield f"{answer.campaign}: {plain}, {fall}"
@@ -51,11 +50,16 @@ def _tries(answer: Answer) -> Iterator[str]:
     yield plain
 
 
-def _said(answer: Answer) -> str:
-    """The effects; of `unknown` those that help."""
+def _said(answer: Answer) -> Iterator[str]:
+    """The effects, of `unknown` those that help; of many sets ever fewer."""
     if answer.verdict == "ambiguous":
-        return " or ".join(" + ".join(names) or "no further effect" for names in sets_of(answer))
+        sets = [" + ".join(names) or "no further effect" for names in sets_of(answer)]
+        yield " or ".join(sets)
+        for count in range(len(sets) - 1, 0, -1):
+            yield f"{', '.join(sets[:count])} or {len(sets) - count} more"
+        return
     names = " + ".join(answer.added)
     if answer.verdict == "unknown" and names:
-        return f"{names} helps" if len(answer.added) == 1 else f"{names} help"
-    return names
+        yield f"{names} {'helps' if len(answer.added) == 1 else 'help'}"
+    elif names:
+        yield names

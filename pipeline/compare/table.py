@@ -42,6 +42,7 @@ def page(result: Comparison, width: int = WIDTH, full: bool = False) -> Renderab
     counts = f"{result.tests} tests, {result.rows} load steps, {result.readings} readings to predict"
     parts: list[RenderableType] = [
         Text(headline(result)),
+        *(Text(said) for said in _details(result)),
         Text(counts),
         *(Text(said) for said in mends(result.doctor)),
         *_lines("", shown.in_units, SENTENCES),
@@ -84,6 +85,24 @@ def _tries(result: Comparison) -> Iterable[str]:
     for text in (f"{error}{held}: {said}", f"{error}: {said}"):
         yield f"{name}: {text}"
     yield f"{error}: {said}"
+
+
+def _details(result: Comparison) -> Iterable[str]:
+    """What the headline has no room for."""
+    shown = result.model_of(result.shown)
+    if shown.failed is not None:
+        yield f"{shown.title} has no prediction: {shown.failed}"
+        return
+    if shown.untested:
+        yield shown.untested
+        return
+    if result.doctor:
+        yield doctor_sentence(result.doctor)
+        return
+    if shown.tolerated:
+        yield "That is with what is written about the rig as it fits best within its tolerances."
+    if shown.headline:
+        yield f"{shown.headline[0].upper()}{shown.headline[1:]}."
 
 
 def _worst_channels(model: ModelError) -> str:

@@ -10,7 +10,7 @@ from typing import TypeAlias
 from pipeline.add.command import starting_model
 from pipeline.campaign import Campaign
 from pipeline.errors import InputError
-from pipeline.face.shown import Shown
+from pipeline.face.shown import Drawn
 from pipeline.face.subject import Subject, campaign_of
 from pipeline.inference.model import Model
 from pipeline.inference.suitable import known_effects, named_effects
@@ -18,7 +18,7 @@ from vjm.effects.base import Effect
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class AboutBench(Shown):
+class AboutBench(Drawn):
     """A result about a bench. subject: its campaign, the model that goes on from here, the effects that are known."""
 
     subject: Subject

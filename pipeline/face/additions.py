@@ -114,7 +114,7 @@ class Addition(AboutBench):
         from pipeline.face.drawing import worst_curve
         from reports.first_screen.figures import Bars, curve
 
-        tests = sorted(self.answer.tests, key=lambda it: it.role == "holdout")
+        tests = sorted(self.answer.tests, key=lambda it: -(it.before.rms or 0.0))
         values = tuple((it.before.rms, it.after.rms) for it in tests)
         labels = tuple(it.test if it.role == "fit" else f"{it.test} (held out)" for it in tests)
         bars = Bars(labels, ("before", "after"), values, "error, sigma (1 is noise)", self.name)

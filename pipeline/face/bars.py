@@ -20,7 +20,7 @@ from meshes.resolution import Resolution
 from meshes.section import Section
 from meshes.store import mesh_bar
 from pipeline.errors import InputError
-from pipeline.face.shown import Shown
+from pipeline.face.shown import Drawn
 from pipeline.provenance import commit, versions
 from pipeline.system import require
 from pipeline.terminal import lean, one_line
@@ -41,7 +41,7 @@ SEEN = 1e-6
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class OwnBar(Shown):
+class OwnBar(Drawn):
     """A straight bar by its drawing. geometry: section, length and lugs, mm. material: E in MPa, nu."""
 
     geometry: Bar
@@ -112,7 +112,7 @@ class OwnBar(Shown):
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class BarStiffness(Shown):
+class BarStiffness(Drawn):
     """K_b of a bar. matrix: (6, 6), x y z rx ry rz of the tip to Fx Fy Fz Mx My Mz, base clamped, bar frame; N, mm,
     rad.
 
@@ -150,7 +150,7 @@ class BarStiffness(Shown):
         """Size of the entries; rows are loads, columns displacements, as far as rounding does not hide them."""
         from reports.first_screen.figures import matrix
 
-        return matrix(clean(self.matrix, self.length).tolist(), DISPLACEMENTS, self.headline)
+        return matrix(clean(self.matrix, self.length).tolist(), LOADS, DISPLACEMENTS, self.headline)
 
     def to_frame(self) -> DataFrame:
         """6 x 6: rows the loads at the tip, columns its displacements; N, mm, rad."""

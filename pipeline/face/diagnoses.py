@@ -168,8 +168,9 @@ class Diagnosis(AboutBench):
 
     def _undecided(self) -> str:
         """Why there is no model yet, which choices there are, which test would tell."""
-        listed = " or ".join(f"model_of({', '.join(map(repr, n))})" for n in self.choices if n)
-        choices = f"allowed is {listed}" if listed else "there is no effect to choose"
+        listed = " or ".join(f"model_of({', '.join(map(repr, n))})" for n in self.choices)
+        several = any(self.choices)
+        choices = f"allowed is {listed}" if several else "there is no effect to choose"
         test = f"; the test that would tell: {self.answer.next_test['why']}" if self.answer.next_test else ""
         return f"{self.name}: the verdict is {self.verdict}, so that no model is certain; {choices}{test}"
 

@@ -18,8 +18,6 @@ from vjm.effects.base import Effect
 if TYPE_CHECKING:
     from pandas import DataFrame
 
-    from reports.first_screen.drawn import Picture
-
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Catalogue(Shown, Mapping[str, Effect]):
@@ -48,13 +46,6 @@ class Catalogue(Shown, Mapping[str, Effect]):
         if name not in self.effects:
             raise InputError(f"effect {name!r} is unknown, {unknown_name(name, self.effects)}")
         return rendered(page(self.effects[name]))
-
-    def plot(self) -> Picture:
-        """How many parameters each effect has; what each does to readings is drawn in the documentation."""
-        from reports.first_screen.figures import Bars, errors
-
-        values = tuple((float(len(it.parameters)) or None,) for it in self.values())
-        return errors(Bars(tuple(self), ("parameters",), values, "parameters", "effects of the catalogue"))
 
     def to_frame(self) -> DataFrame:
         """One row a parameter: effect, title, parameter, unit, absent, typical, low, high, meaning, equation,

@@ -20,9 +20,9 @@ def export(
     """Write K_b of a bar, or K_p of a parallelogram at an angle, for another program; returns the files.
 
     source: folder of a campaign, with the model that is kept there, or the result.json of a run. to: json, npz, mat,
-    inp (CalculiX, Abaqus), dmig (Nastran), mjcf (MuJoCo), exudyn, urdf; units stand at the head of each file. out: file
-    to write. q_deg: angle of the parallelogram; default its bar. model: another model.toml. effects: files of effects of
-    one's own. InputError for a source, a format or a place that cannot be used.
+    inp (CalculiX, Abaqus), dmig (Nastran), mjcf (MuJoCo), exudyn, urdf; units stand at the head of each file. out:
+    file to write. q_deg: angle of the parallelogram; default its bar. model: another model.toml. effects: files of
+    effects of one's own. InputError for a source, a format or a place that cannot be used.
     """
     asked = Sources(Path(source), q_deg, None if model is None else Path(model), [Path(it) for it in effects])
     return tuple(written(asked, to, Path(out))[0])

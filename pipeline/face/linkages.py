@@ -16,8 +16,8 @@ from pipeline.campaign import Rig
 from pipeline.campaign.names import COORDINATES
 from pipeline.campaign.rig import Solvable
 from pipeline.errors import InputError
-from pipeline.face.bars import DISPLACEMENTS, clean, matrix_frame, matrix_table
-from pipeline.face.shown import Shown
+from pipeline.face.bars import DISPLACEMENTS, LOADS, clean, matrix_frame, matrix_table
+from pipeline.face.shown import Drawn
 from pipeline.inference.model import Model
 from pipeline.terminal import one_line
 from reports.quantities import short
@@ -35,7 +35,7 @@ Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Linkage(Shown):
+class Linkage(Drawn):
     """A rig at rest. rig: by its drawing. q_deg: angle of the bars. stiffness: (6, 6) at the platform point, base
     frame; x y z rx ry rz to Fx Fy Fz Mx My Mz, N, mm, rad."""
 
@@ -72,7 +72,7 @@ class Linkage(Shown):
         """Size of the entries; rows are loads, columns displacements."""
         from reports.first_screen.figures import matrix
 
-        return matrix(clean(self.stiffness, self.rig.length).tolist(), DISPLACEMENTS, self.headline)
+        return matrix(clean(self.stiffness, self.rig.length).tolist(), LOADS, DISPLACEMENTS, self.headline)
 
     def to_frame(self) -> DataFrame:
         """6 x 6: rows the loads on the platform, columns its displacements; N, mm, rad."""

@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from rich.console import Console, RenderableType
+from rich.text import Text
 
 from meshes.files import replacing
 from pipeline.command import usable
@@ -63,10 +64,6 @@ class Shown(ABC):
         return ()
 
     @abstractmethod
-    def plot(self) -> Picture:
-        """A matplotlib figure; nothing is shown and nothing written. A notebook draws it where it ends a cell."""
-
-    @abstractmethod
     def to_frame(self) -> DataFrame:
         """Its numbers as a pandas table, units in the names of columns or in a column."""
 
@@ -119,10 +116,14 @@ class Shown(ABC):
                 following=self.following,
                 columns=tuple(map(str, frame.columns)),
                 rows=tuple(tuple(row) for row in frame.itertuples(index=False)),
-                picture=b64encode(self.plot().png()).decode(),
+                picture=self._picture(),
                 picture_says=self.headline,
             )
         )
+
+    def _picture(self) -> str:
+        """A PNG in base64, "" for none."""
+        return ""
 
     def __eq__(self, other: object) -> bool:
         return same(self, other)
@@ -130,12 +131,23 @@ class Shown(ABC):
     __hash__ = None  # type: ignore[assignment]
 
 
+class Drawn(Shown):
+    """A result that has a picture."""
+
+    @abstractmethod
+    def plot(self) -> Picture:
+        """A matplotlib figure; nothing is shown and nothing written. A notebook draws it where it ends a cell."""
+
+    def _picture(self) -> str:
+        return b64encode(self.plot().png()).decode()
+
+
 def rendered(*parts: RenderableType) -> str:
     """As a terminal of 80 columns shows it."""
     out = StringIO()
-    console = Console(file=out, width=WIDTH, highlight=False, color_system=None, markup=False)
+    console = Console(file=out, width=WIDTH, highlight=False, color_system=None)
     for part in parts:
-        console.print(part)
+        console.print(Text(part) if isinstance(part, str) else part)
     return out.getvalue()
 
 
@@ -159,6 +171,8 @@ def _html(it: Shown, _: str) -> bytes:
 
 
 def _picture(it: Shown, suffix: str) -> bytes:
+    if not isinstance(it, Drawn):
+        raise InputError(f"{type(it).__name__} has no picture, allowed are .json, .csv, .html")
     return it.plot().saved(suffix[1:])
 
 

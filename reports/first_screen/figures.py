@@ -15,8 +15,10 @@ from reports.quantities import short, sigma
 from reports.style import ACCENT, CYCLE, FAINT, INK
 
 Numbers = Sequence[float | None]
-WIDE, ROW, LETTERS, MOST = 8.0, 0.32, 34, 40
-"""Inches of a picture and of a row of bars; letters of a label; rows at most."""
+WIDE, ROW, LETTERS, MOST, BESIDE = 8.0, 0.32, 34, 40, 12
+"""Inches of a picture and of a row of bars; letters of a label; rows at most, and beside a curve."""
+FEW = 3
+"""Readings of a curve up to which its points are marked."""
 DASHES = ("--", "-", "-.", ":")
 COLOURS = ("#D55E00", "#0072B2", "#009E73", "#CC79A7")
 
@@ -60,14 +62,15 @@ def curve(it: Measured | None, bars: Bars | None = None) -> Picture:
     """Errors at the left where there are some, one channel measured and predicted at the right."""
     if it is None and bars is not None:
         return errors(bars)
-    figure = Picture(figsize=(WIDE if bars is None else 1.35 * WIDE, 3.8))
+    rows = 0 if bars is None else min(len(bars.labels), BESIDE)
+    figure = Picture(figsize=(WIDE if bars is None else 1.35 * WIDE, max(3.8, 1.0 + ROW * rows)))
     if it is None:
         return _said(figure, "nothing is measured yet that a model predicts")
     if bars is None:
         _curve(figure.subplots(), it)
         return figure
     left, right = figure.subplots(1, 2, gridspec_kw={"width_ratios": [1.0, 1.25], "wspace": 0.28})
-    _bars(left, bars)
+    _bars(left, bars, BESIDE)
     _curve(right, it)
     return figure
 
@@ -82,7 +85,9 @@ def errors(it: Bars) -> Picture:
     return figure
 
 
-def matrix(values: Sequence[Sequence[float]], labels: Sequence[str], title: str) -> Picture:
+def matrix(
+    values: Sequence[Sequence[float]], rows: Sequence[str], labels: Sequence[str], title: str
+) -> Picture:
     """Size of the entries of a matrix on a logarithmic scale, each with its number."""
     grid = np.array(values, dtype=float)
     figure = Picture(figsize=(1.0 + 0.95 * len(labels), 0.8 + 0.62 * len(labels)))
@@ -90,12 +95,12 @@ def matrix(values: Sequence[Sequence[float]], labels: Sequence[str], title: str)
     size = np.abs(grid)
     least = size.max() * 1e-9
     shade = np.log10(np.where(size > least, size, np.nan))
-    ax.imshow(shade, cmap="Blues", aspect="auto", vmin=np.nanmin(shade) - 2.0, vmax=np.nanmax(shade) + 1.5)
+    ax.imshow(shade, cmap="Blues", aspect="auto", vmin=np.nanmin(shade) - 2.0, vmax=np.nanmax(shade) + 5.0)
     for (row, column), value in np.ndenumerate(grid):
         if size[row, column] > least:
             ax.text(column, row, short(float(value)), ha="center", va="center", fontsize=8, color=INK)
     ax.set_xticks(range(len(labels)), labels)
-    ax.set_yticks(range(len(labels)), labels)
+    ax.set_yticks(range(len(rows)), rows)
     ax.set_title(title, fontsize=10, loc="left", color=INK)
     return figure
 
@@ -119,7 +124,10 @@ def _curve(ax: Axes, it: Measured) -> None:
     loads = _floats(it.loads)
     for line, dash, colour in zip(it.lines, DASHES, COLOURS, strict=False):
         label = f"{_cut(line.name)}: {sigma(line.rms)} sigma"
-        ax.plot(loads, _floats(line.values), ls=dash, lw=1.7, color=colour, label=label)
+        # A line needs two points to be seen.
+        mark = "D" if loads.size <= FEW else None
+        values = _floats(line.values)
+        ax.plot(loads, values, marker=mark, ls=dash, lw=1.7, ms=6, mfc="none", color=colour, label=label)
     ax.errorbar(
         loads,
         _floats(it.measured),
@@ -138,14 +146,16 @@ def _curve(ax: Axes, it: Measured) -> None:
     ax.legend(frameon=False, fontsize=8, loc="best")
 
 
-def _bars(ax: Axes, it: Bars) -> None:
-    labels, values = it.labels[:MOST], it.values[:MOST]
-    height = 0.7 / len(it.names)
+def _bars(ax: Axes, it: Bars, most: int = MOST) -> None:
+    there = [k for k in range(len(it.names)) if any(row[k] is not None for row in it.values)] or [0]
+    names = [it.names[k] for k in there]
+    labels, values = it.labels[:most], [[row[k] for k in there] for row in it.values[:most]]
+    height = min(0.7, 0.1 + 0.12 * len(labels)) / len(names)
     every = [v for row in values for v in row if v is not None and np.isfinite(v) and v > 0.0]
     low, high = min([0.5, *every]), max([2.0, *every])
-    for k, (name, colour) in enumerate(zip(it.names, CYCLE, strict=False)):
+    for k, (name, colour) in enumerate(zip(names, CYCLE, strict=False)):
         sizes = [max(row[k] or 0.0, 0.5 * low) if row[k] is not None else np.nan for row in values]
-        places = np.arange(len(labels)) + (k - 0.5 * (len(it.names) - 1)) * height
+        places = np.arange(len(labels)) + (k - 0.5 * (len(names) - 1)) * height
         ax.barh(places, sizes, height=0.9 * height, color=colour, label=name, left=0.0)
         for place, value in zip(places, [row[k] for row in values], strict=True):
             if value is not None:
@@ -155,13 +165,21 @@ def _bars(ax: Axes, it: Bars) -> None:
     ax.set_xlim(0.5 * low, 4.0 * high)
     ax.axvline(1.0, color=FAINT, ls="--", lw=1)
     ax.set_yticks(range(len(labels)), [_cut(each) for each in labels], fontsize=8)
-    ax.invert_yaxis()
+    ax.set_ylim(len(labels) - 0.4, -0.6)
     ax.set_xlabel(it.axis)
-    rest = f", {len(it.labels) - MOST} more not drawn" if len(it.labels) > MOST else ""
+    rest = f", {len(it.labels) - most} more not drawn" if len(it.labels) > most else ""
     ax.set_title(f"{it.title}{rest}", fontsize=10, loc="left", color=INK)
     dress(ax)
-    if len(it.names) > 1:
-        ax.legend(frameon=False, fontsize=8, loc="lower right")
+    if len(names) > 1:
+        # Above the bars, where it hides none.
+        ax.legend(
+            frameon=False,
+            fontsize=8,
+            ncols=len(names),
+            handlelength=1.0,
+            loc="lower right",
+            bbox_to_anchor=(1.02, 0.99),
+        )
 
 
 def _said(figure: Picture, words: str) -> Picture:
