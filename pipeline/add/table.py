@@ -42,7 +42,7 @@ def show(
     """
     out = terminal(console)
     if not quiet:
-        out.print(escape(headline(answer)), "")
+        out.print(Text(headline(answer)), "")
         out.print(error_table(answer), "")
     if answer.parameters:
         out.print(parameter_table(answer), "")

@@ -18,10 +18,10 @@ NAME, HEAD = 30, 10
 """Cells of a test's and of a channel's name; longer ones go on below."""
 SENTENCES, LOST, REMARKS = 12, 4, 4
 """Lines of each kind at most."""
-SCREEN, WORST, FEW, CHANNELS = 8, 4, 3, 3
+SCREEN, WORST, FEW, CHANNELS = 8, 4, 2, 2
 """Tests up to which all are shown; of more of them: tests, sentences and channels, the worst ones."""
 HEADS = {"lin": "LIN", "vjm": "VJM", "saved": "saved", "fea": "FEA"}
-FULL = "more; every test and channel with --full, all"
+FULL = "every test and channel: see --full"
 _UNITS = {"mm": (1e3, "µm"), "rad": (1e6, "µrad"), "N": (1.0, "N"), "Nmm": (1.0, "Nmm")}
 """In which an error is shown, and by how much it is multiplied for that."""
 NOISE, CLEAR = 1.5, 3.0
@@ -40,21 +40,22 @@ def page(result: Comparison, width: int = WIDTH, full: bool = False) -> Renderab
     whole = full or result.tests <= SCREEN
     shown = result.model_of(result.shown)
     counts = f"{result.tests} tests, {result.rows} load steps, {result.readings} readings to predict"
+    if result.remarks and not whole:
+        counts += f"; {len(result.remarks)} remarks"
     parts: list[RenderableType] = [
         Text(headline(result)),
         *(Text(said) for said in _details(result)),
         Text(counts),
         *(Text(said) for said in mends(result.doctor)),
         *_lines("", shown.in_units, SENTENCES),
-        *_lines("remark: ", result.remarks, REMARKS if whole else 0, "remarks"),
+        *(_lines("remark: ", result.remarks, REMARKS) if whole else []),
         *([Text()] if whole else []),
         tests_table(result, whole),
         *_lost(result, LOST if whole else 1),
     ]
     if shown.failed is None:
-        parts.append(Text())
         if whole:
-            parts.append(Text(f"{shown.title}: error of each channel, in its sigmas"))
+            parts.append(Text(f"\n{shown.title}: error of each channel, in its sigmas"))
             parts += [*_channels(shown, width), Text()]
         else:
             parts.append(Text(_worst_channels(shown)))
@@ -102,7 +103,7 @@ def _details(result: Comparison) -> Iterable[str]:
     if shown.tolerated:
         yield "That is with what is written about the rig as it fits best within its tolerances."
     if shown.headline:
-        yield f"{shown.headline[0].upper()}{shown.headline[1:]}."
+        yield shown.headline
 
 
 def _worst_channels(model: ModelError) -> str:
@@ -111,7 +112,7 @@ def _worst_channels(model: ModelError) -> str:
     said = ", ".join(
         f"{name} {sigma(it.sigmas)} sigma ({_in_unit(it)} {_UNITS[it.unit][1]})" for name, it in worst
     )
-    return f"worst channels of the fitted tests: {said}" if said else "no channel is predicted"
+    return f"worst channels: {said}" if said else "no channel is predicted"
 
 
 def sentence(result: Comparison) -> str:
@@ -253,10 +254,9 @@ def _table(corner: str, *heads: str) -> Table:
     return table
 
 
-def _lines(start: str, sentences: Iterable[str], most: int, named: str = "more") -> list[RenderableType]:
+def _lines(start: str, sentences: Iterable[str], most: int, rest: str = "see --json") -> list[RenderableType]:
     """The first few sentences, one a line, and how many more there are."""
     every = list(sentences)
     left = len(every) - most
-    rest = f"... and {left} {named}, see --json" if most else f"{left} {named}, see --full"
-    shown = [*every[:most], *([rest] if len(every) > most else [])]
-    return [Text(start * bool(most) + each) for each in shown]
+    shown = [*every[:most], *([f"... and {left} more, {rest}"] if left > 0 else [])]
+    return [Text(start + each) for each in shown]

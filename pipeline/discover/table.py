@@ -7,6 +7,7 @@ from collections.abc import Iterable
 from rich.console import Console
 from rich.markup import escape
 from rich.table import Table
+from rich.text import Text
 
 from pipeline.add.table import NAME
 from pipeline.discover.record import Discovered
@@ -21,7 +22,7 @@ def show(it: Discovered, following: Iterable[str], quiet: bool, console: Console
     """Print what was found; unless quiet as a table too, with what to do next."""
     out = terminal(console)
     if not quiet:
-        out.print(escape(headline(it)), "")
+        out.print(Text(headline(it)), "")
         if it.laws or it.entered:
             out.print(table(it), "")
     for sentence in it.sentences[:1] if quiet else it.sentences:

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from rich.console import RenderableType
 
-from pipeline.effects_page import page, table
+from pipeline.effects_page import headline, page, table
 from pipeline.errors import InputError
 from pipeline.face.shown import Shown, rendered
 from pipeline.toml.spelling import unknown_name
@@ -36,7 +36,7 @@ class Catalogue(Shown, Mapping[str, Effect]):
 
     @property
     def headline(self) -> str:
-        return f"{len(self)} physical effects that a model may lack"
+        return headline(self.effects)
 
     def tables(self) -> tuple[RenderableType, ...]:
         return (table(self.effects),)

@@ -66,7 +66,10 @@ def improve_campaign(
         answer.write(out / "answer.json")
     if json is not None:
         answer.write(json)
-    closing(answer, found, str(folder / NAME), following(answer, found.verdict, folder, out), quiet)
+    # On a terminal the steps stand there already.
+    told = [] if quiet or terminal().is_terminal else [waterfall(campaign.name, done)]
+    going_on = following(answer, found.verdict, folder, out)
+    closing(answer, found, str(folder / NAME), going_on, quiet, told)
     return answer
 
 
@@ -85,14 +88,11 @@ def improved(found: Diagnosis, began: Model, done: Sequence[Step]) -> Answer:
 
 
 def _watched(found: Diagnosis, quiet: bool) -> list[Step]:
-    """All steps, shown as they come."""
+    """All steps; on a terminal shown as they come."""
     done: list[Step] = []
     console = terminal()
     if quiet or not console.is_terminal:
-        done = list(steps(found))
-        if not quiet:
-            console.print(waterfall(found.campaign.name, done), "")
-        return done
+        return list(steps(found))
     with Live(waterfall(found.campaign.name, done), console=console) as live:
         for step in steps(found):
             done.append(step)

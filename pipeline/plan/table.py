@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from rich.console import Console
 from rich.markup import escape
 from rich.table import Table
+from rich.text import Text
 
 from pipeline.plan.record import Plan, Size
 from pipeline.terminal import WIDTH, blocks, cell, lean, one_line, terminal
@@ -21,7 +22,7 @@ def show(plan: Plan, quiet: bool, console: Console | None = None) -> None:
     """One line of headline, sizes, the isolability matrix, the next test."""
     out = terminal(console)
     if not quiet:
-        out.print(escape(headline(plan)), "")
+        out.print(Text(headline(plan)), "")
         for table in tables(plan, out.width):
             out.print(table, "")
         for name, why in plan.refused.items():
