@@ -27,7 +27,7 @@ def effects(name: str | None = None, effects_from: Iterable[Path] = ()) -> None:
     known = known_effects(effects_from).effects
     out = terminal()
     if name is None:
-        out.print(headline(known), "")
+        out.print(f"{headline(known)}\n")
     out.print(table(known) if name is None else page(_asked(name, known)))
 
 

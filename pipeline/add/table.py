@@ -42,7 +42,7 @@ def show(
     """
     out = terminal(console)
     if not quiet:
-        out.print(Text(headline(answer)), "")
+        out.print(Text(f"{headline(answer)}\n"))
         out.print(error_table(answer), "")
     if answer.parameters:
         out.print(parameter_table(answer), "")

@@ -24,7 +24,7 @@ def show(answer: Answer, following: Iterable[str], quiet: bool, console: Console
     """Print the verdict; unless quiet also candidates, errors, parameters and all that is worth saying."""
     out = terminal(console)
     if not quiet:
-        out.print(Text(headline(answer)), "")
+        out.print(Text(f"{headline(answer)}\n"))
         tables = [waterfall(answer), candidate_table(answer), error_table(answer)]
         if answer.parameters:
             tables.append(parameter_table(answer))

@@ -22,7 +22,7 @@ def show(it: Discovered, following: Iterable[str], quiet: bool, console: Console
     """Print what was found; unless quiet as a table too, with what to do next."""
     out = terminal(console)
     if not quiet:
-        out.print(Text(headline(it)), "")
+        out.print(Text(f"{headline(it)}\n"))
         if it.laws or it.entered:
             out.print(table(it), "")
     for sentence in it.sentences[:1] if quiet else it.sentences:

@@ -43,7 +43,7 @@ def closing(
     """One line of headline, steps, parameters, what is worth saying, where the model is and what can be done next."""
     out = terminal()
     if not quiet:
-        out.print(Text(headline(answer)), "")
+        out.print(Text(f"{headline(answer)}\n"))
     for table in steps:
         out.print(table, "")
     if answer.parameters:

@@ -22,7 +22,7 @@ def show(plan: Plan, quiet: bool, console: Console | None = None) -> None:
     """One line of headline, sizes, the isolability matrix, the next test."""
     out = terminal(console)
     if not quiet:
-        out.print(Text(headline(plan)), "")
+        out.print(Text(f"{headline(plan)}\n"))
         for table in tables(plan, out.width):
             out.print(table, "")
         for name, why in plan.refused.items():
