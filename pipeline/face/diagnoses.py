@@ -113,8 +113,11 @@ class Diagnosis(AboutBench):
         from reports.first_screen.figures import Bars, curve
 
         models = {"before": self.subject.model}
+        several = len(self.choices) > 1
         models |= {
-            " + ".join(names): it for names, it in zip(self.choices, self.models, strict=True) if names
+            " + ".join(names) if several else "after": it
+            for names, it in zip(self.choices, self.models, strict=True)
+            if names
         }
         steps = self.answer.error
         labels = tuple(

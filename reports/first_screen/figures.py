@@ -124,8 +124,8 @@ def _curve(ax: Axes, it: Measured) -> None:
     loads = _floats(it.loads)
     for line, dash, colour in zip(it.lines, DASHES, COLOURS, strict=False):
         label = f"{_cut(line.name)}: {sigma(line.rms)} sigma"
-        # A line needs two points to be seen.
-        mark = "D" if loads.size <= FEW else None
+        # A few load cases are no path.
+        mark, dash = ("D", "") if loads.size <= FEW else (None, dash)
         values = _floats(line.values)
         ax.plot(loads, values, marker=mark, ls=dash, lw=1.7, ms=6, mfc="none", color=colour, label=label)
     ax.errorbar(
