@@ -99,7 +99,7 @@ class Diagnosis(AboutBench):
         doctor = tuple(f"Mend the table first: {it.mend}" for it in self.answer.doctor)
         test = (f"Next test: {self.answer.next_test['why']}.",) if self.answer.next_test else ()
         named = {
-            "identified": f"bench.add({', '.join(map(repr, self.choices[0]))}) fits and keeps them.",
+            "identified": f"bench.add({', '.join(map(repr, self.choices[0]))}) fits them, save_model() keeps them.",
             "ambiguous": "model_of(...) takes one of the choices.",
             "unknown": "bench.discover() looks where in the linkage the rest sits, and what law it follows.",
         }

@@ -96,7 +96,7 @@ def _table(it: Screen) -> str:
 def _cells(row: Iterable[object]) -> Iterator[str]:
     for value in row:
         number = isinstance(value, int | float) and not isinstance(value, bool)
-        side = "right" if number else "left"
+        side = "right;white-space:nowrap" if number else "left"
         yield f'<td style="text-align:{side};padding:2px 8px">{escape(_limited(_said(value), CELL))}</td>'
 
 
