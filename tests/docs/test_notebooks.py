@@ -11,8 +11,8 @@ import parastiff
 from tests.docs.notebooks import Json, code_cells, notebooks, read, run, text_of
 from tests.docs.shown import difference
 
-LONG = {"own_table", "calibration"}
-"""Notebooks of a minute or more."""
+LONG = {"own_bar", "own_table", "calibration"}
+"""Notebooks that mesh or search; the others are run by the quick tests too."""
 BYTES = 150_000
 LIBRARIES = {"parastiff", "pathlib"}
 

@@ -154,7 +154,8 @@ def test_what_is_identified_or_noise_has_its_model() -> None:
         assert it.model == it.models[0]
 
 
-def test_a_first_screen_names_what_is_certain_and_what_comes_next() -> None:
+def test_a_first_screen_names_what_is_certain_and_what_comes_next(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(Drawn, "_picture", lambda _: "")
     page = ambiguous()._repr_html_()
     assert "ambiguous" in page and f"Next test: {TEST}" in page and "model_of" in page
     known = replace(ambiguous(), answer=answer(verdict="identified"))._repr_html_()
@@ -178,12 +179,11 @@ found.save({str(tmp_path / "verdict.html")!r})"""
 
 
 def test_a_virtual_bench_is_measured_and_written_with_its_answer_beside(tmp_path: Path) -> None:
-    it = parastiff.simulate("joint_friction=800", seed=2)
+    it = parastiff.simulate("joint_friction=800", seed=2, out=tmp_path / "bench")
     assert it.answer["parameters"]["joint_friction.torque_Nmm"] == 800  # type: ignore[index]
     assert "800" not in repr(it) and len(it.to_frame()) == 456
-    there = parastiff.simulate("joint_friction=800", seed=2, out=tmp_path / "bench")
     assert (tmp_path / "bench.sealed.json").exists()
-    assert parastiff.open(tmp_path / "bench").to_frame().equals(there.to_frame())
+    assert parastiff.open(tmp_path / "bench").subject.campaign.digests == it.subject.campaign.digests
     with pytest.raises(InputError, match="exists, allowed is a folder without a campaign"):
         parastiff.simulate(out=tmp_path / "bench")
 
