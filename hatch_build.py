@@ -19,7 +19,7 @@ from hatchling.builders.hooks.plugin.interface import BuildHookInterface
 
 NAME = "parastiff"
 PACKAGES = ("fem", "meshes", "pipeline", "reports", "vjm")
-DATA = (".csv", ".css", ".j2", ".js", ".toml")
+DATA = (".csv", ".css", ".j2", ".js", ".toml", ".typed")
 LEFT_OUT = {
     "reports": ("challenge", "coverage", "extrapolation", "sensitivity", "studio", "validation"),
     "pipeline": ("extrapolation", "sensitivity"),

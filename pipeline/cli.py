@@ -109,12 +109,13 @@ def compare(
     effects_from: EffectsFrom = None,
     json: Json = None,
     out: Annotated[Path | None, typer.Option(help="Folder for comparison.json.")] = None,
+    full: Annotated[bool, typer.Option("--full", help="Every test and channel, however many.")] = False,
     quiet: Quiet = False,
 ) -> None:
     """Models against measurements: error by test and channel, and how the model fails."""
     from pipeline.compare.command import compare
 
-    guarded(lambda: compare(campaign, model, json, out, quiet, effects_from or []))
+    guarded(lambda: compare(campaign, model, json, out, quiet, effects_from or [], full))
 
 
 @app.command()

@@ -25,8 +25,15 @@ NAME, UNIT = 27, 12
 def effects(name: str | None = None, effects_from: Iterable[Path] = ()) -> None:
     """Print all effects, or one. InputError for a name that is not in the catalogue."""
     known = known_effects(effects_from).effects
-    shown = table(known) if name is None else page(_asked(name, known))
-    terminal().print(shown)
+    out = terminal()
+    if name is None:
+        out.print(f"{headline(known)}\n")
+    out.print(table(known) if name is None else page(_asked(name, known)))
+
+
+def headline(known: Mapping[str, Effect]) -> str:
+    """How many there are."""
+    return f"{len(known)} physical effects that a model may lack"
 
 
 def _asked(name: str, known: Mapping[str, Effect]) -> Effect:

@@ -35,34 +35,44 @@ def simulate(out: Path, effects: Sequence[str], seed: int, quiet: bool = False) 
     The answer is in `sealed(out)`; what is printed says where it is, not what. InputError for effects that cannot
     be had and for a folder with a campaign; RuntimeError where the bench itself finds no equilibrium.
     """
-    rig = bench_rig()
     require_free(out)
+    with Progress(quiet).stage("simulate"):
+        campaign, answer = virtual(re.sub(r"\s+", " ", out.resolve().name), effects, seed)
+    seal(out, campaign, answer)
+    return campaign
+
+
+def virtual(name: str, effects: Sequence[str], seed: int) -> tuple[Campaign, dict[str, object]]:
+    """The bench plan measured on frame finite elements with hidden effects, and the answer. InputError for effects that
+    cannot be had; RuntimeError where the bench itself finds no equilibrium."""
+    rig = bench_rig()
     # Sizes and noise are drawn apart, so that the same seed gives the same noise whatever is hidden.
     sizes, noise = (np.random.default_rng(s) for s in np.random.SeedSequence(seed).spawn(2))
     values = hidden(effects, catalogue(), rig, sizes)
     paths = {path_of(name, p): value for name, own in values.items() for p, value in own.items()}
-    with Progress(quiet).stage("simulate"):
-        name = re.sub(r"\s+", " ", out.resolve().name)
-        campaign = measure(name, rig, bench_plan(), SENSORS, paths, int(noise.integers(2**63)), GAUGES)
-    answer = {
+    campaign = measure(name, rig, bench_plan(), SENSORS, paths, int(noise.integers(2**63)), GAUGES)
+    return campaign, {
         "effects": list(values),
         "parameters": paths,
         "seed": seed,
         "rig": "parallelogram of the paper's Eq. 12",
         "truth": "geometrically exact frame finite elements: bar_geometric_nonlinearity is always there",
     }
-    seal(out, campaign, answer)
-    return campaign
 
 
 def seal(out: Path, campaign: Campaign, answer: Mapping[str, object]) -> None:
     """Write the campaign, its answer beside it with what made it, and say where both are."""
+    write_sealed(out, campaign, answer)
+    rows = sum(test.data.steps.size for test in campaign.tests)
+    print(f"{out}: {len(campaign.tests)} tests, {rows} load steps; the answer is sealed in {sealed(out)}")
+
+
+def write_sealed(out: Path, campaign: Campaign, answer: Mapping[str, object]) -> None:
+    """Write the campaign, and its answer beside it with what made it."""
     write(out, campaign)
     whole = {"campaign": campaign.name, **answer, "versions": versions(), "commit": commit()}
     with replacing(sealed(out)) as part:
         part.write_text(json.dumps(whole, indent=1) + "\n", encoding="utf-8")
-    rows = sum(test.data.steps.size for test in campaign.tests)
-    print(f"{out}: {len(campaign.tests)} tests, {rows} load steps; the answer is sealed in {sealed(out)}")
 
 
 def bench_rig() -> ParallelogramRig:

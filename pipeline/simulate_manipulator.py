@@ -22,23 +22,29 @@ def simulate_manipulator(
     out: Path, file: str, effects: Sequence[str], seed: int, quiet: bool = False
 ) -> Campaign:
     """As `pipeline.simulate.simulate`, on a manipulator: a shipped one, or a file that is not moved afterwards."""
+    require_free(out)
+    with Progress(quiet).stage("simulate"):
+        campaign, answer = virtual_manipulator(re.sub(r"\s+", " ", out.resolve().name), file, effects, seed)
+    seal(out, campaign, answer)
+    return campaign
+
+
+def virtual_manipulator(
+    name: str, file: str, effects: Sequence[str], seed: int
+) -> tuple[Campaign, dict[str, object]]:
+    """A manipulator measured at its usual postures on frame elements with hidden effects, and the answer."""
     described = read(file)
     named = file if (SHIPPED / f"{file}.toml").exists() else str(Path(file).resolve())
     whole = described.manipulator
     rig = ManipulatorRig(length=whole.length, manipulator=whole, file=named)
-    require_free(out)
     sizes, noise = (np.random.default_rng(s) for s in np.random.SeedSequence(seed).spawn(2))
     values = hidden(effects, catalogue(), rig, sizes)
-    with Progress(quiet).stage("simulate"):
-        name = re.sub(r"\s+", " ", out.resolve().name)
-        tests = plan(whole, described.home)
-        campaign = measure_manipulator(name, rig, tests, values, int(noise.integers(2**63)))
-    answer = {
+    tests = plan(whole, described.home)
+    campaign = measure_manipulator(name, rig, tests, values, int(noise.integers(2**63)))
+    return campaign, {
         "effects": list(values),
         "parameters": {path_of(name, p): value for name, own in values.items() for p, value in own.items()},
         "seed": seed,
         "rig": f"manipulator {whole.name}",
         "truth": "linear frame finite elements at each posture",
     }
-    seal(out, campaign, answer)
-    return campaign

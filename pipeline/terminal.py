@@ -26,6 +26,12 @@ def terminal(console: Console | None = None) -> Console:
     return out
 
 
+def one_line(*tries: str) -> str:
+    """The first of these that fits one line of 80 columns, its blanks made single; the last is to fit always."""
+    said = [" ".join(each.split()) for each in tries]
+    return next((each for each in said if cell_len(each) <= WIDTH), said[-1])
+
+
 def lean(*heads: str, title: str = "") -> Table:
     """A table without sides: names at the left, then columns of numbers. What does not fit a cell goes on below."""
     table = Table(

@@ -10,6 +10,7 @@ from rich.markup import escape
 from rich.table import Table
 from rich.text import Text
 
+from pipeline.add.headline import headline
 from pipeline.answer import LEVEL, Answer, TestChange, TestNoise
 from pipeline.parameter_names import parted
 from pipeline.terminal import cell, folded, lean, terminal
@@ -42,6 +43,7 @@ def show(
     """
     out = terminal(console)
     if not quiet:
+        out.print(Text(f"{headline(answer)}\n"))
         out.print(error_table(answer), "")
     if answer.parameters:
         out.print(parameter_table(answer), "")

@@ -30,11 +30,12 @@ def compare(
     out: Path | None = None,
     quiet: bool = False,
     effects_from: Sequence[Path] = (),
+    full: bool = False,
 ) -> Comparison:
     """Compare, print, and write where it was asked for; the campaign is not touched.
 
-    model: file of a saved model; default that of the campaign, if it has one. InputError for a campaign, a model
-    or a place to write that cannot be used.
+    model: file of a saved model; default that of the campaign, if it has one. full: every test, not only those of a
+    screen. InputError for a campaign, a model or a place to write that cannot be used.
     """
     places = [place for place in (json, out / RESULT if out else None) if place is not None]
     for place in places:
@@ -51,7 +52,7 @@ def compare(
     if quiet:
         print(sentence(result))
     else:
-        show(result)
+        show(result, full=full)
         shown = result.model_of(result.shown)
         if not shown.within_noise and not shown.untested:
             print(f"next: {command('diagnose', folder)}")

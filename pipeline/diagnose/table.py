@@ -7,7 +7,9 @@ from collections.abc import Iterable
 from rich.console import Console
 from rich.markup import escape
 from rich.table import Table
+from rich.text import Text
 
+from pipeline.add.headline import headline
 from pipeline.add.table import BAR, NAME, bar, error_table, parameter_table, scale
 from pipeline.answer import Answer
 from pipeline.terminal import cell, lean, terminal
@@ -22,6 +24,7 @@ def show(answer: Answer, following: Iterable[str], quiet: bool, console: Console
     """Print the verdict; unless quiet also candidates, errors, parameters and all that is worth saying."""
     out = terminal(console)
     if not quiet:
+        out.print(Text(f"{headline(answer)}\n"))
         tables = [waterfall(answer), candidate_table(answer), error_table(answer)]
         if answer.parameters:
             tables.append(parameter_table(answer))

@@ -49,16 +49,30 @@ def discover_laws(asked: Asked) -> Discovered:
     campaign = read(asked.folder)
     began, known = starting_model(campaign, asked.folder, asked.model, known)
     _check(asked)
-    progress, begin = Progress(asked.quiet), perf_counter()
-    with progress.stage("looking for laws") as stage:
-        found, whole = searched(campaign, began, known, stage.say)
+    with Progress(asked.quiet).stage("looking for laws") as stage:
+        found, record = discovered(campaign, began, known, stage.say)
         stage.note = f"{len(found.laws)} found"
-    record = recorded(found, program(set_aside(whole, found.bad)), perf_counter() - begin)
     record = record.model_copy(update={"seed": asked.seed})
-    record = record.model_copy(update={"sentences": sentences(record)})
     following = _written(asked, found, record)
     show(record, following, asked.quiet)
     return record
+
+
+def discovered(
+    campaign: Campaign, model: Model, known: Known, say: Say = lambda _: None
+) -> tuple[Discovery, Discovered]:
+    """What is found, and its record with all of it in words. InputError as of `searched`."""
+    begin = perf_counter()
+    found, whole = searched(campaign, model, known, say)
+    record = recorded(found, program(set_aside(whole, found.bad)), perf_counter() - begin)
+    return found, record.model_copy(update={"sentences": sentences(record)})
+
+
+def effects_found(found: Discovery, record: Discovered) -> tuple[str, ...]:
+    """Names of all effects that entered the model, laws by those of their effect file, in order."""
+    names = [GEOMETRY] if found.bent else []
+    names += [each.effect for each in record.entered]
+    return (*names, *(name_of(law.ways[0]) for law in found.laws if law.ways))
 
 
 def searched(
@@ -108,7 +122,5 @@ def _written(asked: Asked, found: Discovery, record: Discovered) -> list[str]:
     if asked.write is None:
         return [command("discover", asked.folder, "--write", "law.py")]
     write_effect(asked.write, effect_text(found, record))
-    names = [GEOMETRY] if found.bent else []
-    names += [each.effect for each in record.entered]
-    names += [name_of(law.ways[0]) for law in found.laws if law.ways]
+    names = effects_found(found, record)
     return [command("add", asked.folder, *names, "--effects-from", asked.write)]

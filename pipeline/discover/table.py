@@ -7,11 +7,12 @@ from collections.abc import Iterable
 from rich.console import Console
 from rich.markup import escape
 from rich.table import Table
+from rich.text import Text
 
 from pipeline.add.table import NAME
 from pipeline.discover.record import Discovered
 from pipeline.discover.search import GEOMETRY
-from pipeline.terminal import cell, lean, terminal
+from pipeline.terminal import cell, lean, one_line, terminal
 from reports.quantities import short, sigma
 
 FORM = 18
@@ -20,8 +21,10 @@ FORM = 18
 def show(it: Discovered, following: Iterable[str], quiet: bool, console: Console | None = None) -> None:
     """Print what was found; unless quiet as a table too, with what to do next."""
     out = terminal(console)
-    if not quiet and (it.laws or it.entered):
-        out.print(_table(it), "")
+    if not quiet:
+        out.print(Text(f"{headline(it)}\n"))
+        if it.laws or it.entered:
+            out.print(table(it), "")
     for sentence in it.sentences[:1] if quiet else it.sentences:
         out.print(escape(sentence))
     if not quiet:
@@ -29,7 +32,22 @@ def show(it: Discovered, following: Iterable[str], quiet: bool, console: Console
             out.print(f"next: {escape(command)}", soft_wrap=True)
 
 
-def _table(it: Discovered) -> Table:
+def headline(it: Discovered) -> str:
+    """Where the rest sits and how far the error falls, in one line."""
+    names = [law.site for law in it.laws] + [each.effect for each in it.entered]
+    before, after = sigma(it.error[0].fit), sigma(it.error[-1].fit)
+    if not names:
+        return one_line(f"{it.campaign}: no law is found, {before} sigma", f"no law is found, {before} sigma")
+    fall = f"{before} -> {after} sigma"
+    return one_line(
+        f"{it.campaign}: {', '.join(names)}; {fall}",
+        f"{', '.join(names)}; {fall}",
+        f"{len(names)} places explain what is left; {fall}",
+    )
+
+
+def table(it: Discovered) -> Table:
+    """Each law and effect with its evidence and the error with it."""
     table = lean("site", "form", "ln evidence", "fitted", "held out", title=f"{it.campaign}: error in sigmas")
     first = it.error[0]
     table.add_row("as it is", "", "", sigma(first.fit), sigma(first.holdout))

@@ -53,16 +53,7 @@ def improve_campaign(
         stage.note = f"{len(found.shelf.fits)} models fitted"
     done = _watched(found, quiet)
     last = done[-1].fit
-    answer = answered(found, last)
-    answer = answer.model_copy(
-        update={
-            "verdict": "within_noise" if answer.verdict == "identified" else answer.verdict,
-            "effects": last.model.names,
-            "added": tuple(name for name in last.model.names if name not in began.names),
-            "error": tuple(step.error for step in done),
-            "seed": seed,
-        }
-    )
+    answer = improved(found, began, done).model_copy(update={"seed": seed})
     uncertainty = {
         name: Uncertainty(v.std, v.low95, v.high95)
         for name, v in answer.parameters.items()
@@ -76,19 +67,33 @@ def improve_campaign(
         answer.write(out / "answer.json")
     if json is not None:
         answer.write(json)
-    closing(answer, found, str(folder / NAME), following(answer, found.verdict, folder, out), quiet)
+    # On a terminal the steps stand there already.
+    told = [] if quiet or terminal().is_terminal else [waterfall(campaign.name, done)]
+    going_on = following(answer, found.verdict, folder, out)
+    closing(answer, found, str(folder / NAME), going_on, quiet, told)
     return answer
 
 
+def improved(found: Diagnosis, began: Model, done: Sequence[Step]) -> Answer:
+    """The answer after all steps of a diagnosis that began with a model."""
+    last = done[-1].fit
+    answer = answered(found, last)
+    return answer.model_copy(
+        update={
+            "verdict": "within_noise" if answer.verdict == "identified" else answer.verdict,
+            "effects": last.model.names,
+            "added": tuple(name for name in last.model.names if name not in began.names),
+            "error": tuple(step.error for step in done),
+        }
+    )
+
+
 def _watched(found: Diagnosis, quiet: bool) -> list[Step]:
-    """All steps, shown as they come."""
+    """All steps; on a terminal shown as they come."""
     done: list[Step] = []
     console = terminal()
     if quiet or not console.is_terminal:
-        done = list(steps(found))
-        if not quiet:
-            console.print(waterfall(found.campaign.name, done), "")
-        return done
+        return list(steps(found))
     with Live(waterfall(found.campaign.name, done), console=console) as live:
         for step in steps(found):
             done.append(step)

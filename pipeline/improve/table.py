@@ -7,7 +7,9 @@ from pathlib import Path
 
 from rich.markup import escape
 from rich.table import Table
+from rich.text import Text
 
+from pipeline.add.headline import headline
 from pipeline.add.table import BAR, bar, parameter_table, scale
 from pipeline.answer import Answer, Verdict
 from pipeline.diagnose.diagnosis import Diagnosis
@@ -30,9 +32,20 @@ def waterfall(campaign: str, done: Sequence[Step]) -> Table:
     return table
 
 
-def closing(answer: Answer, found: Diagnosis, saved: str, following: Iterable[str], quiet: bool) -> None:
-    """Verdict, parameters, what is worth saying, where the model is and what can be done next."""
+def closing(
+    answer: Answer,
+    found: Diagnosis,
+    saved: str,
+    following: Iterable[str],
+    quiet: bool,
+    steps: Iterable[Table] = (),
+) -> None:
+    """One line of headline, steps, parameters, what is worth saying, where the model is and what can be done next."""
     out = terminal()
+    if not quiet:
+        out.print(Text(f"{headline(answer)}\n"))
+    for table in steps:
+        out.print(table, "")
     if answer.parameters:
         out.print(parameter_table(answer), "")
     for sentence in answer.sentences[:1] if quiet else answer.sentences:

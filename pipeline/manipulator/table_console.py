@@ -12,8 +12,8 @@ from reports.quantities import AT_BOUND, percent, short
 def show(result: Table1, quiet: bool = False, console: Console | None = None) -> None:
     """Print the cells beside the paper's; unless quiet, also what was fitted, the readings and the findings."""
     out = terminal(console)
-    out.print(_cells(result), "")
-    out.print(counts(result))
+    out.print(f"{counts(result)}\n")
+    out.print(_cells(result))
     if quiet:
         return
     out.print("", _unknowns(result), "")

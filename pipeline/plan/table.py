@@ -7,9 +7,10 @@ from collections.abc import Iterator
 from rich.console import Console
 from rich.markup import escape
 from rich.table import Table
+from rich.text import Text
 
 from pipeline.plan.record import Plan, Size
-from pipeline.terminal import WIDTH, blocks, cell, lean, terminal
+from pipeline.terminal import WIDTH, blocks, cell, lean, one_line, terminal
 from reports.quantities import short
 
 ALIKE = 0.95
@@ -18,10 +19,11 @@ PARAMETER, UNIT, RIVAL, EFFECT = 21, 10, 16, 29
 
 
 def show(plan: Plan, quiet: bool, console: Console | None = None) -> None:
-    """Sizes, the isolability matrix, the next test."""
+    """One line of headline, sizes, the isolability matrix, the next test."""
     out = terminal(console)
     if not quiet:
-        for table in (_sizes(plan), *_matrix(plan, out.width)):
+        out.print(Text(f"{headline(plan)}\n"))
+        for table in tables(plan, out.width):
             out.print(table, "")
         for name, why in plan.refused.items():
             out.print(escape(f"{name} cannot be looked for: {why}"))
@@ -32,6 +34,22 @@ def show(plan: Plan, quiet: bool, console: Console | None = None) -> None:
         out.print(escape(f"Not measured yet, sensors as in [noise]: {', '.join(plan.unmeasured)}."))
     for sentence in following(plan):
         out.print(escape(sentence))
+
+
+def headline(plan: Plan) -> str:
+    """How many typical sizes these tests show and tell apart, in one line."""
+    there = [size for size in plan.sizes if size.typical]
+    shown, apart = (
+        sum(value is not None and value <= size.typical for value, size in zip(values, there, strict=True))
+        for values in ([s.detected for s in there], [s.apart for s in there])
+    )
+    said = f"of {len(there)} parameters these tests show {shown} at typical size, tell apart {apart}"
+    return one_line(f"{plan.campaign}: {said}", said)
+
+
+def tables(plan: Plan, width: int = WIDTH) -> tuple[Table, ...]:
+    """Sizes, and the isolability matrix in as many tables as it takes."""
+    return (_sizes(plan), *_matrix(plan, width))
 
 
 def _sizes(plan: Plan) -> Table:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import ast
 import os
 import shutil
 import subprocess
@@ -41,11 +42,10 @@ import parastiff
 from joblib import Parallel, delayed
 
 def chi_square(folder):
-    campaign = parastiff.read(Path(folder))
-    return parastiff.compare_models(campaign).model_of("vjm").fit
+    return parastiff.compare(folder).record.model_of("vjm").fit
 
 if __name__ == "__main__":
-    Path("kept.pickle").write_bytes(pickle.dumps((parastiff.read(Path("bench")), parastiff.catalogue())))
+    Path("kept.pickle").write_bytes(pickle.dumps((parastiff.read("bench"), parastiff.catalogue())))
     with ProcessPoolExecutor(1, mp_context=get_context("spawn")) as pool:
         spawned = pool.submit(chi_square, "bench").result()
     loky = Parallel(n_jobs=2, backend="loky")(delayed(chi_square)("bench") for _ in range(2))
@@ -58,13 +58,12 @@ campaign, effects = pickle.loads(Path("kept.pickle").read_bytes())
 print(type(campaign).__module__, effects["joint_friction"].name)
 """
 OWN_EFFECT = """
-from pathlib import Path
 import parastiff
-campaign = parastiff.read(Path("bench"))
-known = parastiff.known_effects([Path("{file}")])
-effect = known.effects["seal_spring"]
+bench = parastiff.open("bench", effects=["{file}"])
+effect = bench.subject.known.effects["seal_spring"]
 model = parastiff.Model((parastiff.Term(effect, effect.typicals),))
-print(parastiff.compare_models(campaign, model).model_of("saved").fit > 0.0, isinstance(effect, parastiff.Effect))
+found = bench.with_model(model).compare().record.model_of("saved")
+print(found.fit > 0.0, isinstance(effect, parastiff.Effect))
 """
 
 
@@ -119,7 +118,7 @@ def test_it_has_one_name_and_no_results_of_the_checkout(wheel: Path) -> None:
     tops = {name.partition("/")[0] for name in names}
     assert {top for top in tops if not top.endswith(".dist-info")} == {"parastiff"}
     assert wheel.stat().st_size < LARGEST
-    assert "parastiff/examples/bench/campaign.toml" in names
+    assert {"parastiff/examples/bench/campaign.toml", "parastiff/py.typed"} <= set(names)
     assert "parastiff/pipeline/validation/cases/plain_i_bar.toml" in names
     assert not [name for name in names if "outcomes" in name or name.endswith((".png", ".vtu", ".html"))]
 
@@ -155,8 +154,24 @@ def test_the_public_names_are_there_and_come_when_asked_for() -> None:
     done = subprocess.run([sys.executable, "-c", code], cwd=ROOT, capture_output=True, text=True, check=True)
     assert done.stdout.strip() == "[]"
     assert all(getattr(parastiff, name) is not None for name in parastiff.__all__)
+    assert sorted(parastiff._PUBLIC) == parastiff.__all__
     with pytest.raises(AttributeError, match="has no attribute 'nothing'"):
         parastiff.nothing  # noqa: B018
+
+
+def test_type_checkers_see_what_is_imported() -> None:
+    """What stands there for them is what the table imports."""
+    tree = ast.parse((ROOT / "parastiff" / "__init__.py").read_text(encoding="utf-8"))
+    (block,) = [node for node in tree.body if isinstance(node, ast.If)]
+    seen = {}
+    for node in ast.walk(block):
+        if isinstance(node, ast.ImportFrom):
+            for alias in node.names:
+                inside = (node.module, alias.name)
+                whole = (f"{node.module}.{alias.name}", "")
+                public = alias.asname or alias.name
+                seen[public] = whole if parastiff._PUBLIC.get(public) == whole else inside
+    assert seen == parastiff._PUBLIC
 
 
 @pytest.mark.parametrize(

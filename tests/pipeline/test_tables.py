@@ -11,18 +11,22 @@ from hypothesis import strategies as st
 from rich.cells import cell_len
 from rich.console import Console, RenderableType
 
+from pipeline.add.headline import headline
 from pipeline.add.table import show as show_added
 from pipeline.answer import Answer, Candidate, ModelError, TestChange, TestNoise
 from pipeline.compare.record import ChannelError, Comparison
 from pipeline.compare.record import ModelError as Compared
 from pipeline.compare.record import TestError as ComparedTest
+from pipeline.compare.table import headline as compare_headline
 from pipeline.compare.table import page
 from pipeline.diagnose.table import show as show_diagnosis
 from pipeline.effects_page import page as effect_page
 from pipeline.effects_page import table as effect_table
 from pipeline.manipulator.table import table_1
+from pipeline.manipulator.table_console import counts
 from pipeline.manipulator.table_console import show as show_table
 from pipeline.plan.record import Plan, Size
+from pipeline.plan.table import headline as plan_headline
 from pipeline.plan.table import show as show_plan
 from pipeline.terminal import WIDEST, WIDTH, blocks, folded, terminal
 from pipeline.value import Value
@@ -152,6 +156,7 @@ def test_any_answer_fits_and_is_whole(answer: Answer, diagnosis: bool) -> None:
         show_added(answer, "model.toml", (), False, out)
     text = text_of(out)
     assert_fits(text)
+    assert [line.rstrip() for line in text.splitlines()[:2]] == [headline(answer), ""]
     for test in answer.tests:
         assert stands(test.test, text), test.test
     for name, it in answer.parameters.items():
@@ -220,6 +225,7 @@ def comparisons(draw: st.DrawFn) -> Comparison:
 def test_any_comparison_fits_and_has_every_test_and_channel(result: Comparison) -> None:
     text = printed(page(result))
     assert_fits(text)
+    assert text.splitlines()[0].rstrip() == compare_headline(result)
     below = text[text.index("error of each channel") :]
     for test in result.model_of("vjm").tests:
         assert stands(test.test, text) and stands(test.test, below), test.test
@@ -271,6 +277,7 @@ def test_any_plan_fits_and_its_matrix_is_whole(plan: Plan) -> None:
     show_plan(plan, False, out)
     text = text_of(out)
     assert_fits(text)
+    assert [line.rstrip() for line in text.splitlines()[:2]] == [plan_headline(plan), ""]
     for k, name in enumerate(plan.names):
         assert stands(f"{k + 1} {name}", text), name
     for size in plan.sizes:
@@ -293,6 +300,7 @@ def test_the_table_of_the_paper_fits() -> None:
     show_table(found, console=out)
     text = text_of(out)
     assert_fits(text)
+    assert [line.rstrip() for line in text.splitlines()[:2]] == [counts(found), ""]
     for linkage, reading in ((c.linkage, r.reading) for c in found.cells for r in found.readings):
         assert stands(linkage, text) and stands(reading, text)
 
