@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from pipeline.campaign import Campaign
 from pipeline.diagnose.faulty import least_with_a_fault
-from pipeline.diagnose.merit import badness
+from pipeline.diagnose.merit import badness, implausibility
 from pipeline.diagnose.picture import picture
 from pipeline.diagnose.shelf import Names, Shelf
 from pipeline.diagnose.signatures import look
@@ -29,6 +29,8 @@ from pipeline.inference.linear_prediction import predict_linear
 from pipeline.inference.predicted import Prediction
 from pipeline.inference.program import Program, program
 from pipeline.inference.residual import residual
+from pipeline.inference.solvers import Effort
+from pipeline.inference.starts import best_fit
 from pipeline.inference.suitable import scale_for
 from pipeline.selection.criteria import Criteria
 from vjm.effects import catalogue
@@ -69,11 +71,32 @@ def suspicions(shelf: Shelf) -> tuple[Suspicion, ...]:
         return ()
     # A faulty sensor is none of the table, and may look like one to a few of its columns.
     fault = least_with_a_fault(shelf, table.root, _kinds(shelf.whole.campaign))
-    found = _found(table, promising, fault / max(shelf.fit(table.root).degrees, 1) * noise)
+    share = noise / max(shelf.fit(table.root).degrees, 1)
+    found = _found(table, promising, fault * share)
+    if found:
+        # A column of which the model predicts little is silenced by a factor: effects with kinks explain it too.
+        enough = criteria.doctor_factor * max(it.after for it in found) / share
+        kinked = _least_with_kinks(shelf, table.root, enough) * share
+        found = [it for it in found if it.after * criteria.doctor_factor <= kinked]
     # A factor that silences a column leaves less than noise: that explains no more than noise does.
     least = max(min((it.after for it in found), default=0.0), noise)
     kept = [it for it in found if it.after < least + criteria.doctor_tie * least / noise]
     return tuple(sorted(kept, key=lambda it: (it.after, len(it.mistake.columns))))
+
+
+def _least_with_kinks(shelf: Shelf, root: Names, enough: float) -> float:
+    """Chi-square that the best single effect leaves of those that need a search: friction, play, yielding. A fit that
+    does not come near what is enough ends before."""
+    before, known = shelf.fit(root), root | set(shelf.base.names)
+    plausible, out = shelf.criteria.plausible, np.inf
+    for name, effect in shelf.candidates.items():
+        if effect.smooth or not known >= set(effect.includes):
+            continue
+        shelf.say(f"whether {name} explains as much")
+        model = before.model.with_effects([effect])
+        there = best_fit(model, shelf.whole, [name], before.prediction, None, plausible, Effort(known=enough))
+        out = min(out, there.chi_square + implausibility(there, plausible))
+    return out
 
 
 def _kinds(campaign: Campaign) -> list[Effect]:

@@ -80,6 +80,15 @@ def test_a_fault_of_a_sensor_is_no_mistake_of_the_table(fault: object) -> None:
 
 
 @pytest.mark.long
+def test_friction_in_a_column_of_which_little_is_predicted_is_no_unit() -> None:
+    """fz in the swing is friction alone: a factor silences it, and what is left of it small effects explain."""
+    whole = bench("joint_friction.torque_Nmm", 800.0)
+    few = tuple(t for t in whole.tests if t.id in ("axial_held_q+0", "swing_q+0", "swing_q+30"))
+    campaign = replace(whole, tests=few)
+    assert not words(campaign)
+
+
+@pytest.mark.long
 @pytest.mark.parametrize("path", ["sensor_lag@fx_N.keeps", "sensor_gain@fx_N.share"])
 def test_a_load_cell_at_fault_is_no_unit(path: str) -> None:
     assert not words(bench(path, 0.1))
