@@ -2,22 +2,17 @@
 
 from __future__ import annotations
 
-from math import log10
 from typing import Any
 
 import pyvista
-from matplotlib import colormaps
-from matplotlib.colors import to_hex
 
 from pipeline.page.record import TestPage
 from reports.campaign.linkage import lines, scale_of
 from reports.quantities import sigma
+from reports.shading import MISFIT, colour, share_of
 from reports.shapes import require_egl
 from reports.style import FAINT, INK
 
-TOP = 100.0
-"""Sigmas of the darkest colour; the lightest is noise."""
-SHADES = "cividis_r"
 OF_LEGS = 2.0
 """Times a bar's, the thickness of what is drawn by the lines of its legs: it is some bars wide."""
 
@@ -37,7 +32,7 @@ class Scene:
         scale = scale_of(data)
         misfit = test.misfit_after[step] if test.curves else 1.0
         self._add("nominal", data, None, scale, FAINT, 1.5)
-        self._add("measured", data, test.measured_pose[step], scale, colour(misfit), 4.0)
+        self._add("measured", data, test.measured_pose[step], scale, colour(MISFIT, share_of(misfit)), 4.0)
         self._add("predicted", data, test.predicted_pose[step], scale, INK, 1.2)
         said = "no prediction" if misfit is None else f"misfit {sigma(misfit)} sigma"
         if not test.curves:
@@ -49,9 +44,3 @@ class Scene:
         thick = radius * (OF_LEGS if data["rig"]["place_mm"] is not None else 1.0)
         tubes = pyvista.merge(parts).tube(radius=thick * data["rig"]["length_mm"] / 310.0)
         self.plotter.add_mesh(tubes, name=name, color=shade, render=False, reset_camera=False)
-
-
-def colour(misfit: float | None) -> str:
-    """Of a misfit in sigmas, logarithmic from 1 to `TOP`."""
-    share = 1.0 if misfit is None else log10(max(misfit, 1.0)) / log10(TOP)
-    return to_hex(colormaps[SHADES](min(share, 1.0)))

@@ -20,10 +20,11 @@ from reports.campaign.names import (
     unit_label,
     worst,
 )
-from reports.campaign.plots import HELD_OUT, SHADES
+from reports.campaign.plots import HELD_OUT, short
 from reports.charts import dress, picture
 from reports.formats import number
 from reports.load import Json
+from reports.shading import ATTENTION, LIKENESS, MISFIT, TOP, colormap, colour, ink_on, share_of
 from reports.style import FAINT, INK
 
 WORST = 6
@@ -45,7 +46,7 @@ def waterfall(page: Json) -> bytes:
     labels = stage_labels(page)
     figure = Figure(figsize=(8.6, 1.3 + 0.62 * len(labels)))
     ax = figure.subplots()
-    for shift, key, name, colour in (
+    for shift, key, name, shade in (
         (-0.18, "fit", "fitted tests", COLOURS["after"]),
         (0.18, "holdout", "held-out tests", HELD_OUT),
     ):
@@ -56,7 +57,7 @@ def waterfall(page: Json) -> bytes:
             [place for place, _ in places],
             [value for _, value in places],
             height=0.32,
-            color=colour,
+            color=shade,
             label=name,
             hatch="//" if shift > 0 else "",
             ec="w",
@@ -81,28 +82,21 @@ def misfit(page: Json) -> bytes:
     figure = Figure(figsize=(2.6 + 0.72 * len(names), 1.6 + 0.27 * len(tests)))
     axes = figure.subplots(1, 2, sharey=True, gridspec_kw={"wspace": 0.04})
     grids = [_grid(tests, names, key) for key in ("rms_before", "rms_after")]
-    top = max([1.0, *(float(np.nanmax(grid, initial=1.0)) for grid in grids)])
+    shades = colormap(MISFIT)
     for ax, grid, title in zip(axes, grids, (f"before: {BEFORE}", f"after: {AFTER}"), strict=True):
-        image = ax.imshow(
-            np.log10(np.maximum(grid, 1e-3)), cmap=SHADES, vmin=0.0, vmax=np.log10(top) or 1.0, aspect="auto"
-        )
+        shares = np.array([[np.nan if np.isnan(v) else share_of(v) for v in row] for row in grid])
+        image = ax.imshow(shares, cmap=shades, vmin=0.0, vmax=1.0, aspect="auto")
         ax.set_title(title, fontsize=10, loc="left", color=INK)
         ax.set_xticks(range(len(names)), [channel_label(name) for name in names], fontsize=8)
         for (row, column), value in np.ndenumerate(grid):
-            if value >= 1.5:
-                dark = np.log10(value) > 0.5 * np.log10(top)
-                ax.text(
-                    column,
-                    row,
-                    number(float(value), 2),
-                    ha="center",
-                    va="center",
-                    fontsize=6.5,
-                    color="w" if dark else INK,
-                )
+            if np.isfinite(value):
+                ink = ink_on(colour(MISFIT, share_of(float(value))))
+                said = short(float(value))
+                ax.text(column, row, said, ha="center", va="center", fontsize=6.5, color=ink)
     axes[0].set_yticks(range(len(tests)), [test_label(test) for test in tests], fontsize=8)
     bar = figure.colorbar(image, ax=list(axes), fraction=0.02, pad=0.015)
-    bar.set_ticks(range(int(np.log10(top)) + 1), labels=[f"{10**k:g}" for k in range(int(np.log10(top)) + 1)])
+    shown = [1.0, ATTENTION, 10.0, 100.0, TOP]
+    bar.set_ticks([share_of(v) for v in shown], labels=[f"{v:g}" for v in shown])
     bar.set_label("misfit, sigma")
     return picture(figure)
 
@@ -148,7 +142,7 @@ def isolability(found: Json) -> bytes:
     figure = Figure(figsize=(2.6 + 0.42 * len(names), 2.2 + 0.34 * len(names)))
     ax: Axes = figure.subplots()
     grid = np.array([_floats(row) for row in found["correlation"]])
-    image = ax.imshow(grid, cmap=SHADES, vmin=0.0, vmax=1.0, aspect="auto")
+    image = ax.imshow(grid, cmap=colormap(LIKENESS), vmin=0.0, vmax=1.0, aspect="auto")
     for (row, column), value in np.ndenumerate(grid):
         if value >= 0.9 and row != column:
             ax.text(
@@ -158,7 +152,7 @@ def isolability(found: Json) -> bytes:
                 ha="center",
                 va="center",
                 fontsize=6,
-                color="w",
+                color=ink_on(colour(LIKENESS, float(value))),
             )
     ax.set_xticks(range(len(names)), names, rotation=60, ha="right", fontsize=8)
     ax.set_yticks(range(len(names)), names, fontsize=8)
