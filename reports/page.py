@@ -11,6 +11,7 @@ from jinja2 import Environment, FileSystemLoader, StrictUndefined
 from markupsafe import Markup
 from plotly.offline import get_plotlyjs
 
+from reports import bars
 from reports.blocks import Explorer, Figure, Section
 from reports.pooling import pooled
 
@@ -31,6 +32,7 @@ def render(title: str, sections: Sequence[Section], template: str = "validation.
     environment.filters["picture"] = picture
     environment.filters["explorer"] = explorer
     environment.filters["height"] = height
+    environment.filters["bars"] = bars.html
     page = environment.get_template(template)
     return page.render(title=title, sections=sections, plotlyjs=Markup(get_plotlyjs())) + "\n"
 
@@ -40,7 +42,8 @@ def picture(figure: Figure) -> Markup:
     if figure.plot is not None:
         return plotted(f"plot-{figure.name}", figure.plot)
     if figure.svg:
-        return Markup(figure.svg)
+        said = Markup('<svg role="img" aria-label="{}" ').format(figure.caption)
+        return said + Markup(figure.svg.removeprefix("<svg "))
     data = base64.b64encode(figure.png).decode("ascii")
     return Markup('<img alt="{}" src="data:image/png;base64,{}">').format(figure.caption, data)
 

@@ -12,9 +12,9 @@ from pipeline.campaign.reading import DESCRIPTION, MEASUREMENTS
 from pipeline.errors import InputError
 from pipeline.inference.model_file import NAME
 from pipeline.page.command import RESULTS
-from pipeline.page.record import Isolability, Page
+from pipeline.page.record import Page
 from pipeline.plan.record import Plan
-from pipeline.studio.work import Done, Kind, Task
+from pipeline.studio.work import Done, Kind, Proposal, Task
 from pipeline.studio.worker import Event, Refused, Said, Worker
 
 Listener = Callable[[], None]
@@ -47,22 +47,25 @@ class Session:
         self.model: str | None = None
         self.page: Page | None = None
         self.answer: Answer | None = None
-        self.isolability: Isolability | None = None
-        self.diagnosed: Page | None = None
+        self.proposals: tuple[Proposal, ...] = ()
+        self.choice: int | None = None
         self.plan: Plan | None = None
         self.planned: Page | None = None
         self.names: tuple[tuple[str, str], ...] = ()
         self.dirty = False
+        self.report: Path | None = None
         self.complaint = self.remark = self.progress = ""
 
     @property
-    def headline(self) -> str:
-        """The verdict on the model as it stands: that of a diagnosis, if there was one of this very model."""
-        if self.page is None:
-            return ""
-        if self.answer is not None and self.diagnosed is self.page:
-            return self.answer.sentences[0]
-        return self.page.headline
+    def proposal(self) -> Proposal | None:
+        """What is shown of a diagnosis and is not accepted yet."""
+        return None if self.choice is None else self.proposals[self.choice]
+
+    @property
+    def shown(self) -> Page | None:
+        """What headline, pictures and numbers are of: a proposal, or the model as it stands."""
+        proposal = self.proposal
+        return self.page if proposal is None else proposal.page
 
     @property
     def busy(self) -> Kind | None:
@@ -85,14 +88,35 @@ class Session:
         """Look for what is missing, from the model as it stands."""
         self._change("diagnose", ())
 
+    def choose(self, number: int) -> None:
+        """Show one of the sets of a diagnosis."""
+        if self._task is None and 0 <= number < len(self.proposals):
+            self.choice = number
+            self._changed()
+
+    def back(self) -> None:
+        """Show the model as it stands again; what a diagnosis proposes stays at hand."""
+        self.choice = None
+        self._changed()
+
+    def accept(self) -> None:
+        """Make what is proposed the model."""
+        taken = self.proposal
+        if taken is None or self._task is not None:
+            return
+        self.page, self.model, self._kept, self.answer = taken.page, taken.model, taken.kept, taken.answer
+        self.proposals, self.choice, self.dirty = (), None, True
+        self.remark = "accepted; Save model keeps it with the campaign"
+        self._changed()
+
     def look_ahead(self) -> None:
         """Look at what the tests show about the model as it stands, measured or not, and which comes next."""
         self._change("plan", ())
 
     def export(self, out: Path | None = None) -> None:
-        """Draw the report of the model as it stands, outside of the campaign."""
-        if self.page is not None:
-            self._change("export", (), out or RESULTS / self.page.campaign)
+        """Draw the report of what is shown, outside of the campaign."""
+        if self.shown is not None:
+            self._change("export", (), out or RESULTS / self.shown.campaign)
 
     def cancel(self) -> None:
         """Stop what is being done; everything stays as it was before."""
@@ -147,11 +171,10 @@ class Session:
     def _change(self, kind: Kind, names: Sequence[str], out: Path | None = None) -> None:
         if self.folder is None or self.page is None:
             return
-        answer, alike = (self.answer, self.isolability) if kind == "export" else (None, None)
-        task = Task(
-            kind, self.folder, self._at, self.model, tuple(names), self._effects_from, answer, alike, out
+        shown = self.shown if kind == "export" else None
+        self._begin(
+            Task(kind, self.folder, self._at, self.model, tuple(names), self._effects_from, shown, out)
         )
-        self._begin(task)
 
     def _begin(self, task: Task) -> None:
         if self._task is not None:
@@ -186,17 +209,24 @@ class Session:
             self.folder, self._seen = task.folder, self._pending[0]
             if task.model is None:
                 self._on_disk, self.dirty = self._pending[1], False
-                self.answer = self.isolability = self.plan = None
+                self.answer = self.plan = None
         if done.page is not None:
             self.model, self._kept, self.page, self.names = done.model, done.kept, done.page, done.names
             self.dirty = self.dirty or task.kind in ("add", "remove")
+            self.proposals, self.choice = (), None
         if done.answer is not None:
-            self.answer, self.isolability = done.answer, done.isolability
-            self.diagnosed = self.page
+            self._propose(done)
         if done.plan is not None:
             self.plan, self.planned = done.plan, self.page
         if done.written is not None:
-            self.remark = f"report: {done.written}"
+            self.remark, self.report = f"report: {done.written}", done.written
+
+    def _propose(self, done: Done) -> None:
+        """What was found is shown as it would be; where it adds nothing the page is that of the model itself."""
+        self.answer, self.proposals, self.choice = done.answer, done.proposals, 0
+        first = done.proposals[0].page
+        if len(done.proposals) == 1 and self.page is not None and first.effects == self.page.effects:
+            self.page, self.proposals, self.choice = first, (), None
 
 
 def _stamps(folder: Path) -> tuple[int, ...]:

@@ -13,13 +13,13 @@ from pipeline.answer import Answer
 from pipeline.campaign import read
 from pipeline.diagnose.diagnosis import diagnose
 from pipeline.diagnose.words import answered
-from pipeline.inference.model_file import NAME, ModelFile, model_text
+from pipeline.inference.model_file import NAME, ModelFile, Uncertainty, model_text
 from pipeline.inference.model_reading import read_model_file
 from pipeline.inference.suitable import known_effects, named_effects
-from pipeline.page.collect import Subject, collect
-from pipeline.page.command import write_page
-from pipeline.page.isolability import attempted_isolability
+from pipeline.page.collect import Subject, collect, shown_model
+from pipeline.page.command import of_diagnosis, write_page
 from pipeline.page.record import Isolability, Page
+from pipeline.page.rivals import possible
 from pipeline.plan.command import plan_of
 from pipeline.plan.record import Plan
 from pipeline.provenance import commit, versions
@@ -32,7 +32,7 @@ Kind = Literal["open", "add", "remove", "diagnose", "plan", "export"]
 @dataclass(frozen=True)
 class Task:
     """What to do. model: text of a model.toml, None for the one of the campaign. at: folder for it, to which paths of
-    the user's effects are relative. effects: to add, or the one to remove. out: folder of an exported report."""
+    the user's effects are relative. effects: to add, or the one to remove. page, out: what is exported, and where."""
 
     kind: Kind
     folder: Path
@@ -40,15 +40,27 @@ class Task:
     model: str | None = None
     effects: tuple[str, ...] = ()
     effects_from: tuple[Path, ...] = ()
-    answer: Answer | None = None
-    isolability: Isolability | None = None
+    page: Page | None = None
     out: Path | None = None
+
+
+@dataclass(frozen=True)
+class Proposal:
+    """What a diagnosis would make of the model: shown as it would be, and accepted or not. model, kept: as in `Done`;
+    answer: the record of this very set."""
+
+    page: Page
+    model: str
+    kept: str
+    answer: Answer
 
 
 @dataclass(frozen=True)
 class Done:
     """What came of it; None where the task does not change it. model, kept: text of a model.toml in the folder of the
     task and in that of the campaign, which differ in the paths of the user's effects. names: effects that are known.
+    proposals: of a diagnosis, one for each set that it leaves possible, the simplest first; where it adds nothing the
+    one is the model as it is.
     """
 
     kind: Kind
@@ -57,6 +69,7 @@ class Done:
     page: Page | None = None
     answer: Answer | None = None
     isolability: Isolability | None = None
+    proposals: tuple[Proposal, ...] = ()
     plan: Plan | None = None
     names: tuple[tuple[str, str], ...] = ()
     written: Path | None = None
@@ -64,6 +77,8 @@ class Done:
 
 def do(task: Task, say: Say) -> Done:
     """The task. InputError for bad input, RuntimeError where the numerics failed."""
+    if task.kind == "export":
+        return _exported(task)
     say("reading")
     campaign = read(task.folder)
     model_file = None
@@ -75,13 +90,9 @@ def do(task: Task, say: Say) -> Done:
     told = dict(read_model_file(saved, known).uncertainty) if saved.exists() else {}
     subject = Subject(campaign, model, known, told)
     if task.kind == "diagnose":
-        found = diagnose(campaign, model, known.effects, say)
-        answer = answered(found)
-        return Done("diagnose", answer=answer, isolability=attempted_isolability(found))
+        return _diagnosed(task, subject, say)
     if task.kind == "plan":
         return Done("plan", plan=plan_of(campaign, model, known.effects, say))
-    if task.kind == "export":
-        return _exported(task, subject, say)
     if task.kind == "add":
         return _changed(
             task, add(campaign, model, named_effects(task.effects, known.effects), say), subject, say
@@ -94,6 +105,34 @@ def do(task: Task, say: Say) -> Done:
             return _changed(task, add(campaign, rest, [], say), subject, say)
         subject = replace(subject, model=rest, uncertainty={})
     return _shown(task, subject, say)
+
+
+def _diagnosed(task: Task, subject: Subject, say: Say) -> Done:
+    """The answer, and every set that it leaves possible drawn as the model would be with it."""
+    found = diagnose(subject.campaign, subject.model, subject.known.effects, say)
+    sets = possible(found, answered(found), say)
+    seen = of_diagnosis(subject, found, sets)
+    shown = [replace(seen, answer=each.answer, fitted=each.model) for each in sets]
+    return Done(
+        "diagnose",
+        answer=sets[0].answer,
+        isolability=seen.isolability,
+        proposals=tuple(_proposal(task, it, say) for it in shown),
+    )
+
+
+def _proposal(task: Task, it: Subject, say: Say) -> Proposal:
+    """The model with the set of an answer."""
+    answer, model = it.answer, shown_model(it)
+    assert answer is not None
+    told = {
+        name: Uncertainty(value.std, value.low95, value.high95)
+        for name, value in answer.parameters.items()
+        if value.interval != "fixed"
+    }
+    file = ModelFile(model, told, it.known.files_of(model.names), it.campaign.name, commit(), versions())
+    page = collect(it, (), say)
+    return Proposal(page, model_text(file, task.at), model_text(file, task.folder), answer)
 
 
 def _changed(task: Task, found: Added, subject: Subject, say: Say) -> Done:
@@ -112,10 +151,8 @@ def _shown(task: Task, it: Subject, say: Say) -> Done:
     )
 
 
-def _exported(task: Task, subject: Subject, say: Say) -> Done:
-    answer = task.answer
-    fits = answer is not None and set(answer.effects) == set(subject.model.names)
-    shown = replace(subject, answer=answer, isolability=task.isolability) if fits else subject
-    assert task.out is not None
-    commands = (command("report", task.folder),)
-    return Done("export", written=write_page(collect(shown, commands, say), task.out))
+def _exported(task: Task) -> Done:
+    """The page that is seen, and no other."""
+    assert task.out is not None and task.page is not None
+    page = task.page.model_copy(update={"commands": (command("report", task.folder),)})
+    return Done("export", written=write_page(page, task.out))

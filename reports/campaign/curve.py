@@ -21,7 +21,7 @@ COLOURS = {"before": "#D55E00", "after": "#0072B2"}
 DASHES = {"before": "dash", "after": "solid"}
 SYMBOLS = {"before": "diamond-open", "after": "circle-open"}
 NAMES = {"before": BEFORE, "after": AFTER}
-HEIGHT = 620
+HEIGHT = 500
 BAND = 2.0
 """Sigmas that noise seldom leaves."""
 

@@ -6,6 +6,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from reports.campaign import first_picture
 from reports.campaign.curve import BAND, COLOURS
 from reports.campaign.names import (
     AFTER,
@@ -15,14 +16,12 @@ from reports.campaign.names import (
     channels,
     measured,
     place,
-    stage_labels,
     test_label,
     unit_label,
     worst,
 )
-from reports.campaign.plots import HELD_OUT, short
+from reports.campaign.plots import short
 from reports.charts import dress, picture
-from reports.formats import number
 from reports.load import Json
 from reports.shading import ATTENTION, LIKENESS, MISFIT, TOP, colormap, colour, ink_on, share_of
 from reports.style import FAINT, INK
@@ -34,46 +33,11 @@ STYLES = {"before": (BEFORE, "--"), "after": (AFTER, "-")}
 
 def draw(page: Json) -> dict[str, bytes]:
     """All pictures by name."""
-    out = {"waterfall": waterfall(page), "misfit": misfit(page)} if measured(page) else {}
+    out = {"misfit": misfit(page), first_picture.NAME: first_picture.drawn(page)[1]} if measured(page) else {}
     out |= {f"curve_{k}": curve(test, it) for k, (test, it) in enumerate(worst(page, WORST), 1)}
     if page["isolability"] is not None:
         out["isolability"] = isolability(page["isolability"])
     return out
-
-
-def waterfall(page: Json) -> bytes:
-    """Error of every stage, fitted and held out."""
-    labels = stage_labels(page)
-    figure = Figure(figsize=(8.6, 1.3 + 0.62 * len(labels)))
-    ax = figure.subplots()
-    for shift, key, name, shade in (
-        (-0.18, "fit", "fitted tests", COLOURS["after"]),
-        (0.18, "holdout", "held-out tests", HELD_OUT),
-    ):
-        places = [(k + shift, stage[key]) for k, stage in enumerate(page["error"]) if stage[key] is not None]
-        if not places:
-            continue
-        ax.barh(
-            [place for place, _ in places],
-            [value for _, value in places],
-            height=0.32,
-            color=shade,
-            label=name,
-            hatch="//" if shift > 0 else "",
-            ec="w",
-        )
-        for y, value in places:
-            ax.text(value * 1.06, y, number(value, 3), va="center", fontsize=9, color=INK)
-    ax.set_xscale("log")
-    errors = [stage[key] or 0.0 for stage in page["error"] for key in ("fit", "holdout")]
-    ax.set_xlim(0.3, 2.0 * max([3.0, *errors]))
-    ax.axvline(1.0, color=INK, ls="--", lw=1)
-    ax.set_yticks(range(len(labels)), labels)
-    ax.invert_yaxis()
-    ax.set_xlabel("error, sigma (1 is noise)")
-    dress(ax)
-    ax.legend(frameon=False, loc="lower right")
-    return picture(figure)
 
 
 def misfit(page: Json) -> bytes:
@@ -123,7 +87,7 @@ def curve(test: Json, it: Json) -> bytes:
     )
     upper.set_ylabel(f"{channel_label(it['channel'])}, {unit_label(it['unit'])}")
     upper.set_title(f"{test_label(test)}, {place(test)}", fontsize=10, loc="left", color=INK)
-    upper.legend(frameon=False, fontsize=8)
+    upper.legend(frameon=False, fontsize=8, loc="lower right", bbox_to_anchor=(1.0, 1.0), ncol=3)
     for ax, (key, (_, dash)) in zip(lower, STYLES.items(), strict=True):
         ax.axhspan(-BAND, BAND, color=FAINT, alpha=0.18, lw=0)
         ax.plot(loads, _floats(it[f"left_{key}"]), color=COLOURS[key], ls=dash, marker="o", ms=3, lw=0.9)

@@ -2,21 +2,18 @@
 
 from collections.abc import Sequence
 from html import escape
-from math import log10
 from typing import Any
 
 import plotly.graph_objects as go
 from plotly.subplots import make_subplots
 
-from reports.campaign.curve import COLOURS
-from reports.campaign.names import AFTER, BEFORE, by_role, channel_label, channels, stage_labels, test_label
+from reports.campaign.names import AFTER, BEFORE, by_role, channel_label, channels, test_label
 from reports.formats import number
 from reports.load import Json
-from reports.plots import style, ticks
+from reports.plots import style
 from reports.shading import ATTENTION, MISFIT, TOP, inks, scale, share_of
 from reports.style import INK
 
-HELD_OUT = "#E69F00"
 CELL = 11
 """Pixels of a number in a cell."""
 CELLS: dict[str, Any] = {
@@ -26,49 +23,6 @@ CELLS: dict[str, Any] = {
     "ygap": 1,
     "coloraxis": "coloraxis",
 }
-
-
-def waterfall(page: Json) -> go.Figure:
-    """Error of the fitted and of the held-out tests as effects are added."""
-    labels = [escape(label) for label in stage_labels(page)]
-    plot = go.Figure()
-    for key, name, colour, hatch in (
-        ("fit", "fitted tests", COLOURS["after"], ""),
-        ("holdout", "held-out tests, never used", HELD_OUT, "/"),
-    ):
-        values = [stage[key] for stage in page["error"]]
-        if all(value is None for value in values):
-            continue
-        plot.add_bar(
-            x=values,
-            y=labels,
-            orientation="h",
-            name=name,
-            marker={"color": colour, "pattern": {"shape": hatch, "fillmode": "overlay", "fgcolor": "white"}},
-            text=["" if value is None else f"  {number(value, 3)}" for value in values],
-            textposition="outside",
-            cliponaxis=False,
-            hovertemplate="%{x:.4g} sigma<extra>%{y}</extra>",
-        )
-    found = [value for trace in plot.data for value in trace.x if value]
-    span = [log10(0.3), log10(max([3.0, *found])) + 0.25]
-    plot.add_vline(x=1.0, line={"color": INK, "dash": "dash", "width": 1.2}, layer="below")
-    plot.add_annotation(text="noise", x=0.0, xref="x", y=1, yref="paper", yanchor="bottom", showarrow=False)
-    plot.update_xaxes(
-        type="log",
-        title_text="error, sigma (whitened root mean square)",
-        range=span,
-        **ticks(0.3, 10 ** span[1]),
-    )
-    plot.update_yaxes(autorange="reversed", automargin=True)
-    height = 170 + 52 * len(labels)
-    return style(
-        plot,
-        height,
-        bargap=0.3,
-        margin={"l": 20, "r": 50, "t": 30, "b": 80},
-        legend={"y": -50 / (height - 110)},
-    )
 
 
 def misfit_map(page: Json, stages: Sequence[str] = ("before", "after"), height: int = 0) -> go.Figure:

@@ -6,6 +6,7 @@ Simulation: G. M. Machado, M. M. Oliveira, L. A. F. Fernandes, IEEE Trans. Vis. 
 
 from __future__ import annotations
 
+import re
 from itertools import combinations
 
 import numpy as np
@@ -13,8 +14,8 @@ import pytest
 from matplotlib.colors import to_rgb
 from numpy.typing import NDArray
 
+from reports.bars import FILLS
 from reports.campaign.curve import COLOURS, DASHES, SYMBOLS
-from reports.campaign.plots import HELD_OUT
 from reports.shading import ATTENTION, LIKENESS, MISFIT, Stops, colour, contrast, ink_on, share_of
 from reports.style import FAINT, INK
 
@@ -41,7 +42,7 @@ EYES = {
 XYZ = np.array([[0.4124, 0.3576, 0.1805], [0.2126, 0.7152, 0.0722], [0.0193, 0.1192, 0.9505]])
 PAIRS = {
     "before, after": list(COLOURS.values()),
-    "fitted, held out": [COLOURS["after"], HELD_OUT],
+    "fitted, held out": [shade for fill in FILLS for shade in re.findall(r"#\w{6}", fill)[:1]],
     "measured, before, after": [INK, *COLOURS.values()],
     "measured, unloaded": [INK, FAINT],
 }
