@@ -203,7 +203,7 @@ def _titles(answer: Answer, model: Model, known: Mapping[str, Effect]) -> dict[s
     """In words, every effect that the page names."""
     sets = (model.names, answer.effects, *answer.alternatives, *answer.out_by_plausibility)
     names = [name for each in sets for name in each]
-    names += [it.effect for it in (*answer.certain, *answer.candidates)]
+    names += [it.effect for it in answer.certain] + [it.effect for it in answer.candidates]
     return {name: effect_of(name, known).title for name in dict.fromkeys(names)}
 
 

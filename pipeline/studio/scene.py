@@ -9,10 +9,12 @@ import pyvista
 from pipeline.page.record import TestPage
 from reports.campaign.linkage import lines, scale_of
 from reports.quantities import sigma
-from reports.shading import MISFIT, colour, share_of
+from reports.shading import ATTENTION, MISFIT, colour, share_of
 from reports.shapes import require_egl
 from reports.style import FAINT, INK
 
+FINE = "#aab4bd"
+"""Of a misfit that nobody need look at."""
 OF_LEGS = 2.0
 """Times a bar's, the thickness of what is drawn by the lines of its legs: it is some bars wide."""
 
@@ -32,7 +34,7 @@ class Scene:
         scale = scale_of(data)
         misfit = test.misfit_after[step] if test.curves else 1.0
         self._add("nominal", data, None, scale, FAINT, 1.5)
-        self._add("measured", data, test.measured_pose[step], scale, colour(MISFIT, share_of(misfit)), 4.0)
+        self._add("measured", data, test.measured_pose[step], scale, _shade(misfit), 4.0)
         self._add("predicted", data, test.predicted_pose[step], scale, INK, 1.2)
         said = "no prediction" if misfit is None else f"misfit {sigma(misfit)} sigma"
         if not test.curves:
@@ -44,3 +46,8 @@ class Scene:
         thick = radius * (OF_LEGS if data["rig"]["place_mm"] is not None else 1.0)
         tubes = pyvista.merge(parts).tube(radius=thick * data["rig"]["length_mm"] / 310.0)
         self.plotter.add_mesh(tubes, name=name, color=shade, render=False, reset_camera=False)
+
+
+def _shade(misfit: float | None) -> str:
+    """As on the map, but for what is white there: nothing would be seen."""
+    return FINE if misfit is not None and misfit < ATTENTION else colour(MISFIT, share_of(misfit))

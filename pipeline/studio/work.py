@@ -11,11 +11,15 @@ from pipeline.add.command import starting_model
 from pipeline.add.fitting import Added, add
 from pipeline.answer import Answer
 from pipeline.campaign import read
+from pipeline.campaign.reading import DESCRIPTION
 from pipeline.diagnose.diagnosis import diagnose
 from pipeline.diagnose.words import answered
 from pipeline.inference.model_file import NAME, ModelFile, Uncertainty, model_text
 from pipeline.inference.model_reading import read_model_file
 from pipeline.inference.suitable import known_effects, named_effects
+from pipeline.init.choices import Choices, filled
+from pipeline.init.command import found_in
+from pipeline.init.found import Found
 from pipeline.page.collect import Subject, collect, shown_model
 from pipeline.page.command import of_diagnosis, write_page
 from pipeline.page.record import Isolability, Page
@@ -23,16 +27,19 @@ from pipeline.page.rivals import possible
 from pipeline.plan.command import plan_of
 from pipeline.plan.record import Plan
 from pipeline.provenance import commit, versions
+from pipeline.studio.preview import Preview, preview_of
 from pipeline.typed import command
 
 Say = Callable[[str], None]
-Kind = Literal["open", "add", "remove", "diagnose", "plan", "export"]
+Kind = Literal["open", "add", "remove", "diagnose", "plan", "export", "look", "preview"]
 
 
 @dataclass(frozen=True)
 class Task:
     """What to do. model: text of a model.toml, None for the one of the campaign. at: folder for it, to which paths of
-    the user's effects are relative. effects: to add, or the one to remove. page, out: what is exported, and where."""
+    the user's effects are relative. effects: to add, or the one to remove. page, out: what is exported, and where.
+    file, choices: a table that is to become a campaign in `at`. tolerance: of the rig, in the place of what is written.
+    """
 
     kind: Kind
     folder: Path
@@ -42,6 +49,9 @@ class Task:
     effects_from: tuple[Path, ...] = ()
     page: Page | None = None
     out: Path | None = None
+    file: Path | None = None
+    choices: Choices | None = None
+    tolerance: tuple[tuple[str, float], ...] | None = None
 
 
 @dataclass(frozen=True)
@@ -73,14 +83,20 @@ class Done:
     plan: Plan | None = None
     names: tuple[tuple[str, str], ...] = ()
     written: Path | None = None
+    found: Found | None = None
+    preview: Preview | None = None
 
 
 def do(task: Task, say: Say) -> Done:
     """The task. InputError for bad input, RuntimeError where the numerics failed."""
+    say("reading")
     if task.kind == "export":
         return _exported(task)
-    say("reading")
+    if task.kind in ("look", "preview"):
+        return _table(task)
     campaign = read(task.folder)
+    if task.tolerance is not None:
+        campaign = replace(campaign, tolerance=dict(task.tolerance))
     model_file = None
     if task.model is not None:
         model_file = task.at / NAME
@@ -93,6 +109,12 @@ def do(task: Task, say: Say) -> Done:
         return _diagnosed(task, subject, say)
     if task.kind == "plan":
         return Done("plan", plan=plan_of(campaign, model, known.effects, say))
+    return _model(task, subject, say)
+
+
+def _model(task: Task, subject: Subject, say: Say) -> Done:
+    """The model as it is, or with effects more or fewer."""
+    campaign, model, known = subject.campaign, subject.model, subject.known
     if task.kind == "add":
         return _changed(
             task, add(campaign, model, named_effects(task.effects, known.effects), say), subject, say
@@ -149,6 +171,17 @@ def _shown(task: Task, it: Subject, say: Say) -> Done:
         collect(it, (), say),
         names=tuple((effect.name, effect.title) for effect in it.known.effects.values()),
     )
+
+
+def _table(task: Task) -> Done:
+    """What a table says by itself, or with what its owner said of it; then a campaign is laid beside the table."""
+    assert task.file is not None
+    found = found_in(task.file)
+    if task.choices is None:
+        return Done("look", found=found)
+    text = filled(task.file.name, found, task.choices)
+    (task.file.parent / DESCRIPTION).write_text(text, encoding="utf-8")
+    return Done("preview", preview=preview_of(read(task.file.parent)))
 
 
 def _exported(task: Task) -> Done:

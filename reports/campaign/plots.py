@@ -14,6 +14,7 @@ from reports.plots import style
 from reports.shading import ATTENTION, MISFIT, TOP, inks, scale, share_of
 from reports.style import INK
 
+CHOSEN = "#0072B2"
 CELL = 11
 """Pixels of a number in a cell."""
 CELLS: dict[str, Any] = {
@@ -25,8 +26,11 @@ CELLS: dict[str, Any] = {
 }
 
 
-def misfit_map(page: Json, stages: Sequence[str] = ("before", "after"), height: int = 0) -> go.Figure:
-    """Tests by channels, in the channels' own sigmas, before and after. height: of the plot; default by its rows."""
+def misfit_map(
+    page: Json, stages: Sequence[str] = ("before", "after"), chosen: tuple[str, str] | None = None
+) -> go.Figure:
+    """Tests by channels, in the channels' own sigmas, before and after. chosen: the cell that is framed, by the labels
+    of its test and its channel."""
     names, tests = channels(page), by_role(page)
     labels = [escape(test_label(test)) for test in tests]
     titles = {"before": f"before: {BEFORE}", "after": f"after: {AFTER}"}
@@ -54,7 +58,7 @@ def misfit_map(page: Json, stages: Sequence[str] = ("before", "after"), height: 
         shares = [[None if v is None else share_of(v) for v in row] for row in grid]
         said = [["" if v is None else short(v) for v in row] for row in grid]
         numbers(plot, columns, labels, said, [inks(MISFIT, row) for row in shares], row=1, col=column)
-    height = height or 130 + 24 * len(labels)
+    height = 130 + 24 * len(labels)
     style(
         plot,
         height,
@@ -66,6 +70,12 @@ def misfit_map(page: Json, stages: Sequence[str] = ("before", "after"), height: 
     held_out = sum(test["role"] == "holdout" for test in tests)
     if held_out:
         plot.add_hline(y=len(tests) - held_out - 0.5, line={"color": INK, "width": 2})
+    rows, columns = [test_label(test) for test in tests], [channel_label(name) for name in names]
+    if chosen is not None and chosen[0] in rows and chosen[1] in columns:
+        at, over = rows.index(chosen[0]), columns.index(chosen[1])
+        frame = {"x0": over - 0.5, "x1": over + 0.5, "y0": at - 0.5, "y1": at + 0.5}
+        for place in range(1, len(stages) + 1):
+            plot.add_shape(type="rect", **frame, line={"color": CHOSEN, "width": 3}, row=1, col=place)
     return plot
 
 
