@@ -2,7 +2,7 @@
 
 import base64
 import json
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -12,7 +12,7 @@ from markupsafe import Markup
 from plotly.offline import get_plotlyjs
 
 from reports import bars
-from reports.blocks import Explorer, Figure, Section
+from reports.blocks import Block, Columns, Details, Explorer, Figure, Section
 from reports.pooling import pooled
 
 TEMPLATES = Path(__file__).parent / "templates"
@@ -21,6 +21,34 @@ CONFIG = {"responsive": True, "displaylogo": False}
 
 def render(title: str, sections: Sequence[Section], template: str = "validation.html.j2") -> str:
     """The HTML text; the same sections give the same bytes."""
+    page = _environment().get_template(template)
+    return page.render(title=title, sections=sections, plotlyjs=Markup(get_plotlyjs())) + "\n"
+
+
+def screen(section: Section) -> str:
+    """One section as a piece of HTML for another page, with all that it needs: no script, nothing from outside.
+
+    ValueError for a section with a plot, which needs a script.
+    """
+    if any(
+        isinstance(it, Explorer) or getattr(it, "plot", None) is not None
+        for it in every_block(section.blocks)
+    ):
+        raise ValueError(f"the section {section.title!r} has a plot, allowed are drawings and pictures")
+    return _environment().get_template("first_screen.html.j2").render(section=section) + "\n"
+
+
+def every_block(blocks: Sequence[Block]) -> Iterator[Block]:
+    """Blocks, and those inside of blocks."""
+    for it in blocks:
+        yield it
+        if isinstance(it, Columns):
+            yield from every_block([*it.left, *it.right])
+        elif isinstance(it, Details):
+            yield from every_block(it.blocks)
+
+
+def _environment() -> Environment:
     environment = Environment(
         loader=FileSystemLoader(TEMPLATES),
         autoescape=True,
@@ -33,8 +61,7 @@ def render(title: str, sections: Sequence[Section], template: str = "validation.
     environment.filters["explorer"] = explorer
     environment.filters["height"] = height
     environment.filters["bars"] = bars.html
-    page = environment.get_template(template)
-    return page.render(title=title, sections=sections, plotlyjs=Markup(get_plotlyjs())) + "\n"
+    return environment
 
 
 def picture(figure: Figure) -> Markup:

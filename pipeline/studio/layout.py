@@ -13,6 +13,10 @@ from pipeline.studio.look import BUTTON, STYLE, Actions
 from pipeline.studio.panes import right
 from pipeline.studio.start import start
 
+LANGUAGE = """document.documentElement.lang = "en";
+document.querySelector("meta[name=viewport]").content = "width=device-width, initial-scale=1";"""
+"""The page is English, and may be made larger."""
+
 
 def build(server: Any, actions: Actions, plotter: Any) -> dict[str, Any]:
     """The page; returns the widgets that are updated."""
@@ -20,6 +24,7 @@ def build(server: Any, actions: Actions, plotter: Any) -> dict[str, Any]:
     with VAppLayout(server, full_height=True) as layout:
         layout.root.theme = "light"
         client.Style(STYLE)
+        client.Script(LANGUAGE)
         _bar(actions)
         with v3.VMain():
             with html.Div(

@@ -38,7 +38,7 @@ def rivals(actions: Actions, views: dict[str, Any]) -> None:
     ):
         html.H3("{{ it.title }}")
         html.Code("{{ it.code }}")
-        html.P("fitted {{ it.fit }}, held out {{ it.holdout }} sigma", classes="small num")
+        html.P("{{ it.fit }}", classes="small num")
         html.P("{{ value }}", v_for="value in it.values", classes="small")
         with html.Div(v_if=("it.open",)):
             v3.VBtn(

@@ -47,6 +47,7 @@ def start(actions: Actions) -> None:
                     v_model=("folder",),
                     items=("campaigns",),
                     label="folder",
+                    __events=[("keydown_enter", "keydown.enter")],
                     keydown_enter=(actions["enter"], "[$event.target.value]"),
                     id="folder",
                     **FIELD,

@@ -101,6 +101,9 @@ def _of_page(session: Session, page: Page) -> dict[str, Any]:
 
 def _standing(session: Session) -> str:
     """Whether what is seen is the model, or one that is not accepted yet."""
+    if session.proposal is not None and len(session.proposals) > 1:
+        page = session.proposal.page
+        return f"Bars, map and curves show one of the sets: {words.set_of(page.effects, page.titles)}."
     if session.proposal is not None:
         return "Bars, map and curves show the proposed model. It is not accepted yet."
     if session.proposals:
@@ -163,11 +166,14 @@ def _rival(session: Session, page: Page, it: RivalPage, at: int) -> dict[str, An
     return {
         "title": words.capital(words.set_of(it.effects, page.titles)),
         "code": " + ".join(it.effects),
-        "fit": sigma(it.error.fit),
-        "holdout": sigma(it.error.holdout),
+        "fit": f"fitted {sigma(it.error.fit)} sigma{_held(it)}",
         "values": [_value(value) for value in it.parameters.values()],
         "open": at < len(session.proposals),
     }
+
+
+def _held(it: RivalPage) -> str:
+    return "" if it.error.holdout is None else f", held out {sigma(it.error.holdout)}"
 
 
 def _tolerances(session: Session, page: Page) -> list[dict[str, str]]:

@@ -35,7 +35,7 @@ CAPTION = "Measured, plain virtual springs and the model; below, what each leave
 
 def build(page: Json, pictures: Pictures) -> list[Section]:
     """All sections; pictures: PNG by name."""
-    parts = [first(page, pictures)]
+    parts = [first(page)]
     if measured(page):
         parts += [misfit(page, pictures), curves(page, pictures)]
     parts.append(Section("candidates", "What could be missing", list(candidates(page, pictures))))
@@ -48,7 +48,7 @@ def build(page: Json, pictures: Pictures) -> list[Section]:
     return [*parts, record(page)]
 
 
-def first(page: Json, pictures: Pictures) -> Section:
+def first(page: Json) -> Section:
     """What is to be seen without scrolling: the verdict, a picture, what is certain, what to do next."""
     left: list[Block] = []
     if sure := words.sure(page):
@@ -57,7 +57,7 @@ def first(page: Json, pictures: Pictures) -> Section:
         left += [Heading("The table seems to have a mistake"), Bullets(doubt.mistakes(page))]
     left += [Heading("Next step"), *next_step(page)]
     right: list[Block] = []
-    if pictures.get(first_picture.NAME):
+    if measured(page):
         svg, png = first_picture.drawn(page)
         right = [Figure(first_picture.NAME, first_picture.caption(page), svg=svg, png=png)]
         left.append(tables.bars(page))

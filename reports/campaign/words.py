@@ -51,6 +51,8 @@ def headline(page: Json) -> str:
     said = str(page["headline"])
     if page["diagnosed"] or measured(page):
         said = said.replace(" + ", " and ")
+    if page["verdict"] == "ambiguous" and page["diagnosed"]:
+        said = said.replace(" or ", ", or ")
     return named(said, page.get("titles", {}))
 
 
