@@ -8,33 +8,13 @@ from __future__ import annotations
 
 from typing import Any, Literal
 
+from pipeline.law_record import LawFound
 from pipeline.record import Record
+from pipeline.value import Value
 
 Verdict = Literal["nothing_tested", "within_noise", "identified", "ambiguous", "unknown"]
 LEVEL = 0.01
 """A p-value below which what is left is not taken for noise."""
-
-
-class Value(Record):
-    """A parameter of an effect, in its unit; an end of its interval is None where the data set none."""
-
-    value: float
-    """Best-fitting value."""
-    std: float | None
-    """Standard error."""
-    low95: float | None
-    """Lower end of the 95 % interval."""
-    high95: float | None
-    """Upper end of the 95 % interval."""
-    interval: Literal["wald", "profile", "undetermined", "fixed"]
-    """How the interval was found: wald (from the curvature), profile (from the profile of the likelihood),
-    undetermined (the data set no end), or fixed for what the fit left alone."""
-    unit: str
-    """Unit of the value."""
-    meaning: str
-    """What the parameter is."""
-    at_bound: bool = False
-    """Whether it ends at a bound of what it may be, other than the absence of the effect."""
 
 
 class DoctorFinding(Record):
@@ -263,6 +243,9 @@ class Answer(Record):
     effect where single bad readings were seen beside that."""
     certain: tuple[Certain, ...] = ()
     """Effects that are there whatever the verdict."""
+    laws: tuple[LawFound, ...] = ()
+    """Laws beyond the catalogue: of what is left where the verdict is unknown or within_noise; of all that was
+    measured where they explain it by fewer numbers than the sets of effects, or as well (ambiguous)."""
     not_done: tuple[str, ...] = ()
     """Optional parts that failed, and why."""
     next_test: dict[str, Any] | None = None

@@ -43,11 +43,19 @@ class Fibres:
     def grid(self, radius_y: float, radius_z: float) -> tuple[Array, Array]:
         """(2, 49) places y and z, mm, and (49,) weights of sum one of a section with these radii of gyration, mm.
 
-        radius_y: root mean square of y, sqrt(EI_z / EA). ValueError for a radius as large as the edge.
+        radius_y: root mean square of y, sqrt(EI_z / EA). Fibres reach as far as these radii need: a fit may scale the
+        stiffnesses of a section beyond what its edges allow.
         """
-        (y, in_y), (z, in_z) = row("fibre_y", self.y, radius_y), row("fibre_z", self.z, radius_z)
+        (y, in_y), (z, in_z) = row(self.y, radius_y), row(self.z, radius_z)
         places = np.stack(np.broadcast_arrays(y[:, None], z[None, :]))
         return places.reshape(2, -1), np.outer(in_y, in_z).ravel()
+
+    def inside(self, radius_y: float, radius_z: float) -> str:
+        """What is wrong with edges inside the radii of gyration, mm, of which there is no section; "" if none is."""
+        for name, edge, radius in (("fibre_y", self.y, radius_y), ("fibre_z", self.z, radius_z)):
+            if not radius < edge:
+                return f"{name} must be more than the radius of gyration {radius:.4g} mm, got {edge:g}"
+        return ""
 
     def plastic(self, strain: Array, before: Array) -> tuple[Array, Array]:
         """Plastic strain of fibres at `strain`, from the one before, and its derivative by the strain.
@@ -68,10 +76,10 @@ def lobatto(points: int) -> tuple[Array, Array]:
     return at, 1.0 / (points * (points - 1) * polynomial(at) ** 2)
 
 
-def row(name: str, edge: float, radius: float) -> tuple[Array, Array]:
-    """Places (POINTS,), mm, from -edge to edge, and weights of sum one with the mean square radius²."""
-    if not radius < edge:
-        raise ValueError(f"{name} must be more than the radius of gyration {radius:.4g} mm, got {edge:g}")
+def row(edge: float, radius: float) -> tuple[Array, Array]:
+    """Places (POINTS,), mm, from -edge to edge, and weights of sum one with the mean square radius²; farther out where
+    the edge is not beyond the radius."""
+    edge = max(edge, radius)
     at, even = lobatto(POINTS)
     share = 3.0 * (radius / edge) ** 2
     middle = np.eye(POINTS)[POINTS // 2]

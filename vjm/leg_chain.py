@@ -205,10 +205,13 @@ class _Work:
         if self.rigid:
             return
         where = self._joint(track, part.joint)
-        if part.law is None:
+        law = part.from_unloaded
+        if law is None:
             self.inputs.append((part.name, np.array([where]), np.ones(1)))
-        else:
-            self._laws((where,), (part.law,))
+            return
+        self._laws((where,), (law,))
+        if part.unloaded:
+            self.rest[where] = part.unloaded
 
     def _member(self, track: _Track, part: Elastic) -> None:
         if self.rigid:

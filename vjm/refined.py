@@ -178,8 +178,14 @@ def share_out(length: float, stiffness: Array, segments: int, like: Array | None
     )
 
 
+def radii_of_gyration(length: float, stiffness: Array) -> tuple[float, float]:
+    """sqrt(EI_z / EA) and sqrt(EI_y / EA), mm, of a straight uniform bar with this 6x6: along y and along z."""
+    amount = np.diag(_inverse(stiffness))
+    return float(np.sqrt(amount[0] / amount[5])), float(np.sqrt(amount[0] / amount[4]))
+
+
 def yielding(length: float, stiffness: Array, fibres: Fibres, parts: Shares, shape: Array) -> Yielding:
-    """The law of yielding of the segments of a bar with this 6x6; ValueError for fibres inside its section."""
+    """The law of yielding of the segments of a bar with this 6x6."""
     amount = np.diag(_inverse(stiffness))
     bending = len(shape) * parts.flexible / amount[[5, 4]]
     rigidity = np.array([length / amount[0], bending[1], bending[0]])

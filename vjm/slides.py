@@ -46,7 +46,7 @@ def with_slides(state: Equilibrium, mechanism: Mechanism) -> Equilibrium:
         coordinates = lagrangian.chain_coordinates(chain, moving, rest[k])
         force = lagrangian.closing_force(chain, coordinates, multiplier)
         for number, at in zip(after[k], np.searchsorted(chain.moving, after[k]), strict=True):
-            moving[..., at] = _law(chain, number).give(force[..., at])
+            moving[..., at] = rest[k][..., number] + _law(chain, number).give(force[..., at])
         unknowns[..., new.coordinates[k]] = moving
         unknowns[..., new.closing[k]] = multiplier
     return replace(state, mechanism=mechanism, unknowns=unknowns)

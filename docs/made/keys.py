@@ -9,7 +9,7 @@ from pydantic import BaseModel
 
 from docs.made.allowed import allowed, anchor, default_of, unit_of
 from docs.made.described import descriptions, summary
-from pipeline import answer
+from pipeline import answer, law_record, value
 from pipeline.campaign import tables as campaign
 from pipeline.campaign.mapped import schema as mapped
 from pipeline.campaign.rigs import KINDS
@@ -56,7 +56,7 @@ TABLES: dict[str, type[BaseModel]] = {
 
 ANSWERS: dict[str, type[BaseModel]] = {
     "Answer": answer.Answer,
-    "Value": answer.Value,
+    "Value": value.Value,
     "ModelError": answer.ModelError,
     "TestChange": answer.TestChange,
     "TestNoise": answer.TestNoise,
@@ -75,10 +75,10 @@ ANSWERS: dict[str, type[BaseModel]] = {
     "Finding": compare.Finding,
     "Lost": compare.Lost,
     "Discovered": laws.Discovered,
-    "LawFound": laws.LawFound,
-    "Tie": laws.Tie,
-    "Grouped": laws.Grouped,
-    "Curve": laws.Curve,
+    "LawFound": law_record.LawFound,
+    "Tie": law_record.Tie,
+    "Grouped": law_record.Grouped,
+    "Curve": law_record.Curve,
     "Entered": laws.Entered,
     "Plan": plan.Plan,
     "Size": plan.Size,

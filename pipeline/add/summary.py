@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from pipeline.adequacy.judgement import Judgement
-from pipeline.answer import ModelError, NominalValue, TestChange, TestNoise, Value
+from pipeline.answer import ModelError, NominalValue, TestChange, TestNoise
 from pipeline.compare.error import Discrepancy
 from pipeline.inference.fit import Fit
 from pipeline.inference.intervals import Interval
@@ -17,6 +17,7 @@ from pipeline.inference.program import Program
 from pipeline.noise import chi_square, lag_one
 from pipeline.parameter_names import parted, path_of
 from pipeline.selection.criteria import Criteria
+from pipeline.value import Value
 
 
 def values_of(model: Model, intervals: Sequence[Interval]) -> dict[str, Value]:

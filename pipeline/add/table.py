@@ -10,9 +10,10 @@ from rich.markup import escape
 from rich.table import Table
 from rich.text import Text
 
-from pipeline.answer import LEVEL, Answer, TestChange, TestNoise, Value
+from pipeline.answer import LEVEL, Answer, TestChange, TestNoise
 from pipeline.parameter_names import parted
 from pipeline.terminal import cell, folded, lean, terminal
+from pipeline.value import Value
 from reports.quantities import (
     AT_BOUND,
     FIXED,

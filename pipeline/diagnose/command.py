@@ -12,6 +12,7 @@ from pipeline.command import usable
 from pipeline.diagnose.diagnosis import diagnose
 from pipeline.diagnose.table import show
 from pipeline.diagnose.words import answered
+from pipeline.discover.beyond_catalogue import with_laws
 from pipeline.inference.suitable import known_effects
 from pipeline.progress import Progress
 from pipeline.typed import command
@@ -35,7 +36,7 @@ def diagnose_campaign(
             usable(path, named)
     progress = Progress(quiet)
     with progress.stage("looking for what is missing") as stage:
-        found = diagnose(campaign, began, known.effects, stage.say)
+        found = with_laws(diagnose(campaign, began, known.effects, stage.say), stage.say)
         stage.note = f"{len(found.shelf.fits)} models fitted"
     with progress.stage("intervals"):
         answer = answered(found).model_copy(update={"seed": seed})
@@ -50,6 +51,8 @@ def diagnose_campaign(
 def _following(answer: Answer, folder: Path) -> list[str]:
     if answer.verdict == "identified":
         return [command("add", folder, *answer.added)]
+    if any(law.form for law in answer.laws):
+        return [command("discover", folder, "--write", "law.py")]
     if answer.verdict == "unknown" and not answer.doctor:
         return [command("discover", folder)]
     return []

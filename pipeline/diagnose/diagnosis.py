@@ -32,6 +32,7 @@ from pipeline.inference.model import Model
 from pipeline.inference.program import program
 from pipeline.inference.sigmas import completed
 from pipeline.inference.suitable import check_suitable, scale_for, sized_model
+from pipeline.law_record import LawFound
 from pipeline.selection.criteria import CRITERIA, Criteria
 from vjm.effects.base import Effect
 from vjm.effects.sensor_fault import SensorFault
@@ -46,7 +47,7 @@ class Diagnosis:
     doctor: mistakes of the table, one of which comes before all physics. readings: what they are about the first set;
     given: the campaign with all of them as they were declared; with_all: the verdict by those, alone: whether
     of the best single effect only. certain: effects that are there whatever the verdict. alike_rows: sensors whose
-    noise is correlated from row to row.
+    noise is correlated from row to row. laws, law_words: beyond the catalogue (`pipeline.discover.beyond_catalogue`).
     """
 
     campaign: Campaign
@@ -66,6 +67,8 @@ class Diagnosis:
     alone: bool = False
     certain: tuple[str, ...] = ()
     alike_rows: AlikeRows = NONE
+    laws: tuple[LawFound, ...] = ()
+    law_words: tuple[str, ...] = ()
 
     @property
     def verdict(self) -> Verdict:

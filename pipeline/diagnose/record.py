@@ -77,6 +77,7 @@ def answer_of(it: Diagnosis, sentences: tuple[str, ...] = (), found: Fit | None 
         noise=(*_other_noise(it), *_correlated(it)),
         as_declared=None if it.readings.plain else it.with_all,
         certain=tuple(Certain(effect=name, parameters=_values(found.model, name)) for name in it.certain),
+        laws=it.laws,
         doctor=tuple(doctor_finding(each) for each in it.doctor),
         zeros=()
         if it.ruling.zero is None or it.ruling.zero.zero is None

@@ -29,7 +29,8 @@ class Ruling:
     determines at null. instead: faults of sensors that explain as much; zero: one that comes before all physics.
 
     at_bound: numbers of the first set that end at their bound. out: sets that only an implausible size excludes.
-    because: why the best set is not named though it explains all.
+    because: why the best set is not named though it explains all. law: a law beyond the catalogue that explains as
+    much as the sets, in words.
     """
 
     verdict: Verdict
@@ -41,6 +42,7 @@ class Ruling:
     at_bound: tuple[str, ...] = ()
     out: tuple[Names, ...] = ()
     because: str = ""
+    law: str = ""
 
 
 def ruled(found: Found, judgement: Judgement, attempts: Attempts) -> Ruling:

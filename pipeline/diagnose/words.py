@@ -55,6 +55,7 @@ def sentences(it: Diagnosis, answer: Answer | None = None) -> tuple[str, ...]:
             "the limits in words": lambda: tuple(limits(record)),
             "what was written, in words": lambda: tuple(written(record, it.shelf.criteria.nominal_moved)),
             "what is left in words": lambda: tuple(_left(it)),
+            "laws in words": lambda: it.law_words,
             "noise from row to row, in words": lambda: tuple(_from_row_to_row(it, record)),
             "the rivals in words": lambda: tuple(_rivals(it)),
             "the next test in words": lambda: tuple(_next(it)),
@@ -90,7 +91,8 @@ def _verdict(it: Diagnosis, answer: Answer) -> Iterator[str]:
         yield f"identified: {_and(it.sets[0])}; {fall}."
     elif it.verdict == "ambiguous":
         fault = ["a fault of a sensor"] if it.instead else []
-        sets = " or ".join([*(_and(names) for names in it.sets), *fault])
+        law = [it.ruling.law] if it.ruling.law else []
+        sets = " or ".join([*(_and(names) for names in it.sets), *fault, *law])
         yield f"ambiguous: {asked}{sets}; these tests cannot tell; {fall}."
     elif it.ruling.because:
         yield f"unknown: {asked}{_and(it.sets[0])} would explain the misfit, {fall}, but {it.ruling.because}."

@@ -65,6 +65,11 @@ def basis_of(coordinate: Array, first: np.ndarray, largest: float) -> Array:
     return np.hstack([hats(coordinate, knots(largest)), sliders(coordinate, first, largest)])
 
 
+def unloaded() -> Array:
+    """(30,) curve and sliders without load, before any history: the same for any largest coordinate."""
+    return np.concatenate([hats(np.zeros(1), knots(1.0))[0], np.zeros(len(REACHES))])
+
+
 def spread(length: float) -> Array:
     """(25, 25) covariance of the curve at its knots, per s², for a correlation length in the largest coordinate."""
     u = knots(1.0)

@@ -29,3 +29,11 @@ BEYOND = 1.5
 """Times the largest coordinate at which forms that are tied are compared."""
 UNKNOWN_BEYOND = 0.3
 """Sigmas by which they may differ there before it is said."""
+SEVERAL = 2
+"""Effects with numbers from which a set competes with laws: one alone mimics no law."""
+LEFT_BY_SET = 4.0
+"""Evidence of a function beside a set of effects, from which a law may be better than the set by what tells them apart:
+twice that of chi-square, and some more for what a form needs no prior of."""
+LAW_GAINS, LAW_MORE = 1.2, 40.0
+"""By which twice the evidence of a free function, and by what more, may fall short of what a law at its site gains of
+chi-square: a form pays no prior for its amplitude, and influences are those of the model without it."""

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from pipeline.campaign.names import channel_columns
 from pipeline.inference.fit import Fit
 from pipeline.inference.program import Group, Program
-from pipeline.inference.residual import Whitening, whitening
+from pipeline.inference.residual import whitening
 from vjm.effects.base import Rig
 from vjm.equilibrium import Equilibrium
 from vjm.lagrangian import layout, rest
@@ -35,6 +35,10 @@ SHIFT, TURN = 0.1, 1e-3
 ORDER = 2
 
 
+class NoSites(ValueError):
+    """A rig that has no places where a law could sit."""
+
+
 @dataclass(frozen=True, eq=False)
 class Element:
     """One place where a law could sit.
@@ -42,13 +46,24 @@ class Element:
     kind: of the site, or a column of the table. place: of the hinge or end of a bar, None for the whole.
     coordinate: (R,) what a law there is a function of: turn or shift, load, or predicted reading.
     influence: (N,) whitened change of the residuals' readings by one unit of what the law says, of the tests that may
-    be fitted, unknown zeros projected out.
+    be fitted. reference: (N,) the same of the readings at which sensors were zeroed, which are taken off; zeroed: (R,)
+    row of these readings, -1 for the unloaded state, in which gauges are zeroed.
     """
 
     kind: str
     place: Place | None
     coordinate: Array
     influence: Array
+    reference: Array
+    zeroed: np.ndarray
+
+    def moved(self, says: Array, unloaded: Array, rows: np.ndarray) -> Array:
+        """(N, n) whitened change of readings where laws there say (R, n), and (n,) in the unloaded state.
+
+        rows: (N,) row of each residual.
+        """
+        before = np.where(self.zeroed[:, None] < 0, unloaded, says[self.zeroed])
+        return np.asarray(self.influence[:, None] * says[rows] - self.reference[:, None] * before[rows])
 
     @property
     def tags(self) -> tuple[str, ...]:
@@ -59,18 +74,18 @@ class Element:
 def elements(found: Fit) -> tuple[Element, ...]:
     """All places of the rig of a fit's campaign and all its columns, at the states and inputs of the fit.
 
-    ValueError for a rig that has no such places.
+    NoSites for a rig that has no such places.
     """
     cases = found.residual.program
     weights = whitening(cases, found.prediction)
     lost = found.prediction.lost
 
     def flat(readings: Array) -> Array:
-        values = weights.apply(_zeroed(readings, cases))
+        values = weights.apply(readings)
         values[lost] = 0.0
-        return found.residual.without_zeros(values)
+        return found.residual.flat(values)
 
-    return (*_of_mechanism(found, flat), *_of_columns(found, weights))
+    return (*_of_mechanism(found, flat), *_of_columns(found, flat))
 
 
 def _of_mechanism(found: Fit, flat: Callable[[Array], Array]) -> Iterator[Element]:
@@ -79,28 +94,30 @@ def _of_mechanism(found: Fit, flat: Callable[[Array], Array]) -> Iterator[Elemen
     mechanisms = [_bench(found, group) for group in cases.groups]
     places = [(kind, place) for kind in SITE_KINDS.values() for place in _places(mechanisms[0], kind)]
     coordinates = np.zeros((len(cases.test), len(places)))
-    influences = np.zeros((*cases.measured.shape, len(places)))
+    influences, unloaded = np.zeros((2, *cases.measured.shape, len(places)))
     for group, mechanism, state in zip(cases.groups, mechanisms, there.states, strict=True):
-        rows, (at, change) = cases.rows_of(group), _group(mechanism, places, state)
-        coordinates[rows], influences[rows] = at[group.real], change[group.real]
-    columns = flat(influences)
+        rows, (at, change, before) = cases.rows_of(group), _group(mechanism, places, state)
+        coordinates[rows], influences[rows], unloaded[rows] = (x[group.real] for x in (at, change, before))
+    zeroed = _zeroed(cases)
+    columns, references = flat(influences), flat(_reference(influences, unloaded, cases, zeroed))
     for k, (kind, place) in enumerate(places):
-        yield Element(kind.name, place, coordinates[:, k], columns[:, k])
+        yield Element(kind.name, place, coordinates[:, k], columns[:, k], references[:, k], zeroed)
 
 
 def _bench(found: Fit, group: Group) -> Rig:
-    """The mechanism of a fit on the rig of some tests. ValueError where that is no bar and no parallelogram."""
+    """The mechanism of a fit on the rig of some tests. NoSites where that is no bar and no parallelogram."""
     mechanism = found.model.mechanism(group.rig, found.residual.program.campaign.gauges)
     if not isinstance(mechanism, Bar | Parallelogram):
-        raise ValueError(f"sites of laws are those of a bar or a parallelogram, not of a {group.rig.kind}")
+        raise NoSites(f"sites of laws are those of a bar or a parallelogram, not of a {group.rig.kind}")
     return mechanism
 
 
 Where = tuple[SiteKind, Place | None]
 
 
-def _group(plain: Rig, places: Sequence[Where], state: Equilibrium) -> tuple[Array, Array]:
-    """Of tests on one rig: the coordinate (T, S, K) of every place, and what it does to the readings (T, S, C, K)."""
+def _group(plain: Rig, places: Sequence[Where], state: Equilibrium) -> tuple[Array, Array, Array]:
+    """Of tests on one rig: the coordinate (T, S, K) of every place, what it does to the readings (T, S, C, K), and to
+    those of gauges in the unloaded state, in which they are zeroed."""
     series = [each for each in places if each[0].series]
     free = [each for each in places if not each[0].series]
     there = _on(_opened(plain, series), state)
@@ -111,7 +128,14 @@ def _group(plain: Rig, places: Sequence[Where], state: Equilibrium) -> tuple[Arr
     at = {**dict(zip(free, np.moveaxis(turns, -1, 0), strict=True)), **_through(there, series)}
     change = dict(zip(free, np.moveaxis(by_torques, -1, 0), strict=True))
     change |= dict(zip(series, np.moveaxis(by_series, -1, 0), strict=True))
-    return np.stack([at[p] for p in places], -1), np.stack([change[p] for p in places], -1)
+    before = _unloaded_gauges(there, series)
+    # A torque moves the linkage to another unloaded state, which is not where the model zeroes its gauges.
+    none = np.zeros(state.readings.shape)
+    return (
+        np.stack([at[p] for p in places], -1),
+        np.stack([change[p] for p in places], -1),
+        np.stack([before.get(p, none) for p in places], -1),
+    )
 
 
 def _places(rig: Rig, kind: SiteKind) -> tuple[Place | None, ...]:
@@ -174,22 +198,43 @@ def _through(state: Equilibrium, series: Sequence[Where]) -> dict[Where, Array]:
     return out
 
 
-def _zeroed(readings: Array, cases: Program) -> Array:
-    """Readings (R, C, K) less those of the first row, in tests that were zeroed there."""
-    out = readings.copy()
-    for k, test in enumerate(cases.campaign.tests):
-        if test.zero == "first_row":
-            rows = slice(int(cases.first[k]), int(cases.first[k + 1]))
-            free = np.ones(out.shape[1], dtype=bool)
-            free[cases.channels[rows.start]] = False
-            out[rows] -= np.where(free[:, None], readings[rows.start], 0.0)
+def _unloaded_gauges(state: Equilibrium, series: Sequence[Where]) -> dict[Where, Array]:
+    """Change (T, S, C) of the readings in the unloaded state by a displacement at each of these places."""
+    out = {each: np.zeros(state.readings.shape) for each in series}
+    mechanism, unloaded = state.mechanism, state.unloaded_coordinates
+    for channel, gauge in enumerate(mechanism.gauges, start=state.readings.shape[-1] - len(mechanism.gauges)):
+        drives = {drive.name: drive for drive in mechanism.chains[gauge.chain].drives}
+        slope = gauge.slope(unloaded[gauge.chain])
+        for each in series:
+            if (drive := drives.get(_name(*each))) is not None:
+                out[each][..., channel] = slope @ drive.slope
     return out
 
 
-def _of_columns(found: Fit, weights: Whitening) -> Iterator[Element]:
+def _zeroed(cases: Program) -> np.ndarray:
+    """(R,) row at which the sensors of a row were zeroed, -1 for the unloaded state."""
+    out = np.full(len(cases.test), -1)
+    for k, test in enumerate(cases.campaign.tests):
+        if test.zero == "first_row":
+            out[int(cases.first[k]) : int(cases.first[k + 1])] = cases.first[k]
+    return out
+
+
+def _reference(readings: Array, unloaded: Array, cases: Program, zeroed: np.ndarray) -> Array:
+    """Influences (R, C, K) on the readings at which sensors were zeroed: of all that were not prescribed in a first
+    row, else those in the unloaded state."""
+    out = unloaded.copy()
+    for row in np.unique(zeroed[zeroed >= 0]).tolist():
+        free = np.ones(readings.shape[1], dtype=bool)
+        free[cases.channels[row]] = False
+        out[zeroed == row] = np.where(free[:, None], readings[row], 0.0)
+    return out
+
+
+def _of_columns(found: Fit, flat: Callable[[Array], Array]) -> Iterator[Element]:
     """Errors of readings over what is predicted of them."""
     cases, there = found.residual.program, found.prediction
-    names = channel_columns(cases.campaign.gauges)
+    names, zeroed = channel_columns(cases.campaign.gauges), _zeroed(cases)
     for channel, name in enumerate(names):
         readings = np.zeros(cases.measured.shape)
         readings[:, channel] = np.where(cases.predicted[:, channel], 1.0, 0.0)
@@ -201,6 +246,7 @@ def _of_columns(found: Fit, weights: Whitening) -> Iterator[Element]:
             coordinate[mine] = cases.measured[mine, channel] + there.shift[mine, which]
         if not np.any(readings):
             continue
-        values = weights.apply(_zeroed(readings[..., None], cases))
-        values[there.lost] = 0.0
-        yield Element(f"column {name}", None, coordinate, found.residual.without_zeros(values)[:, 0])
+        # What is wrong with a reading without load is its zero: nothing is taken off.
+        before = _reference(readings[..., None], np.zeros((*readings.shape, 1)), cases, zeroed)
+        own, reference = flat(readings[..., None])[:, 0], flat(before)[:, 0]
+        yield Element(f"column {name}", None, coordinate, own, reference, zeroed)

@@ -20,7 +20,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from pipeline.discover.bases import Prior, basis_of, priors
+from pipeline.discover.bases import Prior, priors
 from pipeline.inference.marginal import Marginal
 from pipeline.inference.residual import Residual
 
@@ -36,16 +36,6 @@ class Columns:
 
     values: Array
     largest: float
-
-
-def columns(
-    coordinate: Array, influence: Array, rows: np.ndarray, first: np.ndarray, largest: float
-) -> Array:
-    """(N, 30) what curve and sliders of a coordinate (R,) do through an influence (N,).
-
-    rows: (N,) row of each residual. first: (tests + 1,) first rows of the tests. largest: on which the knots stand.
-    """
-    return np.asarray(influence[:, None] * basis_of(coordinate, first, largest)[rows])
 
 
 @dataclass(frozen=True, eq=False)
@@ -67,13 +57,15 @@ class Evidence:
 @dataclass(frozen=True, eq=False)
 class Rest:
     """What a model leaves, in which sites are looked for. residuals: (N,), what was written as it was written, unknown
-    zeros projected out. rows, tests: (N,) of each. first: (tests + 1,). tolerance: (N, K) of what was written."""
+    zeros projected out. rows, tests: (N,) of each. first: (tests + 1,). tolerance: (N, K) of what was written. zeros:
+    (N, r) orthonormal basis of what unknown zeros can make."""
 
     residuals: Array
     rows: np.ndarray
     tests: np.ndarray
     first: np.ndarray
     tolerance: Array
+    zeros: Array
 
     @classmethod
     def of(cls, left: Residual) -> Rest:
@@ -85,7 +77,12 @@ class Rest:
             left.program.test[rows],
             left.program.first,
             left.without_zeros(left.nominal),
+            left.zeros,
         )
+
+    def without_zeros(self, columns: Array) -> Array:
+        """Columns (N, P), unknown zeros projected out."""
+        return np.asarray(columns - self.zeros @ (self.zeros.T @ columns))
 
     @cached_property
     def _marginal(self) -> Marginal:

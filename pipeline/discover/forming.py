@@ -82,7 +82,7 @@ def _from(form: Form, site: Site, rest: Rest, largest: float, start: Array) -> I
     free = np.array([q.name not in form.fixed for q in form.shapes], dtype=bool)
 
     def at(shapes: Array) -> tuple[Array, Array]:
-        columns = rest.weakened(_columns(form, site, rest, shapes))
+        columns = rest.weakened(columns_of(form, site, rest, shapes))
         amplitudes = _amplitudes(form, columns, whitened)
         return amplitudes, whitened - columns @ amplitudes
 
@@ -107,14 +107,15 @@ def _from(form: Form, site: Site, rest: Rest, largest: float, start: Array) -> I
         yield done(shapes)
 
 
-def _columns(form: Form, site: Site, rest: Rest, shapes: Array) -> Array:
+def columns_of(form: Form, site: Site, rest: Rest, shapes: Array) -> Array:
     """(N, n) of unit amplitudes through all elements of the site."""
-    total = 0.0
+    unloaded = form.columns(np.zeros(1), np.array([0, 1]), shapes)[0]
+    total = np.zeros((rest.rows.size, len(form.amplitudes)))
     for each in site.elements:
         sign = site.sign(each)
-        there = form.columns(sign * each.coordinate, rest.first, shapes)[rest.rows]
-        total = total + sign * each.influence[:, None] * there
-    return np.asarray(total)
+        there = form.columns(sign * each.coordinate, rest.first, shapes)
+        total = total + sign * each.moved(there, unloaded, rest.rows)
+    return rest.without_zeros(total)
 
 
 def _amplitudes(form: Form, columns: Array, residuals: Array) -> Array:

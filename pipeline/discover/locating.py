@@ -3,15 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
 
+from pipeline.discover.bases import basis_of, unloaded
 from pipeline.discover.bodies import Body, bodies, weighed
 from pipeline.discover.elements import Element, elements
-from pipeline.discover.evidence import Columns, Evidence, Rest, columns
+from pipeline.discover.evidence import Columns, Evidence, Rest
 from pipeline.discover.sites import Site, sites
 from pipeline.inference.fit import Fit
 from vjm.effects.base import Effect
@@ -56,9 +57,12 @@ class Map:
         return tuple(it for it in self.sites if it.value >= self.best - within)
 
 
-def mapped(found: Fit, effects: Mapping[str, Effect]) -> Map:
-    """Of a fit whose tests may all be fitted. effects: those that bodies are taken from."""
+def mapped(found: Fit, effects: Mapping[str, Effect], beside: Array | None = None) -> Map:
+    """Of a fit whose tests may all be fitted. effects: those that bodies are taken from. beside: (N, P) columns that
+    are fitted anew in both hypotheses, in standard deviations before any data."""
     every, rest = elements(found), Rest.of(found.residual)
+    if beside is not None:
+        rest = replace(rest, tolerance=np.hstack([rest.tolerance, beside]))
     largest: dict[str, float] = {}
     for each in every:
         size = float(np.max(np.abs(each.coordinate), initial=0.0))
@@ -68,8 +72,8 @@ def mapped(found: Fit, effects: Mapping[str, Effect]) -> Map:
     def of(element: Element, sign: float) -> Array:
         key = (id(element), sign)
         if key not in done:
-            c, s = sign * element.coordinate, sign * element.influence
-            done[key] = columns(c, s, rest.rows, rest.first, largest[element.kind])
+            says = basis_of(sign * element.coordinate, rest.first, largest[element.kind])
+            done[key] = rest.without_zeros(sign * element.moved(says, unloaded(), rest.rows))
         return done[key]
 
     best: dict[str, Located] = {}

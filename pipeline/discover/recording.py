@@ -6,10 +6,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pipeline.add.summary import error_of
-from pipeline.answer import ModelError, SetAside, Value
+from pipeline.answer import ModelError, SetAside
 from pipeline.attempt import Attempts
 from pipeline.discover import criteria
-from pipeline.discover.record import Curve, Discovered, Entered, Grouped, LawFound, Tie
+from pipeline.discover.record import Discovered, Entered
 from pipeline.discover.search import Added, Discovery, Law
 from pipeline.discover.shape import band, described
 from pipeline.discover.sites import Site
@@ -17,8 +17,10 @@ from pipeline.discover.through import Through
 from pipeline.inference.fit import Fit, unfitted
 from pipeline.inference.model import Model
 from pipeline.inference.program import Program
+from pipeline.law_record import Curve, Grouped, LawFound, Tie
 from pipeline.parameter_names import path_of
 from pipeline.provenance import commit, versions
+from pipeline.value import Value
 from vjm.law_sites import SITE_KINDS, SiteKind
 
 Array = NDArray[np.float64]

@@ -17,7 +17,7 @@ from pipeline.discover import criteria
 from pipeline.discover.bodies import Body, started
 from pipeline.discover.elements import elements
 from pipeline.discover.evidence import Rest
-from pipeline.discover.forming import Formed, formed
+from pipeline.discover.forming import Formed, columns_of, formed
 from pipeline.discover.locating import Located, Map, mapped
 from pipeline.discover.settling import bad_beside
 from pipeline.discover.sites import Site
@@ -101,6 +101,11 @@ class Discovery:
         return tuple(step for step in self.steps if isinstance(step, Law))
 
 
+def fitted_to(model: Model, cases: Program) -> Fit:
+    """A model fitted to the readings of a program; as it is where it has no numbers."""
+    return fit(model, cases) if model.free else unfitted(model, cases)
+
+
 def discover(
     cases: Program, model: Model, effects: Mapping[str, Effect], say: Say = lambda _: None
 ) -> Discovery:
@@ -120,8 +125,8 @@ def discover(
             say("without single bad readings")
             rounds, bad = rounds + 1, [*bad, *new]
             cases = program(set_aside(cases.campaign, new))
-            given, begin = (_again(each.model, cases) for each in (given, begin))
-            here = begin if not steps else _again(here.model, cases)
+            given, begin = (fitted_to(each.model, cases) for each in (given, begin))
+            here = begin if not steps else fitted_to(here.model, cases)
             continue
         step = _step(seen, cases, len(steps) + 1, say)
         if step is None or len(steps) >= criteria.LAWS:
@@ -135,18 +140,13 @@ def discover(
             return Discovery(given, begin, tuple(steps), here, seen, False, tuple(bad))
 
 
-def _again(model: Model, cases: Program) -> Fit:
-    """A model fitted to other readings."""
-    return fit(model, cases) if model.free else unfitted(model, cases)
-
-
 def _begin(cases: Program, model: Model, effects: Mapping[str, Effect]) -> tuple[Fit, Fit]:
     """The model, and that or the one with the geometric nonlinearity of its bars where that leaves less."""
-    plain = _again(model, cases)
+    plain = fitted_to(model, cases)
     if GEOMETRY not in effects:
         return plain, plain
     other = model.with_effects([effects[GEOMETRY]])
-    bent = _again(other, cases)
+    bent = fitted_to(other, cases)
     return plain, min(plain, bent, key=lambda it: it.order)
 
 
@@ -219,11 +219,7 @@ def _about(way: Through, before: list[Formed]) -> list[Formed]:
     places = {(each.kind, each.place) for each in old.elements}
     some = tuple(each for each in elements(way.fit) if (each.kind, each.place) in places)
     site, form = replace(old, elements=some), way.there
-    done = np.zeros(rest.residuals.size)
-    for each in some:
-        sign = site.sign(each)
-        y = form.form.columns(sign * each.coordinate, rest.first, form.shapes) @ form.amplitudes
-        done += sign * each.influence * y[rest.rows]
+    done = columns_of(form.form, site, rest, form.shapes) @ form.amplitudes
     largest = max(float(np.max(np.abs(each.coordinate))) for each in some)
     return _near(formed(site, replace(rest, residuals=rest.residuals + done), largest))
 

@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from pipeline.discover import criteria
-from pipeline.discover.record import Discovered, LawFound
+from pipeline.discover.record import Discovered
+from pipeline.law_record import LawFound
 from reports.quantities import estimate, phrase, short, sigma
 
 MANY = 4
@@ -14,6 +15,11 @@ MANY = 4
 def sentences(it: Discovered) -> tuple[str, ...]:
     """What was found, the place and the picture before the form."""
     return (*_first(it), *(said for law in it.laws for said in _law(law)), *_last(it))
+
+
+def law_sentences(it: Discovered) -> tuple[str, ...]:
+    """Of the laws alone, for an answer that has its own verdict."""
+    return tuple(said for law in it.laws for said in _law(law))
 
 
 def _first(it: Discovered) -> Iterator[str]:

@@ -13,6 +13,7 @@ from pipeline.campaign import Campaign, read
 from pipeline.command import usable
 from pipeline.diagnose.diagnosis import Diagnosis, diagnose
 from pipeline.diagnose.words import answered
+from pipeline.discover.beyond_catalogue import with_laws
 from pipeline.improve.steps import Step, steps
 from pipeline.improve.table import closing, following, waterfall
 from pipeline.inference.model import Model
@@ -48,7 +49,7 @@ def improve_campaign(
             usable(path, named)
     progress = Progress(quiet)
     with progress.stage("looking for what is missing") as stage:
-        found = diagnose(campaign, began, known.effects, stage.say)
+        found = with_laws(diagnose(campaign, began, known.effects, stage.say), stage.say)
         stage.note = f"{len(found.shelf.fits)} models fitted"
     done = _watched(found, quiet)
     last = done[-1].fit

@@ -110,12 +110,15 @@ def check_suitable(effects: Iterable[Effect], campaign: Campaign) -> None:
             try:
                 # A mechanism may build its bars only when they are asked for.
                 drives = layout(effect.apply(plain, effect.typicals)).drives
+                refusal = effect.refusal(plain.view)
             except ValueError as error:
                 raise InputError(f"{campaign.name}: {error}") from error
             except Exception as error:
                 # A user's own effect may fail in any way: that is bad input, not a failure of the program.
                 said = f"{type(error).__name__}: {error}"
                 raise InputError(f"{effect.name} cannot be applied to the rig: {said}") from error
+            if refusal:
+                raise InputError(f"{campaign.name}: {refusal}")
             if not warm and DRIVE in drives:
                 raise InputError(
                     f"{campaign.name}: {effect.name} needs temperatures, none was measured, "

@@ -9,7 +9,7 @@ from typing import Literal
 import numpy as np
 
 from pipeline.add.sentences import verdict_sentence
-from pipeline.answer import Answer, Value
+from pipeline.answer import Answer
 from pipeline.campaign import Campaign
 from pipeline.inference.driving import column_name, unit_of
 from pipeline.inference.model import Model, Term
@@ -23,6 +23,7 @@ from pipeline.page.stages import Stages, stages
 from pipeline.page.words import SOURCES, assumptions, following, reading, tolerances_of, why
 from pipeline.parameter_names import path_of
 from pipeline.provenance import commit, versions
+from pipeline.value import Value
 from reports.quantities import sigma
 from vjm.effects import effect_of
 from vjm.effects.base import Effect
@@ -84,6 +85,7 @@ def collect(it: Subject, commands: tuple[str, ...] = (), say: Say = lambda _: No
         alternatives=answer.alternatives,
         rivals=it.rivals,
         zeros=answer.zeros,
+        laws=answer.laws,
         not_done=answer.not_done,
         following=tuple(following(whole, answer, it.answer is not None)),
         tolerances=tuple(tolerances_of(whole)),

@@ -15,6 +15,7 @@ from pipeline.campaign.reading import DESCRIPTION
 from pipeline.command import redraw, usable
 from pipeline.diagnose.diagnosis import Diagnosis, diagnose
 from pipeline.diagnose.words import answered
+from pipeline.discover.beyond_catalogue import with_laws
 from pipeline.errors import InputError
 from pipeline.inference.model_file import NAME as MODEL
 from pipeline.inference.model_reading import read_model_file
@@ -129,7 +130,7 @@ def draw(out: Path, progress: Progress) -> Path:
 
 def diagnosed(it: Subject, stage: Stage) -> Subject:
     """With the answer of a diagnosis made now."""
-    found = diagnose(it.campaign, it.model, it.known.effects, stage.say)
+    found = with_laws(diagnose(it.campaign, it.model, it.known.effects, stage.say), stage.say)
     return of_diagnosis(it, found, possible(found, answered(found), stage.say))
 
 

@@ -17,10 +17,10 @@ from pipeline.answer import (
     NominalValue,
     SetAside,
     UnknownZero,
-    Value,
 )
-from pipeline.discover.record import LawFound
+from pipeline.law_record import LawFound
 from pipeline.record import Record
+from pipeline.value import Value
 
 Numbers = tuple[float | None, ...]
 NAME = "page.json"

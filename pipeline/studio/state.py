@@ -5,12 +5,12 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
-from pipeline.answer import Value
 from pipeline.campaign.reading import DESCRIPTION
 from pipeline.page.record import Page, RivalPage, TestPage
 from pipeline.parameter_names import parted
 from pipeline.studio.planning import planning
 from pipeline.studio.session import Session
+from pipeline.value import Value
 from reports import bars
 from reports.campaign import tables, words
 from reports.campaign.doubt import mistakes

@@ -14,6 +14,7 @@ from pipeline.campaign import read
 from pipeline.campaign.reading import DESCRIPTION
 from pipeline.diagnose.diagnosis import diagnose
 from pipeline.diagnose.words import answered
+from pipeline.discover.beyond_catalogue import with_laws
 from pipeline.inference.model_file import NAME, ModelFile, Uncertainty, model_text
 from pipeline.inference.model_reading import read_model_file
 from pipeline.inference.suitable import known_effects, named_effects
@@ -131,7 +132,7 @@ def _model(task: Task, subject: Subject, say: Say) -> Done:
 
 def _diagnosed(task: Task, subject: Subject, say: Say) -> Done:
     """The answer, and every set that it leaves possible drawn as the model would be with it."""
-    found = diagnose(subject.campaign, subject.model, subject.known.effects, say)
+    found = with_laws(diagnose(subject.campaign, subject.model, subject.known.effects, say), say)
     sets = possible(found, answered(found), say)
     seen = of_diagnosis(subject, found, sets)
     shown = [replace(seen, answer=each.answer, fitted=each.model) for each in sets]

@@ -39,6 +39,8 @@ RECORDS = (
     "pipeline.answer",
     "pipeline.compare.record",
     "pipeline.discover.record",
+    "pipeline.law_record",
+    "pipeline.value",
     "pipeline.plan.record",
     "pipeline.manipulator.table_record",
 )

@@ -12,7 +12,7 @@ from rich.cells import cell_len
 from rich.console import Console, RenderableType
 
 from pipeline.add.table import show as show_added
-from pipeline.answer import Answer, Candidate, ModelError, TestChange, TestNoise, Value
+from pipeline.answer import Answer, Candidate, ModelError, TestChange, TestNoise
 from pipeline.compare.record import ChannelError, Comparison
 from pipeline.compare.record import ModelError as Compared
 from pipeline.compare.record import TestError as ComparedTest
@@ -25,6 +25,7 @@ from pipeline.manipulator.table_console import show as show_table
 from pipeline.plan.record import Plan, Size
 from pipeline.plan.table import show as show_plan
 from pipeline.terminal import WIDEST, WIDTH, blocks, folded, terminal
+from pipeline.value import Value
 from vjm.effects import catalogue
 
 SCRIPTS = "abcXYZ019_.+-/ äßéжЖ漢字測試かなカナ한글😀🔧שלוםمرحبا[]{}"

@@ -142,6 +142,10 @@ class Effect(ABC):
             raise ValueError(f"{self.name} changes nothing at {site!r}, allowed is a place that it acts on")
         return mechanism
 
+    def refusal(self, rig: Rig) -> str:
+        """Why a rig cannot have it by the numbers that were written of it, which a fit may go beyond; "" if it can."""
+        return ""
+
     @property
     def acts_on(self) -> str:
         """The parts it acts on."""

@@ -6,7 +6,7 @@ from dataclasses import replace
 
 from vjm.effects.base import Effect, Parameter, Rig, Values, for_bars
 from vjm.fibres import Fibres
-from vjm.refined import Refined
+from vjm.refined import radii_of_gyration
 
 
 class MaterialYield(Effect):
@@ -34,12 +34,18 @@ class MaterialYield(Effect):
     # Where fibres yield is found along a refined bar, which has its geometric stiffness.
     includes = ("bar_geometric_nonlinearity",)
 
+    def refusal(self, rig: Rig) -> str:
+        """Where the rig's fibres lie within its radii of gyration."""
+        fibres = self._fibres(rig, self.typicals)
+        every = (fibres.inside(*radii_of_gyration(link.length, link.stiffness)) for link in rig.links)
+        return next((said for said in every if said), "")
+
     def change(self, rig: Rig, values: Values) -> Rig:
-        """ValueError where the rig's fibres are not known, or lie within its radii of gyration."""
+        """ValueError where the rig's fibres are not known."""
+        fibres = self._fibres(rig, values)
+        return for_bars(rig, lambda link: replace(link, fibres=fibres))
+
+    def _fibres(self, rig: Rig, values: Values) -> Fibres:
         if rig.fibre_y is None or rig.fibre_z is None:
             raise ValueError(f"{self.name} needs the rig's outermost fibres, fibre_y and fibre_z in mm")
-        fibres = Fibres(rig.fibre_y, rig.fibre_z, values["strain"])
-        yielding = for_bars(rig, lambda link: replace(link, fibres=fibres))
-        for link in yielding.links:
-            Refined(1).limb(link)
-        return yielding
+        return Fibres(rig.fibre_y, rig.fibre_z, values["strain"])

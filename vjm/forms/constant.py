@@ -20,6 +20,7 @@ class Constant(CurveForm):
     limits = "it looks like a dimension, a zero or a weight that is not as written"
     amplitudes = (Quantity("level", 1, 0, "value at all loads"),)
     places = ("parallel",)
+    beside = ("parallel", "series")
     grows = "bounded"
     and_linear = True
 

@@ -48,10 +48,10 @@ class Creep(Form):
     memory = True
 
     def columns(self, x: Array, first: np.ndarray, shapes: Array) -> Array:
-        return np.column_stack([x, x - lagged(x, first, _kept(shapes))])
+        return np.column_stack([x, x - lagged(x, first, kept(shapes[0]))])
 
     def law(self, amplitudes: Array, shapes: Array, series: bool) -> Law:
-        return Lagging(float(amplitudes[0]), float(amplitudes[1]), _kept(shapes))
+        return Lagging(float(amplitudes[0]), float(amplitudes[1]), kept(shapes[0]))
 
     def starts(self, largest: float) -> Sequence[Array]:
         return [np.array([n]) for n in (1.0, 3.0, 10.0)]
@@ -60,8 +60,9 @@ class Creep(Form):
         return np.array([0.2]), np.array([100.0])
 
 
-def _kept(shapes: Array) -> float:
-    return float(np.exp(-1.0 / shapes[0]))
+def kept(steps: float) -> float:
+    """Part of a distance that is left after a load step, of one that is followed over so many."""
+    return float(np.exp(-1.0 / steps))
 
 
 def lagged(x: Array, first: np.ndarray, keep: float) -> Array:

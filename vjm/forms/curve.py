@@ -66,7 +66,8 @@ class Spring:
 
 @dataclass(frozen=True, eq=False)
 class Compliance:
-    """Displacement over load along a curve that rises everywhere; the force at a displacement is looked for.
+    """Displacement over load along a curve that rises everywhere; the force at a displacement is looked for, from the
+    displacement without load on.
 
     Where the curve does not rise there is no such law: force and tangent are no numbers there.
     """
@@ -95,12 +96,13 @@ class Compliance:
 
     def _force(self, u: Array) -> Array:
         """By Newton's method inside a bracket that is halved where it leaves it."""
-        sign = np.where(u < 0.0, -1.0, 1.0)
-        aim = np.abs(u)
+        unloaded = self.give(np.zeros(()))
+        sign = np.where(u < unloaded, -1.0, 1.0)
+        aim = np.abs(u - unloaded)
 
         def give(size: Array) -> tuple[Array, Array]:
             there = self.form.points(sign * size, self.shapes)
-            return sign * (there.value @ self.amplitudes), there.slope @ self.amplitudes
+            return sign * (there.value @ self.amplitudes - unloaded), there.slope @ self.amplitudes
 
         low, high = np.zeros(u.shape), np.ones(u.shape)
         beyond = give(high)[0] < aim

@@ -6,6 +6,7 @@ from functools import cache
 from pipeline.campaign import Campaign
 from pipeline.diagnose.diagnosis import suitable
 from pipeline.discover.locating import Map, mapped
+from pipeline.discover.search import Discovery, discover
 from pipeline.inference.fit import Fit, unfitted
 from pipeline.inference.model import Model
 from pipeline.inference.program import Program, program
@@ -36,3 +37,10 @@ def fit_of(effect: str = "", value: float = 0.0) -> Fit:
 @cache
 def map_of(effect: str = "", value: float = 0.0) -> Map:
     return mapped(fit_of(effect, value), effects_for(bench(effect, value)))
+
+
+@cache
+def friction_found() -> Discovery:
+    """The laws of a bench with friction in its hinges."""
+    campaign = bench("joint_friction.torque_Nmm", 600.0)
+    return discover(fitted_tests(campaign), Model(), effects_for(campaign))

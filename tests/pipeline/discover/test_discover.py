@@ -6,6 +6,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from pipeline.diagnose.diagnosis import Diagnosis, diagnose
+from pipeline.diagnose.words import answered
+from pipeline.discover import beyond_catalogue
+from pipeline.discover.beyond_catalogue import with_laws
 from pipeline.discover.effect_file import effect_text, name_of, write_effect
 from pipeline.discover.forming import formed
 from pipeline.discover.recording import recorded
@@ -16,8 +20,8 @@ from pipeline.inference.fit import unfitted
 from pipeline.inference.model import Model, Term
 from pipeline.inference.program import program
 from tests.pipeline.bench import bench
-from tests.pipeline.discover.fits import effects_for, fitted_tests, map_of
-from vjm.effects import from_file
+from tests.pipeline.discover.fits import GEOMETRY, effects_for, fitted_tests, friction_found, map_of
+from vjm.effects import catalogue, from_file
 from vjm.effects.base import Effect
 
 HIDDEN = {
@@ -69,8 +73,7 @@ def test_nothing_sits_anywhere_where_nothing_is() -> None:
 
 @pytest.fixture(scope="module")
 def found() -> Discovery:
-    campaign = bench("joint_friction.torque_Nmm", 600.0)
-    return discover(fitted_tests(campaign), Model(), effects_for(campaign))
+    return friction_found()
 
 
 def test_friction_is_found_put_in_and_nothing_is_left(found: Discovery) -> None:
@@ -126,3 +129,65 @@ def test_a_play_is_found_as_a_gap() -> None:
     parts = 2.0 if "@" not in law.site.name else 1.0
     assert parts * law.ways[0].values["gap_mm"] == pytest.approx(0.02, rel=0.05)
     assert found.whole
+
+
+def diagnosed(value: float, *names: str) -> Diagnosis:
+    """Friction in the hinges, where only these effects and the geometry of the bars are known."""
+    known = {name: catalogue()[name] for name in (GEOMETRY.name, *names)}
+    return diagnose(bench("joint_friction.torque_Nmm", value), Model(), known)
+
+
+@pytest.fixture(scope="module")
+def unknown() -> Diagnosis:
+    return diagnosed(600.0, "joint_torsional_stiffness", "base_compliance")
+
+
+@pytest.fixture
+def known_laws(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The laws of that bench are looked for once for all tests."""
+    monkeypatch.setattr(beyond_catalogue, "discover", lambda *_: friction_found())
+
+
+@pytest.mark.usefixtures("known_laws")
+def test_what_nothing_known_explains_ends_with_its_place_and_law(unknown: Diagnosis) -> None:
+    assert unknown.verdict == "unknown" and not unknown.laws
+    answer = answered(with_laws(unknown))
+    assert answer.verdict == "unknown"
+    (law,) = answer.laws
+    assert law.site == "hinge_torque" and "coulomb" in {law.form, *(tie.form for tie in law.ties)}
+    assert law.fit == pytest.approx(1.0, abs=0.1)
+    assert any("torque about the hinge axes" in said for said in answer.sentences)
+    assert not answer.not_done
+    assert type(answer).model_validate_json(answer.text()) == answer
+
+
+def test_a_law_that_fails_takes_nothing_with_it(unknown: Diagnosis, monkeypatch: pytest.MonkeyPatch) -> None:
+    def fails(*_: object) -> None:
+        raise RuntimeError("no state")
+
+    monkeypatch.setattr(beyond_catalogue, "discover", fails)
+    answer = answered(with_laws(unknown))
+    assert answer.verdict == "unknown" and not answer.laws
+    assert any("laws beyond the catalogue" in said and "no state" in said for said in answer.not_done)
+
+
+@pytest.mark.long
+def test_an_effect_that_is_there_keeps_its_name() -> None:
+    found = diagnosed(600.0, "joint_friction", "joint_torsional_stiffness")
+    again = with_laws(found)
+    assert again.verdict == found.verdict == "identified"
+    assert again.sets == found.sets and not again.laws
+
+
+@pytest.mark.usefixtures("known_laws")
+def test_a_law_takes_the_name_from_a_set_that_it_beats(unknown: Diagnosis) -> None:
+    """As if what was left by the best set had passed for noise."""
+    taken = replace(
+        unknown,
+        ruling=replace(unknown.ruling, verdict="identified"),
+        judgement=replace(unknown.judgement, checks=()),
+    )
+    again = with_laws(taken)
+    assert again.verdict == "unknown" and "hinge_torque" in again.ruling.because
+    assert [law.site for law in again.laws] == ["hinge_torque"]
+    assert not set(again.certain) & {"joint_torsional_stiffness", "base_compliance"}

@@ -6,13 +6,16 @@ import numpy as np
 import pytest
 
 from pipeline.discover.elements import elements
-from pipeline.inference.model import Term
+from pipeline.inference.fit import unfitted
+from pipeline.inference.model import Model, Term
 from pipeline.inference.prediction import predict
-from pipeline.inference.residual import whitening
-from tests.pipeline.discover.fits import fit_of
+from pipeline.inference.residual import residual, whitening
+from tests.pipeline.bench import bench
+from tests.pipeline.discover.fits import GEOMETRY, fit_of, fitted_tests
 from vjm.effects.base import Parameter
+from vjm.forms import forms
 from vjm.law_sites import SITE_KINDS
-from vjm.site_law import SiteLaw
+from vjm.site_law import SiteLaw, parameters_of
 
 SMALL = {"hinge_torque": 30.0, "shift": 1e-8, "turn": 1e-11}
 
@@ -55,6 +58,37 @@ def test_a_slight_linear_law_moves_readings_by_influence_times_coordinate(site: 
     size = float(np.linalg.norm(truth))
     assert size > 1e-4
     assert float(np.linalg.norm(told - truth)) < 0.02 * size
+
+
+@pytest.mark.parametrize("zero", ["nominal", "first_row"])
+@pytest.mark.parametrize("site", ["base_y", "out_of_plane@tip", "tilt_z", "along"])
+def test_a_shift_without_load_moves_readings_but_no_gauge_that_is_zeroed_there(site: str, zero: str) -> None:
+    """y = y0 + c x in series: gauges are zeroed in the unloaded state, or all sensors in the first row."""
+    plain = bench()
+    campaign = replace(plain, tests=tuple(replace(t, zero=zero) for t in plain.tests))  # type: ignore[arg-type]
+    found = unfitted(Model().with_effects([GEOMETRY]), fitted_tests(campaign))
+    kind = SITE_KINDS[site.partition("@")[0]]
+    slope = SMALL["turn" if kind.turns else "shift"]
+    form = forms()["linear+constant"]
+    start = {q.name: {"slope": slope, "level": 1e-5}[q.name] for q in form.amplitudes}
+    it = SiteLaw.of(
+        name="shifted", title="", site=site, form=form.name, parameters=parameters_of(form, kind, start, 1.0)
+    )
+    values = {p.name: v for p, v in zip(it.parameters, start.values(), strict=True)}
+    cases, here = found.residual.program, found.prediction
+    model = replace(found.model, terms=(*found.model.terms, Term(it, values)))
+    there = predict(model, cases, slopes=False, start=here, shift=here.shift)
+    before, after = (found.residual.flat(residual(cases, p).values) for p in (here, there))
+    tags = set(filter(None, site.partition("@")[2].split(".")))
+    own = [e for e in elements(found) if e.kind == kind.name and tags <= set(e.tags)]
+    rows = found.residual.rows[:, 0]
+    level, amplitudes = np.array([0.0, 1.0]), np.array(list(start.values()))
+    told = np.sum(
+        [e.moved(np.stack([e.coordinate, np.ones_like(e.coordinate)], 1), level, rows) for e in own], axis=0
+    )
+    truth, size = before - after, float(np.linalg.norm(before - after))
+    assert size > 1e-4
+    assert float(np.linalg.norm(told @ amplitudes - truth)) < 0.03 * size
 
 
 def test_a_column_is_over_what_is_predicted_of_it() -> None:

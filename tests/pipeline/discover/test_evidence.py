@@ -6,7 +6,7 @@ from scipy.stats import multivariate_normal
 
 from pipeline.discover.bases import KNOTS, basis_of, hats, knots, priors, sliders
 from pipeline.discover.criteria import PROPOSED
-from pipeline.discover.evidence import Columns, Rest, columns
+from pipeline.discover.evidence import Columns, Rest
 
 TESTS, STEPS = 6, 20
 FIRST = np.arange(0, TESTS * STEPS + 1, STEPS)
@@ -17,7 +17,13 @@ def rest_of(residuals: np.ndarray, tolerance: np.ndarray | None = None) -> Rest:
     order = np.argsort(rows, kind="stable")
     rows = rows[order]
     some = np.zeros((residuals.size, 0)) if tolerance is None else tolerance
-    return Rest(residuals, rows, rows // STEPS, FIRST, some)
+    return Rest(residuals, rows, rows // STEPS, FIRST, some, np.zeros((residuals.size, 0)))
+
+
+def columns(
+    c: np.ndarray, influence: np.ndarray, rows: np.ndarray, first: np.ndarray, largest: float
+) -> np.ndarray:
+    return np.asarray(influence[:, None] * basis_of(c, first, largest)[rows])
 
 
 def history(seed: int) -> np.ndarray:

@@ -1,0 +1,167 @@
+"""A diagnosis with the laws beyond the catalogue: of what nothing known explains, and against sets of several effects.
+
+Sets of effects mimic laws: a bushing that stiffens with load looks like a compliance and a contact together. So a set
+of several effects and the laws that are found without it compete by one number,
+
+    chi-square of the fitted tests + what implausible sizes cost + k ln n,
+
+k numbers and n readings (G. Schwarz, The Annals of Statistics 6 (1978) 461-464). What is left by a model that explains
+nothing more is looked at from what is certain, and a pattern inside the noise from the model itself.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from functools import partial
+from time import perf_counter
+
+import numpy as np
+
+from pipeline.adequacy.bad_readings import set_aside
+from pipeline.adequacy.judgement import judge
+from pipeline.attempt import Attempts
+from pipeline.diagnose.diagnosis import Diagnosis
+from pipeline.diagnose.merit import badness, root_of, taken
+from pipeline.diagnose.shelf import Names
+from pipeline.discover import criteria
+from pipeline.discover.elements import NoSites
+from pipeline.discover.locating import mapped
+from pipeline.discover.record import Discovered
+from pipeline.discover.recording import recorded
+from pipeline.discover.search import Added, Discovery, discover, fitted_to
+from pipeline.discover.words import law_sentences, sentences
+from pipeline.inference.model import Model
+from pipeline.inference.program import Program, program
+
+Say = Callable[[str], None]
+
+
+def with_laws(it: Diagnosis, say: Say = lambda _: None) -> Diagnosis:
+    """The diagnosis with the laws that are found, and its verdict where they explain as much as its sets.
+
+    Optional: what fails here is said and takes nothing else with it. On a rig without places of laws it is as it was.
+    """
+    if not _asked(it):
+        return it
+    begin, attempts = perf_counter(), Attempts()
+    done = attempts.get(
+        "the look for laws beyond the catalogue", partial(_where_there_are_sites, it, say), it
+    )
+    seconds = round(it.seconds + perf_counter() - begin, 3)
+    return replace(done, failed=(*it.failed, *attempts.failed), seconds=seconds)
+
+
+def _asked(it: Diagnosis) -> bool:
+    """Whether anything is to be found by laws: not before the table is settled."""
+    if it.untested or it.doctor or it.ruling.zero is not None or it.verdict == "nothing_tested":
+        return False
+    return bool(it.shelf.whole.fitted.any())
+
+
+def _where_there_are_sites(it: Diagnosis, say: Say) -> Diagnosis:
+    try:
+        return _with_laws(it, say)
+    except NoSites:
+        return it
+
+
+def _with_laws(it: Diagnosis, say: Say) -> Diagnosis:
+    best = frozenset(it.sets[0])
+    if it.judgement.noise and best:
+        return _competing(it, best, say)
+    sure: Names = frozenset(it.certain)
+    found, record = _discovered(it, it.shelf.with_own_line(sure).model if sure else it.shelf.base, say)
+    if not found.laws and it.verdict == "within_noise":
+        return it
+    words = law_sentences(record) if found.laws else sentences(record)[:1]
+    return replace(it, laws=record.laws, law_words=words)
+
+
+def _competing(it: Diagnosis, best: Names, say: Say) -> Diagnosis:
+    """A set of effects against what laws explain without it. One effect alone mimics no law as well as that explains
+    itself: it competes only where it leaves a pattern, and gives way only to what is better."""
+    several = len(best - root_of(it.shelf, best)) >= criteria.SEVERAL
+    say("whether a law explains as much")
+    if not (_leaves_a_pattern(it, best) or (several and _may_compete(it, best))):
+        return it
+    found, record = _discovered(it, it.shelf.base, say)
+    law = _standing(it, found)
+    if law is None or not 0 < len(found.laws) <= len(best - root_of(it.shelf, best)):
+        return it
+    behind = law.cost - min(_cost_of_set(it, names) for names in map(frozenset, it.sets))
+    if behind > (criteria.ALIKE if several else -criteria.ALIKE):
+        return it
+    told = _told(found, law)
+    if behind >= -criteria.ALIKE:
+        ruling = replace(it.ruling, verdict="ambiguous", law=told)
+    else:
+        ruling = replace(it.ruling, verdict="unknown", because=f"{told} explains it by {-behind:.0f} better")
+    # What laws explain without an effect makes that effect less than certain.
+    sure = tuple(name for name in it.certain if name in found.end.model.names)
+    return replace(it, ruling=ruling, certain=sure, laws=record.laws, law_words=law_sentences(record))
+
+
+def _leaves_a_pattern(it: Diagnosis, best: Names) -> bool:
+    """Whether a function at any site explains what a set leaves, its own numbers fitted anew beside it."""
+    found = fitted_to(it.shelf.fit(best).model, _fitted(it))
+    sizes = it.shelf.criteria.plausible * np.array([abs(f.parameter.typical) for f in found.model.free])
+    own = found.residual.without_zeros(found.residual.slopes) * sizes
+    return mapped(found, it.shelf.candidates, own).best >= criteria.LEFT_BY_SET
+
+
+def _may_compete(it: Diagnosis, best: Names) -> bool:
+    """Whether any site explains nearly as much as a set: a law gains little more of chi-square than twice the evidence
+    of a free function at its site."""
+    without = it.shelf.fit(root_of(it.shelf, best))
+    seen = mapped(fitted_to(without.model, _fitted(it)), it.shelf.candidates)
+    gained = without.chi_square - badness(it.shelf, best)
+    return 2.0 * criteria.LAW_GAINS * seen.best + criteria.LAW_MORE >= gained
+
+
+@dataclass(frozen=True)
+class _Law:
+    """What all laws together leave and cost. numbers: of them."""
+
+    cost: float
+    numbers: int
+
+
+def _standing(it: Diagnosis, found: Discovery) -> _Law | None:
+    """What the laws that were found cost; None where they do not explain all, or by other readings."""
+    if found.bad or any(isinstance(step, Added) or not step.ways for step in found.steps):
+        return None
+    if found.end.lost or not judge(found.end, it.shelf.criteria).noise:
+        return None
+    numbers = sum(law.ways[0].numbers for law in found.laws) + int(found.bent)
+    return _Law(found.end.chi_square + numbers * _of_one(it), numbers)
+
+
+def _cost_of_set(it: Diagnosis, names: Names) -> float:
+    own = names - root_of(it.shelf, names)
+    return badness(it.shelf, names) + taken(it.shelf, own) * _of_one(it)
+
+
+def _of_one(it: Diagnosis) -> float:
+    """What a number costs."""
+    whole = it.shelf.whole
+    return float(np.log(max(int(np.sum(whole.predicted & whole.fitted[:, None])), 1)))
+
+
+def _told(found: Discovery, law: _Law) -> str:
+    places = " and ".join(each.site.name for each in found.laws)
+    numbers = f"{law.numbers} number{'s' if law.numbers > 1 else ''}"
+    return f"a law of {numbers} at {places}"
+
+
+def _fitted(it: Diagnosis) -> Program:
+    """The tests that may be fitted, as they were settled."""
+    whole = it.campaign
+    return program(replace(whole, tests=tuple(test for test in whole.tests if test.role == "fit")))
+
+
+def _discovered(it: Diagnosis, start: Model, say: Say) -> tuple[Discovery, Discovered]:
+    begin = perf_counter()
+    found = discover(_fitted(it), start, it.shelf.candidates, say)
+    whole = program(set_aside(it.campaign, found.bad))
+    return found, recorded(found, whole, perf_counter() - begin)
