@@ -41,8 +41,8 @@ def possible(
 
 
 def pages_of(sets: tuple[Possible, ...]) -> tuple[RivalPage, ...]:
-    """As a page has them; none where there is one only."""
-    every = (it.answer for it in sets if len(sets) > 1)
+    """As a page has them; none where the verdict leaves one only."""
+    every = (it.answer for it in sets if it.answer.verdict == "ambiguous")
     return tuple(RivalPage(effects=it.effects, error=it.error[-1], parameters=it.parameters) for it in every)
 
 

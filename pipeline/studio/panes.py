@@ -10,12 +10,13 @@ from trame.widgets import vuetify3 as v3
 from trame_pyvista.widgets import PyVistaLocalView
 
 from pipeline.studio.look import FIELD, WIDE, Actions
-from pipeline.studio.sheets import candidates, plan, rig, rivals
+from pipeline.studio.sheets import candidates, laws, plan, rig, rivals
 from reports.shading import MISFIT
 
 TABS = (
     ("data", "Measured and predicted", ""),
     ("rivals", "Sets that fit alike", "rivals.length"),
+    ("laws", "Laws", "laws.length"),
     ("rig", "Rig and readings", ""),
     ("candidates", "Candidates", "candidates.length"),
     ("plan", "What these tests can show", ""),
@@ -31,6 +32,7 @@ def right(actions: Actions, plotter: Any, views: dict[str, Any]) -> None:
     made: dict[str, Callable[[], None]] = {
         "data": lambda: _data(actions, plotter, views),
         "rivals": lambda: rivals(actions, views),
+        "laws": laws,
         "rig": lambda: rig(actions),
         "candidates": candidates,
         "plan": lambda: plan(views),

@@ -55,7 +55,7 @@ def rivals(actions: Actions, views: dict[str, Any]) -> None:
                 raw_attrs=[":aria-label=\"'Take ' + it.title\""],
                 **BUTTON,
             )
-    html.H2("{{ test }}, {{ channel }}: all of them beside what was measured")
+    html.H2("{{ test }}, {{ channel }}: beside what was measured")
     views["rivals"] = plotly.Figure(**WIDE, style="height: 440px; width: 100%;")
 
 
@@ -119,9 +119,26 @@ def rig(actions: Actions) -> None:
                 html.Th(head)
         with html.Tbody(), html.Tr(v_for="row in sigmas"):
             html.Td("{{ cell }}", v_for="cell in row")
-    with html.Div(v_if=("laws.length",), id="laws"):
-        html.H2("Laws found in what is left")
-        html.P("{{ law }}", v_for="law in laws", classes="small")
+
+
+def laws() -> None:
+    """What was found beyond the catalogue: where, by which law, and the picture of it."""
+    html.P(
+        "What follows a law at a place of the linkage, whatever its effect is called. discover writes it as an effect.",
+        classes="mt-2",
+    )
+    with html.Div(v_for="(law, k) in laws", key="k", classes="rival mb-3"):
+        html.H3("{{ law.title }}")
+        html.Code("{{ law.site }}")
+        html.P("{{ law.said }}", classes="small")
+        html.P("{{ law.equation }}", v_if=("law.equation",))
+        html.P("{{ value }}", v_for="value in law.values", classes="small")
+        html.Img(
+            v_if=("law.picture",),
+            src=("law.picture",),
+            raw_attrs=[":alt=\"'law at ' + law.title\""],
+            style="max-width: 100%;",
+        )
 
 
 def candidates() -> None:

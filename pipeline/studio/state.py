@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from base64 import b64encode
 from pathlib import Path
 from typing import Any
 
 from pipeline.campaign.reading import DESCRIPTION
+from pipeline.law_record import LawFound
 from pipeline.page.record import Page, RivalPage, TestPage
 from pipeline.parameter_names import parted
 from pipeline.studio.planning import planning
@@ -16,6 +18,7 @@ from reports.campaign import tables, words
 from reports.campaign.doubt import mistakes
 from reports.campaign.names import channel_label, measured, test_label, unit_label
 from reports.formats import number
+from reports.laws import law_picture
 from reports.load import Json
 from reports.quantities import estimate, phrase, sigma
 
@@ -94,7 +97,7 @@ def _of_page(session: Session, page: Page) -> dict[str, Any]:
             ]
             for it in page.sigmas
         ],
-        "laws": [f"{it.where}: {it.equation or it.shape}" for it in page.laws],
+        "laws": [_law(page, it) for it in page.laws],
         "map_height": f"{max(330, HEAD + ROW * len(page.tests))}px",
     }
 
@@ -169,6 +172,22 @@ def _rival(session: Session, page: Page, it: RivalPage, at: int) -> dict[str, An
         "fit": f"fitted {sigma(it.error.fit)} sigma{_held(it)}",
         "values": [_value(value) for value in it.parameters.values()],
         "open": at < len(session.proposals),
+    }
+
+
+def _law(page: Page, it: LawFound) -> dict[str, Any]:
+    """What was found where, and its picture as an address that holds it."""
+    png = b"" if it.curve is None else law_picture(page.campaign, it.model_dump())
+    return {
+        "title": words.capital(it.where),
+        "site": it.site,
+        "said": f"The readings say of it: {it.shape}.",
+        "equation": it.equation or "",
+        "values": [
+            phrase(name, estimate(value.model_dump()), value.unit, number)
+            for name, value in it.parameters.items()
+        ],
+        "picture": f"data:image/png;base64,{b64encode(png).decode('ascii')}" if png else "",
     }
 
 

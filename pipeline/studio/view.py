@@ -220,7 +220,7 @@ class Studio:
                 continue
             stages = ("before", "after") if page.effects else ("before",)
             self.views["curve"].update(filling(curve.figure(test.model_dump(), it.model_dump(), LOW, stages)))
-            if len(every) > 1:
+            if every:
                 names = [words.set_of(each.page.effects, page.titles) for each in every]
                 curves = [test_of(each.page, self.state.test).curves[k].model_dump() for each in every]
                 self.views["rivals"].update(Drawn(rivals_plot.figure(names, test.model_dump(), curves)))
