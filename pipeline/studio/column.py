@@ -26,6 +26,12 @@ def left(actions: Actions, views: dict[str, Any]) -> None:
             html.H2("Next step")
             html.P("{{ said }}", v_for="said in next", classes="small")
         _model(actions)
+        with html.Div(v_if=("nearest.length",), id="nearest"):
+            html.H2("Looked at, and not chosen")
+            with html.Div(v_for="it in nearest", key="it.name", classes="small mb-1"):
+                html.Span("{{ it.title }}")
+                html.Code("{{ it.name }}")
+                html.Div("{{ it.why }}", classes="ml-3")
         with html.Details(v_if=("sentences.length",), id="why"):
             html.Summary("Why")
             html.P("{{ said }}", v_for="said in sentences", classes="small")

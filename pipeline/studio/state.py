@@ -22,6 +22,8 @@ from reports.laws import law_picture
 from reports.load import Json
 from reports.quantities import estimate, phrase, sigma
 
+NEAREST = 6
+"""Candidates that were not chosen and are shown beside the model."""
 DEEP = 3
 """Folders below the present one in which campaigns are looked for."""
 ROW, HEAD = 15, 90
@@ -61,6 +63,7 @@ EMPTY: dict[str, Any] = {
     "mistakes": [],
     "sentences": [],
     "candidates": [],
+    "nearest": [],
     "rivals": [],
     "tolerances": [],
     "set_aside": [],
@@ -85,6 +88,7 @@ def _of_page(session: Session, page: Page) -> dict[str, Any]:
         "mistakes": mistakes(record),
         "sentences": words.others(record) if page.diagnosed else [],
         "candidates": [_candidate(it) for it in record["candidates"]],
+        "nearest": [_candidate(it) for it in record["candidates"] if not it["chosen"]][:NEAREST],
         "rivals": [_rival(session, page, it, k) for k, it in enumerate(page.rivals)],
         "tolerances": _tolerances(session, page),
         "set_aside": [[it.test, it.step, it.column, sigma(it.sigma)] for it in page.set_aside],

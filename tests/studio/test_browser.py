@@ -147,7 +147,7 @@ EMPTY_SHARE = """() => {
     range.selectNodeContents(words.currentNode);
     [...range.getClientRects()].forEach(mark);
   }
-  const drawn = "canvas, svg.main-svg .plot, button, input, .v-field, .bars span[style*='absolute']";
+  const drawn = "canvas, svg.main-svg .nsewdrag, button, input, .v-field, .bars span[style*='absolute']";
   [...document.querySelectorAll(drawn)].filter(shown).forEach((it) => mark(it.getBoundingClientRect()));
   return 1 - filled.reduce((sum, it) => sum + it, 0) / filled.length;
 }"""
@@ -266,7 +266,7 @@ def test_plan_before_measuring_a_dropped_mistake_and_a_manipulator_without_a_mou
 
 
 @pytest.mark.long
-@pytest.mark.parametrize("size", [(1280, 900), (1920, 1080)])
+@pytest.mark.parametrize("size", [(1280, 900), (1920, 1080)], ids=["1280", "1920"])
 def test_the_whole_story_on_the_example_by_keyboard_alone(tmp_path: Path, size: tuple[int, int]) -> None:
     """First page, one key to a diagnosed bench, back and forth, accept, save, the report by its link."""
     with studio(tmp_path) as url, browser() as found:
