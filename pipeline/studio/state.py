@@ -84,7 +84,7 @@ def _of_page(session: Session, page: Page) -> dict[str, Any]:
         "bars": str(bars.html(tables.bars(record))),
         "effects": [_effect(page, name) for name in page.effects],
         "certain": words.sure(record),
-        "next": [it.words for it in page.following],
+        "next": _next(session, page),
         "mistakes": mistakes(record),
         "sentences": words.others(record) if page.diagnosed else [],
         "candidates": [_candidate(it) for it in record["candidates"]],
@@ -116,6 +116,13 @@ def _standing(session: Session) -> str:
     if session.proposals:
         return "Bars, map and curves show the model before. What was found is kept beside it."
     return "Not saved yet." if session.dirty else ""
+
+
+def _next(session: Session, page: Page) -> list[str]:
+    """What to do next; of a model that was accepted no longer that."""
+    if session.dirty and session.proposal is None and page.effects:
+        return ["Save model keeps it with the campaign."]
+    return [it.words for it in page.following]
 
 
 def tests(page: Page) -> list[str]:

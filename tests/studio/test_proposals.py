@@ -85,6 +85,7 @@ def test_what_is_proposed_is_shown_and_back_shows_what_was(session: Session) -> 
     assert session.page is session.shown is not before
     assert session.page is not None and session.page.effects == SETS[0]
     assert session.dirty and session.model == " + ".join(SETS[0]) and not session.proposals
+    assert panel(session)["next"] == ["Save model keeps it with the campaign."]
     same(session)
 
 
