@@ -303,7 +303,7 @@ def test_the_whole_story_on_the_example_by_keyboard_alone(tmp_path: Path, size: 
         with page.context.expect_page() as opening:
             page.locator("#report").press("Enter")
         opening.value.locator(".lead", has_text=told).wait_for()
-    report = (tmp_path / "results" / "example" / "report.md").read_text(encoding="utf-8")
+    report = (tmp_path / "results" / "bench" / "report.md").read_text(encoding="utf-8")
     assert "explains too little" in report and "isolability.png" in report
     assert read_model_file(tmp_path / "results" / "example" / "model.toml").model.names[1] == "joint_friction"
 
