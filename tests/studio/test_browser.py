@@ -26,9 +26,9 @@ from tests.pipeline.bench import bench
 from tests.pipeline.diagnose.bench import AXIAL
 from tests.pipeline.diagnose.bench import bench as small_bench
 from tests.pipeline.inference import manipulators
-from tests.reports import axe
 from tests.reports.browser import NEEDS_BROWSER, browser, thread_seconds
 from tests.studio.ahead import unmeasured
+from tests.studio.seen import EMPTY_AT_MOST, FIRST_PAGE, VERDICT, empty_share, shows, worked
 
 FOCUS = """() => {
   const it = document.activeElement, look = getComputedStyle(it);
@@ -127,60 +127,6 @@ def focused(page: Any) -> list[str]:
 def sigma(page: Any) -> float:
     """The error of the fitted tests that the last bars say."""
     return float(re.findall(r"fitted\s+([\d.]+)", page.locator("#bars").inner_text())[-1])
-
-
-EMPTY_SHARE = """() => {
-  const size = 12, reach = 30, wide = Math.ceil(innerWidth / size), high = Math.ceil(innerHeight / size);
-  const filled = new Uint8Array(wide * high);
-  const mark = ({ left, top, right, bottom }) => {
-    if (right <= left || bottom <= top) return;
-    const [x0, x1] = [left - reach, right + reach].map((x) => Math.min(Math.max(Math.round(x / size), 0), wide));
-    const [y0, y1] = [top - reach, bottom + reach].map((y) => Math.min(Math.max(Math.round(y / size), 0), high));
-    for (let y = y0; y < y1; y++) filled.fill(1, y * wide + x0, y * wide + x1);
-  };
-  const shown = (it) => !it.closest(".away") && getComputedStyle(it).visibility !== "hidden";
-  const words = document.createTreeWalker(document.body, NodeFilter.SHOW_TEXT);
-  while (words.nextNode()) {
-    const { parentElement: holder } = words.currentNode;
-    if (!words.currentNode.data.trim() || ["SCRIPT", "STYLE"].includes(holder.tagName) || !shown(holder)) continue;
-    const range = document.createRange();
-    range.selectNodeContents(words.currentNode);
-    [...range.getClientRects()].forEach(mark);
-  }
-  const drawn = "canvas, svg.main-svg .nsewdrag, button, input, .v-field, .bars span[style*='absolute']";
-  [...document.querySelectorAll(drawn)].filter(shown).forEach((it) => mark(it.getBoundingClientRect()));
-  return 1 - filled.reduce((sum, it) => sum + it, 0) / filled.length;
-}"""
-"""Share of the window that is farther than 30 pixels, the usual gutter, from any word, plot, picture or control."""
-EMPTY_AT_MOST = 0.15
-FIRST_PAGE, VERDICT = 2.0, 20.0
-"""Seconds that are promised."""
-
-
-def empty_share(page: Any) -> float:
-    """Of the window."""
-    return float(page.evaluate(EMPTY_SHARE))
-
-
-def shows(page: Any) -> None:
-    """Nothing on the page keeps somebody from reading or working it, as far as axe sees; where it is installed."""
-    if axe.SPEC is not None:
-        assert axe.findings(page) == []
-
-
-def worked(root: int) -> float:
-    """Seconds of processor time of all processes below one."""
-    table = subprocess.run(
-        ["ps", "-eo", "pid=,ppid=,cputimes=,comm="], capture_output=True, text=True, check=True
-    )
-    rows = [line.split(None, 3) for line in table.stdout.splitlines()]
-    below, seconds = {root}, 0.0
-    for _ in range(5):
-        below |= {int(row[0]) for row in rows if int(row[1]) in below}
-    for pid, _, spent, name in rows:
-        if int(pid) in below and "python" in name:
-            seconds += float(spent)
-    return seconds
 
 
 def outside(requests: list[str]) -> list[str]:
