@@ -16,10 +16,11 @@ class Column:
 
 @dataclass(frozen=True)
 class Cell:
-    """A cell's text and a small remark after it."""
+    """A cell's text, a small remark after it, and the name that a program knows it by, smaller still."""
 
     text: str
     mark: str = ""
+    code: str = ""
 
     @property
     def whole(self) -> str:
@@ -128,7 +129,61 @@ class Explorer:
     pictures: Sequence[Figure] = ()
 
 
-Block = Tables | Text | Bullets | Code | Figure | Gallery | Table | Lead | Explorer
+@dataclass(frozen=True)
+class Bar:
+    """A row of `Bars`. code: the name that a program knows it by. values: one for each of the series; None: none."""
+
+    label: str
+    code: str
+    values: Sequence[float | None]
+
+
+@dataclass(frozen=True)
+class Bars:
+    """Errors in sigmas as bars on a logarithmic scale; the line at 1 is noise. series: their names."""
+
+    series: Sequence[str]
+    rows: Sequence[Bar]
+
+
+@dataclass(frozen=True)
+class Heading:
+    """A heading inside a section."""
+
+    text: str
+
+
+@dataclass(frozen=True)
+class Columns:
+    """Blocks side by side where there is room, else below each other."""
+
+    left: Sequence["Block"]
+    right: Sequence["Block"]
+
+
+@dataclass(frozen=True)
+class Details:
+    """What is opened by those who want to know; Markdown has it in full."""
+
+    title: str
+    blocks: Sequence["Block"]
+
+
+Block = (
+    Tables
+    | Text
+    | Bullets
+    | Code
+    | Figure
+    | Gallery
+    | Table
+    | Lead
+    | Explorer
+    | Bars
+    | Heading
+    | Columns
+    | Details
+)
 
 
 @dataclass(frozen=True)

@@ -56,7 +56,7 @@ def posture(ax: Axes, length: float, width: float, angle: float) -> None:
     top = [(0.0, half), (tip[0], tip[1] + half)]
     dimension(ax, top[0], top[1], 40 * unit, f"L = {length:g} mm", 11 * unit)
     ax.texts[-1].set_rotation(-angle)
-    dimension(ax, (tip[0], tip[1] + half), (tip[0], tip[1] - half), 76 * unit, f"d = {width:g} mm", 11 * unit)
+    dimension(ax, (tip[0], tip[1] + half), (tip[0], tip[1] - half), 76 * unit, f"d = {width:g} mm", 17 * unit)
     ax.texts[-1].set_rotation(90)
     ax.set_title(f"q = {angle:g}°", loc="left", fontsize=12, color=INK)
     ax.set_aspect("equal")
@@ -81,7 +81,9 @@ def joints(ax: Axes, tip: Point, half: float, unit: float) -> None:
     for bar, side in ((1, -1), (2, 1)):
         z, drop = side * half, side * 13 * unit
         ax.text(-5 * unit, z + drop, f"$q_{{{bar}1}}$", ha="right", va="center", color=FAINT)
-        ax.text(tip[0] + 9 * unit, tip[1] + z + drop, f"$q_{{{bar}2}}$", ha="left", va="center", color=FAINT)
+        # Where neither a bar nor the lines of the dimensions run: beside the platform, between its ends.
+        near = tip[1] + z - side * 15 * unit
+        ax.text(tip[0] + 8 * unit, near, f"$q_{{{bar}2}}$", ha="left", va="center", color=FAINT)
     ax.add_patch(Circle(tip, 3.6 * unit, fc=ACCENT, ec="white", lw=1.0, zorder=6))
     label = f"platform point\n({tip[0]:.4g}, 0, {tip[1]:.4g}) mm".replace("-", "\u2212")
     ax.text(tip[0], tip[1] - half - 24 * unit, label, ha="center", va="top", color=ACCENT)

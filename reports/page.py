@@ -2,7 +2,7 @@
 
 import base64
 import json
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -11,7 +11,8 @@ from jinja2 import Environment, FileSystemLoader, StrictUndefined
 from markupsafe import Markup
 from plotly.offline import get_plotlyjs
 
-from reports.blocks import Explorer, Figure, Section
+from reports import bars
+from reports.blocks import Block, Columns, Details, Explorer, Figure, Section
 from reports.pooling import pooled
 
 TEMPLATES = Path(__file__).parent / "templates"
@@ -20,6 +21,34 @@ CONFIG = {"responsive": True, "displaylogo": False}
 
 def render(title: str, sections: Sequence[Section], template: str = "validation.html.j2") -> str:
     """The HTML text; the same sections give the same bytes."""
+    page = _environment().get_template(template)
+    return page.render(title=title, sections=sections, plotlyjs=Markup(get_plotlyjs())) + "\n"
+
+
+def screen(section: Section) -> str:
+    """One section as a piece of HTML for another page, with all that it needs: no script, nothing from outside.
+
+    ValueError for a section with a plot, which needs a script.
+    """
+    if any(
+        isinstance(it, Explorer) or getattr(it, "plot", None) is not None
+        for it in every_block(section.blocks)
+    ):
+        raise ValueError(f"the section {section.title!r} has a plot, allowed are drawings and pictures")
+    return _environment().get_template("first_screen.html.j2").render(section=section) + "\n"
+
+
+def every_block(blocks: Sequence[Block]) -> Iterator[Block]:
+    """Blocks, and those inside of blocks."""
+    for it in blocks:
+        yield it
+        if isinstance(it, Columns):
+            yield from every_block([*it.left, *it.right])
+        elif isinstance(it, Details):
+            yield from every_block(it.blocks)
+
+
+def _environment() -> Environment:
     environment = Environment(
         loader=FileSystemLoader(TEMPLATES),
         autoescape=True,
@@ -31,8 +60,8 @@ def render(title: str, sections: Sequence[Section], template: str = "validation.
     environment.filters["picture"] = picture
     environment.filters["explorer"] = explorer
     environment.filters["height"] = height
-    page = environment.get_template(template)
-    return page.render(title=title, sections=sections, plotlyjs=Markup(get_plotlyjs())) + "\n"
+    environment.filters["bars"] = bars.html
+    return environment
 
 
 def picture(figure: Figure) -> Markup:
@@ -40,7 +69,8 @@ def picture(figure: Figure) -> Markup:
     if figure.plot is not None:
         return plotted(f"plot-{figure.name}", figure.plot)
     if figure.svg:
-        return Markup(figure.svg)
+        said = Markup('<svg role="img" aria-label="{}" ').format(figure.caption)
+        return said + Markup(figure.svg.removeprefix("<svg "))
     data = base64.b64encode(figure.png).decode("ascii")
     return Markup('<img alt="{}" src="data:image/png;base64,{}">').format(figure.caption, data)
 

@@ -1,14 +1,33 @@
 """The report's story: which sections it has, in which order, and what each of them shows."""
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from typing import Any
 
 from reports import plots, tables_bar, tables_linkage, tables_orthoglide, tables_record, tables_yield
-from reports.blocks import Block, Bullets, Code, Figure, Gallery, Section, Table, Tables, Text
+from reports.blocks import (
+    Block,
+    Bullets,
+    Code,
+    Columns,
+    Details,
+    Figure,
+    Gallery,
+    Section,
+    Table,
+    Tables,
+    Text,
+)
 from reports.load import Json
 from reports.shapes import supports_of
 
 Drawing = tuple[str, bytes]
+FIRST = 5
+"""Findings that are seen at once."""
+AGREEMENT = (
+    "Solid, frame, refined springs and LIN under the same conditions at one angle, tension to the left; below, the "
+    "difference of each to the solid. The grey band is the mesh error of the solid past its critical load."
+)
 WARNED = "Figures of this report that belong together are farther apart than their stated band. Do not rely on them."
 
 
@@ -17,7 +36,7 @@ def build(result: Json, drawings: Mapping[str, Drawing], shapes: Any, stressed: 
     `stressed`: plot of the bent linkages, or None."""
     parts = [
         *warnings(result),
-        Section("findings", "Findings", [Bullets(result["story"]), Tables([tables_record.run(result)])]),
+        findings(result, drawings),
         linkage(result, drawings),
         bar(result, drawings),
         convergence(result, drawings),
@@ -28,7 +47,26 @@ def build(result: Json, drawings: Mapping[str, Drawing], shapes: Any, stressed: 
     ]
     if result["orthoglide"]:
         parts.append(orthoglide(result))
-    return [*parts, errata(result), record(result)]
+    if result["errata"]:
+        parts.append(errata(result))
+    return [_named(part, bool(result["errata"])) for part in (*parts, record(result))]
+
+
+def _named(part: Section, paper: bool) -> Section:
+    """Figures and equations of the paper are named where the case is the paper's."""
+    return part if paper else replace(part, title=part.title.partition(" (")[0])
+
+
+def findings(result: Json, drawings: Mapping[str, Drawing]) -> Section:
+    """What is to be seen without scrolling: the first findings and a picture; the others are folded."""
+    story = result["story"]
+    right: list[Block] = [drawn("agreement", AGREEMENT, drawings)] if "agreement" in drawings else []
+    more: list[Block] = [Tables([tables_record.run(result)])]
+    if story[FIRST:]:
+        more.insert(0, Bullets(story[FIRST:]))
+    first: list[Block] = [Bullets(story[:FIRST])]
+    shown = Columns(first, right) if right else first[0]
+    return Section("findings", "Findings", [shown, Details("All findings, and the run", more)])
 
 
 def warnings(result: Json) -> list[Section]:
@@ -67,7 +105,8 @@ def bar(result: Json, drawings: Mapping[str, Drawing]) -> Section:
     small += [tables_bar.laws(part), tables_bar.quality(part), tables_bar.leftover(part)]
     if part.get("solve"):
         small.append(tables_bar.solve(part))
-    return Section("bar", "The bar and its stiffness (Eq. 12)", [*blocks, Tables(small)])
+    more = Details("Geometry, material and quality of the mesh", [Tables(small)])
+    return Section("bar", "The bar and its stiffness (Eq. 12)", [*blocks, more])
 
 
 def convergence(result: Json, drawings: Mapping[str, Drawing]) -> Section:
@@ -77,10 +116,10 @@ def convergence(result: Json, drawings: Mapping[str, Drawing]) -> Section:
         "freedom, with the observed order in the element size; the dashed line is the working mesh."
     )
     figure = drawn("convergence", caption, drawings, plots.convergence(result))
-    blocks: list[Block] = [figure, tables_bar.convergence(result["bar"])]
+    more: list[Block] = [tables_bar.convergence(result["bar"])]
     if result.get("refinement"):
-        blocks.append(tables_linkage.refinement(result))
-    return Section("convergence", "Convergence", blocks)
+        more.append(tables_linkage.refinement(result))
+    return Section("convergence", "Convergence", [figure, Details("Meshes, values and orders", more)])
 
 
 def buckling(result: Json, drawings: Mapping[str, Drawing], shapes: Any) -> Section:
@@ -163,11 +202,7 @@ def force_deflection(result: Json, drawings: Mapping[str, Drawing]) -> Section:
         name = "force_deflection" if index == 0 else f"force_deflection_{index + 1}"
         blocks.append(drawn(name, caption, drawings if index == 0 else {}, plot))
     if "agreement" in drawings:
-        caption = (
-            "Solid, frame, refined springs and LIN under the same conditions at one angle, tension to the left; below, "
-            "the difference of each to the solid. The grey band is the mesh error of the solid past its critical load."
-        )
-        blocks += [drawn("agreement", caption, drawings), Bullets(result["agreement"])]
+        blocks.append(Bullets(result["agreement"]))
     notes = list(dict.fromkeys(curve["note"] for curve in result["curves"] if curve["note"]))
     if notes:
         blocks.append(Bullets(notes))

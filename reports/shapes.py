@@ -98,8 +98,8 @@ def read(folder: Path, result: Json, supports: str) -> Shapes | None:
         solid = pyvista.read(path)
     except Exception as error:
         raise ReportError(f"{path} is not a readable VTU file: {error}") from None
-    # Faces of the quadratic cells are drawn by their corners: the page need not carry the mid-side nodes.
-    surface = solid.extract_surface(nonlinear_subdivision=0, algorithm="dataset_surface").triangulate()
+    # Faces of the quadratic cells are curved: by their corners alone a bent bar would be a polygon.
+    surface = solid.extract_surface(nonlinear_subdivision=1, algorithm="dataset_surface").triangulate()
     modes = []
     for item in solid_modes(result):
         key = f"mode_{item['mode']}"

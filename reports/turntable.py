@@ -23,10 +23,10 @@ COLOUR_BAR = {
 # Plotly leaves faces below the epsilon, such as the small ones beside a lug, without light.
 LIGHT = {"ambient": 0.6, "diffuse": 0.6, "specular": 0.0, "facenormalsepsilon": 0}
 
-POINTS = 2000
+POINTS = 4000
 """Most points of a swept surface in the page; a finer one is thinned along the bar."""
 
-BUDGET = 60_000
+BUDGET = 45_000
 """Most points of all modes together, some 30 bytes each; beyond it the higher modes are left out."""
 
 

@@ -30,7 +30,7 @@ def init(folder: Path, file: Path | None, kind: str, known: str | None = None) -
             f"--from is the bar of a bar or a parallelogram, a {kind} is described in its own file"
         )
     bar = None if known is None else known_bar(known)
-    found = None if file is None else _found(file)
+    found = None if file is None else found_in(file)
     folder.mkdir(parents=True, exist_ok=True)
     if file is not None and found is not None:
         copy = folder / file.name
@@ -50,7 +50,8 @@ def init(folder: Path, file: Path | None, kind: str, known: str | None = None) -
     print(f"next: {command('check', folder)}")
 
 
-def _found(file: Path) -> Found:
+def found_in(file: Path) -> Found:
+    """What a file says by itself. InputError for one that cannot be read."""
     try:
         return looked(file)
     except FileNotFoundError:

@@ -23,6 +23,8 @@ NAMES = {"\t": "tab", " ": "space"}
 ENCODINGS = ("utf-8", "cp1252")
 REMARKS = ("#", "%", "//")
 MOST_TESTS = 50
+SHOWN = 4
+"""Values by which a column is recognised."""
 LOOKED_AT = 2000
 """Lines."""
 _NUMBER = re.compile(r"[+-]?(?:\d{1,3}(?:[.,' ]\d{3})+(?:[.,]\d*)?|\d+(?:[.,]\d*)?|[.,]\d+)(?:[eE][+-]?\d+)?")
@@ -37,7 +39,8 @@ class Found:
     readings. question: what to ask then. merged: columns with a word in their first row and nothing in most others.
     others: lines among the data that are not like them. sheets: of a workbook with several that hold numbers.
     comment: what the header of a text begins with, as a remark does; None where it does not. still: columns with one
-    word throughout. tests: words of the column that names the test of each row, in their order.
+    word throughout. tests: words of the column that names the test of each row, in their order. samples: a few values
+    of each column.
     """
 
     encoding: str
@@ -56,6 +59,7 @@ class Found:
     comment: str | None = None
     still: tuple[str, ...] = ()
     tests: tuple[str, ...] = ()
+    samples: tuple[str, ...] = ()
 
 
 def looked(path: Path) -> Found:
@@ -156,6 +160,7 @@ def _of_rows(rows: list[tuple[Cell, ...]], encoding: str, separator: str | None,
         still=tuple(
             names[k] for k in range(width) if _still([row[k] for row in rows[first:] if len(row) > k])
         ),
+        samples=tuple(_samples([row[k] for row in rows[first:] if len(row) > k]) for k in range(width)),
         tests=_tests(names, units, [row for row in rows[first:] if len(row) == width and _numbers(row)]),
     )
 
@@ -168,6 +173,12 @@ def _tests(names: tuple[str, ...], units: tuple[str, ...], rows: list[tuple[Cell
     found = dict.fromkeys(word(row[columns[0]]) for row in rows)
     found.pop("", None)
     return tuple(found) if len(found) <= MOST_TESTS else ()
+
+
+def _samples(column: list[Cell]) -> str:
+    """The first few words of a column, and its last."""
+    words = [word(cell) for cell in column if word(cell)]
+    return ", ".join(words if len(words) <= SHOWN else [*words[: SHOWN - 1], "...", words[-1]])
 
 
 def _still(column: list[Cell]) -> bool:

@@ -18,14 +18,15 @@ from pipeline.inference.program import Program, program
 from pipeline.inference.sigmas import completed
 from pipeline.inference.suitable import Known, check_suitable
 from pipeline.page.curves import rig_of, tests_of
-from pipeline.page.record import CandidatePage, EffectPage, Isolability, Page, Sigma
+from pipeline.page.record import CandidatePage, EffectPage, Isolability, Page, RivalPage, Sigma
 from pipeline.page.stages import Stages, stages
-from pipeline.page.words import SOURCES, assumptions, reading, why
+from pipeline.page.words import SOURCES, assumptions, following, reading, tolerances_of, why
 from pipeline.parameter_names import path_of
 from pipeline.provenance import commit, versions
 from pipeline.value import Value
 from reports.quantities import sigma
 from vjm.effects import effect_of
+from vjm.effects.base import Effect
 
 Say = Callable[[str], None]
 
@@ -33,7 +34,9 @@ Say = Callable[[str], None]
 @dataclass(frozen=True, eq=False)
 class Subject:
     """What a page is about. uncertainty: of the model's numbers, as its file has it. answer: of a diagnosis that
-    began with this model, if there was one; isolability: found with it."""
+    began with this model, if there was one; isolability, rivals: found with it. given: the campaign as it was
+    written, where the diagnosis took its readings otherwise. fitted: the model of the answer, where it is at hand with
+    all that was fitted beside its effects."""
 
     campaign: Campaign
     model: Model
@@ -41,12 +44,15 @@ class Subject:
     uncertainty: Mapping[str, Uncertainty]
     answer: Answer | None = None
     isolability: Isolability | None = None
+    rivals: tuple[RivalPage, ...] = ()
+    given: Campaign | None = None
+    fitted: Model | None = None
 
 
 def collect(it: Subject, commands: tuple[str, ...] = (), say: Say = lambda _: None) -> Page:
     """The page of a model that is as saved, or as the diagnosis leaves it. InputError for what does not fit."""
     whole = completed(it.campaign)
-    model = it.model if it.answer is None else proposed(it.model, it.answer, it.known)
+    model = shown_model(it)
     check_suitable([term.effect for term in model.terms], whole)
     cases = program(whole)
     found = stages(model, cases, say)
@@ -74,6 +80,15 @@ def collect(it: Subject, commands: tuple[str, ...] = (), say: Say = lambda _: No
         nominals=answer.nominals,
         set_aside=answer.set_aside,
         noise=answer.noise,
+        titles=_titles(answer, model, known),
+        certain=answer.certain,
+        alternatives=answer.alternatives,
+        rivals=it.rivals,
+        zeros=answer.zeros,
+        laws=answer.laws,
+        not_done=answer.not_done,
+        following=tuple(following(whole, answer, it.answer is not None)),
+        tolerances=tuple(tolerances_of(whole)),
         isolability=it.isolability,
         next_test=answer.next_test,
         catalogue=tuple(
@@ -87,13 +102,20 @@ def collect(it: Subject, commands: tuple[str, ...] = (), say: Say = lambda _: No
             )
             for e in catalogue
         ),
-        sigmas=_sigmas(it.campaign, cases),
+        sigmas=_sigmas(it.given or it.campaign, cases),
         assumptions=(*assumptions(whole, model.names, known), *reading(whole.rig.axes)),
         sources=(*SOURCES, *dict.fromkeys(f"{e.name}: {e.source}." for e in catalogue)),
         commands=commands,
         versions=versions(),
         commit=commit(),
     )
+
+
+def shown_model(it: Subject) -> Model:
+    """As saved, or as a diagnosis leaves it."""
+    if it.answer is None:
+        return it.model
+    return it.fitted or proposed(it.model, it.answer, it.known)
 
 
 def proposed(model: Model, answer: Answer, known: Known) -> Model:
@@ -177,6 +199,14 @@ def _candidates(answer: Answer, known: Known) -> tuple[CandidatePage, ...]:
         )
         for c in answer.candidates
     )
+
+
+def _titles(answer: Answer, model: Model, known: Mapping[str, Effect]) -> dict[str, str]:
+    """In words, every effect that the page names."""
+    sets = (model.names, answer.effects, *answer.alternatives, *answer.out_by_plausibility)
+    names = [name for each in sets for name in each]
+    names += [it.effect for it in answer.certain] + [it.effect for it in answer.candidates]
+    return {name: effect_of(name, known).title for name in dict.fromkeys(names)}
 
 
 def _sigmas(given: Campaign, cases: Program) -> tuple[Sigma, ...]:

@@ -13,7 +13,7 @@ from pipeline.answer import Answer
 from pipeline.campaign import read
 from pipeline.campaign.reading import DESCRIPTION
 from pipeline.command import redraw, usable
-from pipeline.diagnose.diagnosis import diagnose
+from pipeline.diagnose.diagnosis import Diagnosis, diagnose
 from pipeline.diagnose.words import answered
 from pipeline.discover.beyond_catalogue import with_laws
 from pipeline.errors import InputError
@@ -23,6 +23,7 @@ from pipeline.inference.suitable import known_effects
 from pipeline.page.collect import Subject, collect
 from pipeline.page.isolability import attempted_isolability, isolability_anew
 from pipeline.page.record import NAME, Page
+from pipeline.page.rivals import Possible, pages_of, possible
 from pipeline.progress import Progress, Stage
 from pipeline.typed import command
 from vjm.effects import effect_named
@@ -130,8 +131,26 @@ def draw(out: Path, progress: Progress) -> Path:
 def diagnosed(it: Subject, stage: Stage) -> Subject:
     """With the answer of a diagnosis made now."""
     found = with_laws(diagnose(it.campaign, it.model, it.known.effects, stage.say), stage.say)
-    answer = answered(found)
-    return Subject(it.campaign, it.model, it.known, it.uncertainty, answer, attempted_isolability(found))
+    return of_diagnosis(it, found, possible(found, answered(found), stage.say))
+
+
+def of_diagnosis(it: Subject, found: Diagnosis, sets: tuple[Possible, ...]) -> Subject:
+    """With the answer of a diagnosis, on the readings as it took them: what it set aside is in no picture either.
+
+    sets: what it leaves possible, the first of which is shown.
+    """
+    alike, first = attempted_isolability(found), sets[0]
+    return Subject(
+        found.campaign,
+        it.model,
+        it.known,
+        it.uncertainty,
+        first.answer,
+        alike,
+        pages_of(sets),
+        it.campaign,
+        first.model,
+    )
 
 
 def read_answer(path: Path) -> Answer:

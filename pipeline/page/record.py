@@ -9,15 +9,18 @@ from __future__ import annotations
 from typing import Any
 
 from pipeline.answer import (
+    Certain,
     Correlation,
     DoctorFinding,
     FoundNoise,
     ModelError,
     NominalValue,
     SetAside,
-    Value,
+    UnknownZero,
 )
+from pipeline.law_record import LawFound
 from pipeline.record import Record
+from pipeline.value import Value
 
 Numbers = tuple[float | None, ...]
 NAME = "page.json"
@@ -100,6 +103,31 @@ class CandidatePage(Record):
     why: str
 
 
+class RivalPage(Record):
+    """One of several sets of effects that explain the readings alike, with its own numbers. error: what it leaves."""
+
+    effects: tuple[str, ...]
+    error: ModelError
+    parameters: dict[str, Value]
+
+
+class TolerancePage(Record):
+    """By how much something that is written about the rig may be off. key: in [tolerance]. value: one standard
+    deviation in `unit`; 0: exact."""
+
+    key: str
+    words: str
+    unit: str
+    value: float
+
+
+class Following(Record):
+    """Something to do next. command: that does it, "" where none does."""
+
+    words: str
+    command: str = ""
+
+
 class Isolability(Record):
     """How alike effects look in these tests: correlation[i][j] of effect i with the best that effect j can do,
     both free of what the model `about` can move; 1 cannot be told apart. None: effect i does not show. anew: found
@@ -136,7 +164,11 @@ class Page(Record):
 
     effects: of the model, in order; proposed: those of them that a diagnosis adds and the campaign's model lacks.
     error: plain virtual springs and then each effect more, every stage fitted. commands: that make it again.
-    out_by_plausibility: sets that fit as well but need an implausible size.
+    out_by_plausibility: sets that fit as well but need an implausible size. titles: of every effect that is named
+    here, in words. certain: effects that are there whatever the verdict. rivals: the sets of an ambiguous verdict, the
+    simplest first, as far as they were fitted; alternatives: all of them but the first. laws: discovered in what is
+    left. not_done: optional parts that failed, and why. following: what to do next.
+    tolerances: of what is written about the rig.
     """
 
     campaign: str
@@ -159,6 +191,15 @@ class Page(Record):
     nominals: tuple[NominalValue, ...] = ()
     set_aside: tuple[SetAside, ...] = ()
     noise: tuple[FoundNoise, ...] = ()
+    titles: dict[str, str] = {}  # noqa: RUF012 (pydantic copies it)
+    certain: tuple[Certain, ...] = ()
+    alternatives: tuple[tuple[str, ...], ...] = ()
+    rivals: tuple[RivalPage, ...] = ()
+    zeros: tuple[UnknownZero, ...] = ()
+    laws: tuple[LawFound, ...] = ()
+    not_done: tuple[str, ...] = ()
+    following: tuple[Following, ...] = ()
+    tolerances: tuple[TolerancePage, ...] = ()
     isolability: Isolability | None
     next_test: dict[str, Any] | None
     catalogue: tuple[EffectPage, ...]

@@ -7,6 +7,8 @@ from collections.abc import Iterator, Mapping
 from pipeline.answer import Answer, Candidate
 from pipeline.campaign import Campaign
 from pipeline.inference.program import LOST
+from pipeline.page.record import Following, TolerancePage
+from pipeline.typed import command
 from reports.quantities import short, sigma
 from vjm.effects import effect_of
 from vjm.effects.base import Effect
@@ -41,6 +43,63 @@ def why(it: Candidate, answer: Answer) -> str:
     if it.screen <= 1.02 * least:
         return "promises no more than what was chosen without it"
     return f"explains too little: {sigma(it.screen)} sigma would be left, {sigma(least)} are left with what was chosen"
+
+
+TOLERANCES = {
+    "EA": ("axial stiffness EA of the bars", "share"),
+    "EIy": ("bending stiffness EI_y of the bars", "share"),
+    "EIz": ("bending stiffness EI_z of the bars", "share"),
+    "GJ": ("torsional stiffness GJ of the bars", "share"),
+    "ends": ("compliance of the bars' ends", "share"),
+    "bars": ("stiffness of the bars of all parallelograms", "share"),
+    "drives": ("stiffness of all drives", "share"),
+    "links": ("stiffness of all links", "share"),
+    "length_mm": ("length of the bars", "mm"),
+    "width_mm": ("distance of the bars", "mm"),
+    "q_mrad": ("angle of the bars as it was set up", "mrad"),
+}
+"""Keys of [tolerance] in words, and their units."""
+
+
+def tolerances_of(campaign: Campaign) -> Iterator[TolerancePage]:
+    """Of everything that is written about the rig; zero where it is exact."""
+    for key in campaign.rig.written:
+        words, unit = TOLERANCES.get(key, (key, "share"))
+        yield TolerancePage(key=key, words=words, unit=unit, value=campaign.tolerance.get(key, 0.0))
+
+
+def following(campaign: Campaign, answer: Answer, diagnosed: bool) -> Iterator[Following]:
+    """What to do next, in the order in which it is worth doing."""
+    folder = campaign.folder or campaign.name
+    if answer.doctor:
+        yield from (Following(words=f"Mend the table first: {it.mend}.") for it in answer.doctor)
+    elif not diagnosed:
+        if answer.verdict == "unknown":
+            yield Following(words="Look for what is missing.", command=command("diagnose", folder))
+    elif answer.verdict == "identified":
+        added = command("add", folder, *answer.added)
+        yield Following(words="Take what was found into the model.", command=added)
+    elif answer.verdict == "within_noise":
+        yield Following(
+            words="Nothing is missing in these tests: the model can be used as far as they reach."
+        )
+    elif answer.verdict == "unknown":
+        said = "Look where in the linkage the rest sits, and what law it follows."
+        yield Following(words=said, command=command("discover", folder))
+    elif answer.verdict == "ambiguous":
+        yield from _apart(answer)
+
+
+def _apart(answer: Answer) -> Iterator[Following]:
+    """The test that tells the sets apart."""
+    found = answer.next_test
+    if found is None:
+        yield Following(words="No test of the menu tells these sets apart: measure the part itself.")
+        return
+    for said, it in zip(
+        ("Measure", *("Only together with",) * 9), (found, *found["together_with"]), strict=False
+    ):
+        yield Following(words=f"{said}: {it['why']}.")
 
 
 def _behind(evidence: float) -> str:

@@ -2,22 +2,19 @@
 
 from __future__ import annotations
 
-from math import log10
 from typing import Any
 
 import pyvista
-from matplotlib import colormaps
-from matplotlib.colors import to_hex
 
 from pipeline.page.record import TestPage
 from reports.campaign.linkage import lines, scale_of
 from reports.quantities import sigma
+from reports.shading import ATTENTION, MISFIT, colour, share_of
 from reports.shapes import require_egl
 from reports.style import FAINT, INK
 
-TOP = 100.0
-"""Sigmas of the darkest colour; the lightest is noise."""
-SHADES = "cividis_r"
+FINE = "#aab4bd"
+"""Of a misfit that nobody need look at."""
 OF_LEGS = 2.0
 """Times a bar's, the thickness of what is drawn by the lines of its legs: it is some bars wide."""
 
@@ -37,7 +34,7 @@ class Scene:
         scale = scale_of(data)
         misfit = test.misfit_after[step] if test.curves else 1.0
         self._add("nominal", data, None, scale, FAINT, 1.5)
-        self._add("measured", data, test.measured_pose[step], scale, colour(misfit), 4.0)
+        self._add("measured", data, test.measured_pose[step], scale, _shade(misfit), 4.0)
         self._add("predicted", data, test.predicted_pose[step], scale, INK, 1.2)
         said = "no prediction" if misfit is None else f"misfit {sigma(misfit)} sigma"
         if not test.curves:
@@ -51,7 +48,6 @@ class Scene:
         self.plotter.add_mesh(tubes, name=name, color=shade, render=False, reset_camera=False)
 
 
-def colour(misfit: float | None) -> str:
-    """Of a misfit in sigmas, logarithmic from 1 to `TOP`."""
-    share = 1.0 if misfit is None else log10(max(misfit, 1.0)) / log10(TOP)
-    return to_hex(colormaps[SHADES](min(share, 1.0)))
+def _shade(misfit: float | None) -> str:
+    """As on the map, but for what is white there: nothing would be seen."""
+    return FINE if misfit is not None and misfit < ATTENTION else colour(MISFIT, share_of(misfit))

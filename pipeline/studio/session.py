@@ -2,19 +2,25 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from tempfile import TemporaryDirectory
+from typing import Any
 
 from meshes.files import replacing
 from pipeline.answer import Answer
 from pipeline.campaign.reading import DESCRIPTION, MEASUREMENTS
 from pipeline.errors import InputError
 from pipeline.inference.model_file import NAME
+from pipeline.init.choices import Choices
+from pipeline.init.found import Found
 from pipeline.page.command import RESULTS
-from pipeline.page.record import Isolability, Page
+from pipeline.page.record import Page
 from pipeline.plan.record import Plan
-from pipeline.studio.work import Done, Kind, Task
+from pipeline.studio import tolerances
+from pipeline.studio.drop import TABLES, placed, table
+from pipeline.studio.preview import Preview
+from pipeline.studio.work import Done, Kind, Proposal, Task
 from pipeline.studio.worker import Event, Refused, Said, Worker
 
 Listener = Callable[[], None]
@@ -25,6 +31,8 @@ TITLES: dict[Kind, str] = {
     "diagnose": "looking for what is missing",
     "plan": "looking at what these tests show",
     "export": "drawing the report",
+    "look": "looking at the table",
+    "preview": "reading the table",
 }
 
 
@@ -47,31 +55,64 @@ class Session:
         self.model: str | None = None
         self.page: Page | None = None
         self.answer: Answer | None = None
-        self.isolability: Isolability | None = None
-        self.diagnosed: Page | None = None
+        self.proposals: tuple[Proposal, ...] = ()
+        self.choice: int | None = None
         self.plan: Plan | None = None
         self.planned: Page | None = None
         self.names: tuple[tuple[str, str], ...] = ()
         self.dirty = False
+        self.report: Path | None = None
+        self.file: Path | None = None
+        self.found: Found | None = None
+        self.preview: Preview | None = None
+        self.tolerance: tuple[tuple[str, float], ...] | None = None
+        self._then = False
         self.complaint = self.remark = self.progress = ""
 
     @property
-    def headline(self) -> str:
-        """The verdict on the model as it stands: that of a diagnosis, if there was one of this very model."""
-        if self.page is None:
-            return ""
-        if self.answer is not None and self.diagnosed is self.page:
-            return self.answer.sentences[0]
-        return self.page.headline
+    def proposal(self) -> Proposal | None:
+        """What is shown of a diagnosis and is not accepted yet."""
+        return None if self.choice is None else self.proposals[self.choice]
+
+    @property
+    def shown(self) -> Page | None:
+        """What headline, pictures and numbers are of: a proposal, or the model as it stands."""
+        proposal = self.proposal
+        return self.page if proposal is None else proposal.page
 
     @property
     def busy(self) -> Kind | None:
         """What is being done."""
         return None if self._task is None else self._task.kind
 
-    def open(self, folder: Path) -> None:
-        """Read a campaign and the model that is kept with it."""
-        self._begin(Task("open", folder, self._at, effects_from=self._effects_from))
+    def open(self, folder: Path, diagnosing: bool = False) -> None:
+        """Read a campaign and the model that is kept with it; diagnosing: and look for what is missing at once."""
+        self.tolerance = None
+        if self._begin(Task("open", folder, self._at, effects_from=self._effects_from)):
+            self._then = diagnosing
+
+    def look(self, files: Sequence[dict[str, Any]]) -> None:
+        """Look at a table that was dropped."""
+        try:
+            self.file = table(files, self._at / "table")
+        except InputError as error:
+            self.complaint = str(error)
+            self._changed()
+            return
+        self.found = self.preview = None
+        self._begin(Task("look", self._at, self._at, file=self.file))
+
+    def read_table(self, choices: Choices) -> None:
+        """Read the table with what its owner says of it, to be looked at."""
+        self.preview = None
+        self._begin(Task("preview", self._at, self._at, file=self.file, choices=choices))
+
+    def make(self, name: str) -> None:
+        """Make the table that was looked at a campaign of its own, and open it."""
+        if self.file is None or self.preview is None or self._task is not None:
+            return
+        files = {path.name: path.read_bytes() for path in (self.file, self.file.parent / DESCRIPTION)}
+        self.open(placed(files, name, TABLES))
 
     def add(self, names: Sequence[str]) -> None:
         """Add effects and fit."""
@@ -85,19 +126,71 @@ class Session:
         """Look for what is missing, from the model as it stands."""
         self._change("diagnose", ())
 
+    def choose(self, number: int) -> None:
+        """Show one of the sets of a diagnosis."""
+        if self._task is None and 0 <= number < len(self.proposals):
+            self.choice = number
+            self._changed()
+
+    def back(self) -> None:
+        """Show the model as it stands again; what a diagnosis proposes stays at hand."""
+        self.choice = None
+        self._changed()
+
+    def accept(self) -> None:
+        """Make what is proposed the model."""
+        taken = self.proposal
+        if taken is None or self._task is not None:
+            return
+        self.page, self.model, self._kept, self.answer = taken.page, taken.model, taken.kept, taken.answer
+        self.proposals, self.choice, self.dirty = (), None, True
+        self.remark = "accepted; Save model keeps it with the campaign"
+        self._changed()
+
+    def tolerate(self, texts: Mapping[str, str]) -> None:
+        """Take tolerances of the rig as they were typed: from the next diagnosis on they count. Nothing is written."""
+        if self.page is None or self._task is not None:
+            return
+        self.complaint = self.remark = ""
+        try:
+            self.tolerance = tolerances.typed(texts, self.page.tolerances)
+        except InputError as error:
+            self.complaint = str(error)
+        else:
+            self.remark = (
+                "Diagnose looks again with these tolerances; Save tolerances writes them in campaign.toml"
+            )
+        self._changed()
+
+    def save_tolerances(self) -> None:
+        """Write them in campaign.toml, which is read again then."""
+        if self.folder is None or self.page is None or self.tolerance is None or self._task is not None:
+            return
+        self.complaint = self.remark = ""
+        try:
+            if _stamps(self.folder) != self._seen:
+                raise InputError("the campaign was edited meanwhile: it is read again, then save once more")
+            tolerances.write(self.folder, self.tolerance, self.page.tolerances)
+        except InputError as error:
+            self.complaint = str(error)
+        else:
+            self.tolerance = None
+        self._changed()
+
     def look_ahead(self) -> None:
         """Look at what the tests show about the model as it stands, measured or not, and which comes next."""
         self._change("plan", ())
 
     def export(self, out: Path | None = None) -> None:
-        """Draw the report of the model as it stands, outside of the campaign."""
-        if self.page is not None:
-            self._change("export", (), out or RESULTS / self.page.campaign)
+        """Draw the report of what is shown, outside of the campaign."""
+        if self.shown is not None:
+            self._change("export", (), out or RESULTS / self.shown.campaign)
 
     def cancel(self) -> None:
         """Stop what is being done; everything stays as it was before."""
         if self._task is not None:
             self._worker.cancel()
+            self._then = False
             self.remark = f"{TITLES[self._task.kind]}: cancelled; nothing was changed"
             self._task, self.progress = None, ""
             self._changed()
@@ -140,6 +233,12 @@ class Session:
         self._worker.close()
         self._scratch.cleanup()
 
+    def served(self, name: str) -> Path:
+        """A folder of its own that ends with the session."""
+        place = self._at / name
+        place.mkdir(exist_ok=True)
+        return place
+
     @property
     def _at(self) -> Path:
         return Path(self._scratch.name)
@@ -147,23 +246,34 @@ class Session:
     def _change(self, kind: Kind, names: Sequence[str], out: Path | None = None) -> None:
         if self.folder is None or self.page is None:
             return
-        answer, alike = (self.answer, self.isolability) if kind == "export" else (None, None)
-        task = Task(
-            kind, self.folder, self._at, self.model, tuple(names), self._effects_from, answer, alike, out
+        shown = self.shown if kind == "export" else None
+        self._begin(
+            Task(
+                kind,
+                self.folder,
+                self._at,
+                self.model,
+                tuple(names),
+                self._effects_from,
+                shown,
+                out,
+                tolerance=self.tolerance,
+            )
         )
-        self._begin(task)
 
-    def _begin(self, task: Task) -> None:
+    def _begin(self, task: Task) -> bool:
+        """Whether it was begun."""
         if self._task is not None:
             self.complaint = f"{TITLES[self._task.kind]} is not finished, allowed is to cancel it"
             self._changed()
-            return
+            return False
         self.complaint = self.remark = ""
         self._task, self.progress = task, TITLES[task.kind]
         # Taken before the files are read: an edit meanwhile is seen afterwards.
         self._pending = (_stamps(task.folder), _content(task.folder / NAME))
         self._worker.submit(task)
         self._changed()
+        return True
 
     def _take(self, event: Event) -> None:
         task = self._task
@@ -176,27 +286,38 @@ class Session:
             if task.kind == "open":
                 self._seen = self._pending[0] if task.folder == self.folder else self._seen
             if isinstance(event, Refused):
-                self.complaint = event.text
+                self.complaint, self._then = event.text, False
             else:
                 self._finish(task, event)
         self._changed()
+        if self._then and self._task is None:
+            self._then = False
+            self.diagnose()
 
     def _finish(self, task: Task, done: Done) -> None:
         if task.kind == "open":
             self.folder, self._seen = task.folder, self._pending[0]
             if task.model is None:
                 self._on_disk, self.dirty = self._pending[1], False
-                self.answer = self.isolability = self.plan = None
+                self.answer = self.plan = None
         if done.page is not None:
             self.model, self._kept, self.page, self.names = done.model, done.kept, done.page, done.names
             self.dirty = self.dirty or task.kind in ("add", "remove")
+            self.proposals, self.choice = (), None
         if done.answer is not None:
-            self.answer, self.isolability = done.answer, done.isolability
-            self.diagnosed = self.page
+            self._propose(done)
         if done.plan is not None:
             self.plan, self.planned = done.plan, self.page
+        self.found, self.preview = done.found or self.found, done.preview or self.preview
         if done.written is not None:
-            self.remark = f"report: {done.written}"
+            self.remark, self.report = f"report: {done.written}", done.written
+
+    def _propose(self, done: Done) -> None:
+        """What was found is shown as it would be; where it adds nothing the page is that of the model itself."""
+        self.answer, self.proposals, self.choice = done.answer, done.proposals, 0
+        first = done.proposals[0].page
+        if len(done.proposals) == 1 and self.page is not None and first.effects == self.page.effects:
+            self.page, self.proposals, self.choice = first, (), None
 
 
 def _stamps(folder: Path) -> tuple[int, ...]:

@@ -2,33 +2,37 @@
 
 from __future__ import annotations
 
+from base64 import b64encode
 from pathlib import Path
 from typing import Any
 
-from pipeline.answer import Answer
 from pipeline.campaign.reading import DESCRIPTION
-from pipeline.page.record import Page, TestPage
-from pipeline.page.words import why
+from pipeline.law_record import LawFound
+from pipeline.page.record import Page, RivalPage, TestPage
 from pipeline.parameter_names import parted
 from pipeline.studio.planning import planning
 from pipeline.studio.session import Session
 from pipeline.value import Value
-from reports.campaign.names import channel_label, measured, test_label
+from reports import bars
+from reports.campaign import tables, words
+from reports.campaign.doubt import mistakes
+from reports.campaign.names import channel_label, measured, test_label, unit_label
 from reports.formats import number
+from reports.laws import law_picture
+from reports.load import Json
 from reports.quantities import estimate, phrase, sigma
 
+NEAREST = 6
+"""Candidates that were not chosen and are shown beside the model."""
 DEEP = 3
 """Folders below the present one in which campaigns are looked for."""
+ROW, HEAD = 15, 90
+"""Pixels of a row of the map at least, and of what stands around it."""
 
 
 def panel(session: Session) -> dict[str, Any]:
     """Everything but the plots."""
-    page, answer = session.page, session.answer
-    named = (
-        ()
-        if answer is None
-        else tuple(n for n in answer.effects if page is not None and n not in page.effects)
-    )
+    page = session.shown
     return {
         "complaint": session.complaint,
         "remark": session.remark,
@@ -36,17 +40,89 @@ def panel(session: Session) -> dict[str, Any]:
         "busy": session.busy or "",
         "dirty": session.dirty,
         "ready": page is not None,
-        "campaign": "" if page is None else page.campaign,
-        "headline": session.headline,
-        "effects": [] if page is None else [_effect(page, name) for name in page.effects],
+        "proposals": len(session.proposals),
+        "choice": -1 if session.choice is None else session.choice,
+        "proposed": session.proposal is not None,
+        "standing": _standing(session),
         "addable": [] if page is None else _addable(session, page),
-        "candidates": [] if answer is None else _candidates(session, answer),
-        "sentences": [] if answer is None else list(answer.sentences[1:]),
-        "named": list(named),
-        "errors": "" if page is None else _errors(page),
-        "measured": page is not None and measured(page.model_dump()),
+        "edited": session.tolerance is not None,
+        **(EMPTY if page is None else _of_page(session, page)),
         **planning(session),
     }
+
+
+EMPTY: dict[str, Any] = {
+    "campaign": "",
+    "headline": "",
+    "measured": False,
+    "ambiguous": False,
+    "bars": "",
+    "effects": [],
+    "certain": [],
+    "next": [],
+    "mistakes": [],
+    "sentences": [],
+    "candidates": [],
+    "nearest": [],
+    "rivals": [],
+    "tolerances": [],
+    "set_aside": [],
+    "sigmas": [],
+    "laws": [],
+    "map_height": "330px",
+}
+
+
+def _of_page(session: Session, page: Page) -> dict[str, Any]:
+    """What is shown of the model that is seen."""
+    record = page.model_dump()
+    return {
+        "campaign": page.campaign,
+        "headline": words.headline(record),
+        "measured": measured(record),
+        "ambiguous": bool(session.proposals) and page.verdict == "ambiguous" and page.diagnosed,
+        "bars": str(bars.html(tables.bars(record))),
+        "effects": [_effect(page, name) for name in page.effects],
+        "certain": words.sure(record),
+        "next": _next(session, page),
+        "mistakes": mistakes(record),
+        "sentences": words.others(record) if page.diagnosed else [],
+        "candidates": [_candidate(it) for it in record["candidates"]],
+        "nearest": [_candidate(it) for it in record["candidates"] if not it["chosen"]][:NEAREST],
+        "rivals": [_rival(session, page, it, k) for k, it in enumerate(page.rivals)],
+        "tolerances": _tolerances(session, page),
+        "set_aside": [[it.test, it.step, it.column, sigma(it.sigma)] for it in page.set_aside],
+        "sigmas": [
+            [
+                channel_label(it.column),
+                number(it.value, 3),
+                unit_label(it.unit),
+                "given" if it.given else "estimated",
+            ]
+            for it in page.sigmas
+        ],
+        "laws": [_law(page, it) for it in page.laws],
+        "map_height": f"{max(330, HEAD + ROW * len(page.tests))}px",
+    }
+
+
+def _standing(session: Session) -> str:
+    """Whether what is seen is the model, or one that is not accepted yet."""
+    if session.proposal is not None and len(session.proposals) > 1:
+        page = session.proposal.page
+        return f"Bars, map and curves show one of the sets: {words.set_of(page.effects, page.titles)}."
+    if session.proposal is not None:
+        return "Bars, map and curves show the proposed model. It is not accepted yet."
+    if session.proposals:
+        return "Bars, map and curves show the model before. What was found is kept beside it."
+    return "Not saved yet." if session.dirty else ""
+
+
+def _next(session: Session, page: Page) -> list[str]:
+    """What to do next; of a model that was accepted no longer that."""
+    if session.dirty and session.proposal is None and page.effects:
+        return ["Save model keeps it with the campaign."]
+    return [it.words for it in page.following]
 
 
 def tests(page: Page) -> list[str]:
@@ -70,39 +146,82 @@ def campaigns(here: Path) -> list[str]:
     return sorted(str(path.relative_to(here)) for path in found)
 
 
-def _errors(page: Page) -> str:
-    first, last = page.error[0], page.error[-1]
-    held = "" if last.holdout is None else f", held out {sigma(last.holdout)}"
-    return f"{sigma(first.fit)} → {sigma(last.fit)} sigma{held}"
-
-
 def _effect(page: Page, name: str) -> dict[str, Any]:
     mine = {parted(key)[1]: it for key, it in page.parameters.items() if parted(key)[0] == name}
-    return {"name": name, "values": [_value(key, it) for key, it in mine.items()]}
+    title = page.titles.get(name, name)
+    return {"name": name, "title": title, "values": [_value(it) for it in mine.values()]}
 
 
-def _value(name: str, it: Value) -> str:
-    return phrase(name, estimate(it.model_dump()), it.unit, number)
+def _value(it: Value) -> str:
+    return phrase(it.meaning, estimate(it.model_dump()), it.unit, number)
 
 
 def _addable(session: Session, page: Page) -> list[dict[str, str]]:
     return [
-        {"value": name, "title": f"{name}: {title}"}
+        {"value": name, "title": f"{title} ({name})"}
         for name, title in session.names
         if name not in page.effects
     ]
 
 
-def _candidates(session: Session, answer: Answer) -> list[dict[str, Any]]:
-    there = () if session.page is None else session.page.effects
-    return [
-        {
-            "name": it.effect,
-            "left": sigma(it.screen if it.fit is None else it.fit),
-            "behind": number(it.evidence, 3),
-            "why": why(it, answer),
-            "chosen": it.effect in answer.effects,
-            "there": it.effect in there,
-        }
-        for it in answer.candidates
-    ]
+def _candidate(it: Json) -> dict[str, Any]:
+    return {
+        "name": it["effect"],
+        "title": it["title"],
+        "left": sigma(it["screen"] if it["fit"] is None else it["fit"]),
+        "behind": number(it["evidence"], 3),
+        "why": it["why"],
+        "chosen": it["chosen"],
+    }
+
+
+def _rival(session: Session, page: Page, it: RivalPage, at: int) -> dict[str, Any]:
+    """One of the sets; open: whether it may still be taken."""
+    return {
+        "title": words.capital(words.set_of(it.effects, page.titles)),
+        "code": " + ".join(it.effects),
+        "fit": f"fitted {sigma(it.error.fit)} sigma{_held(it)}",
+        "values": [_value(value) for value in it.parameters.values()],
+        "open": at < len(session.proposals),
+    }
+
+
+def _law(page: Page, it: LawFound) -> dict[str, Any]:
+    """What was found where, and its picture as an address that holds it."""
+    png = b"" if it.curve is None else law_picture(page.campaign, it.model_dump())
+    return {
+        "title": words.capital(it.where),
+        "site": it.site,
+        "said": f"The readings say of it: {it.shape}.",
+        "equation": it.equation or "",
+        "values": [
+            phrase(name, estimate(value.model_dump()), value.unit, number)
+            for name, value in it.parameters.items()
+        ],
+        "picture": f"data:image/png;base64,{b64encode(png).decode('ascii')}" if png else "",
+    }
+
+
+def _held(it: RivalPage) -> str:
+    return "" if it.error.holdout is None else f", held out {sigma(it.error.holdout)}"
+
+
+def _tolerances(session: Session, page: Page) -> list[dict[str, str]]:
+    """As written, or as typed and not written yet; with what a diagnosis found beside them."""
+    typed = None if session.tolerance is None else dict(session.tolerance)
+    found = {it.name: it for it in page.nominals if it.seen}
+    rows = []
+    for it in page.tolerances:
+        value = it.value if typed is None else typed.get(it.key, 0.0)
+        mine = found.get(it.key)
+        rows.append(
+            {
+                "key": it.key,
+                "words": it.words,
+                "unit": it.unit,
+                "value": f"{value:g}" if value else "exact",
+                "found": "" if mine is None else f"{number(mine.value, 4)} ± {number(mine.std, 2)}",
+                "pull": "" if mine is None else f"{mine.pull:+.1f}",
+            }
+        )
+    return rows

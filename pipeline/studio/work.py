@@ -11,29 +11,36 @@ from pipeline.add.command import starting_model
 from pipeline.add.fitting import Added, add
 from pipeline.answer import Answer
 from pipeline.campaign import read
+from pipeline.campaign.reading import DESCRIPTION
 from pipeline.diagnose.diagnosis import diagnose
 from pipeline.diagnose.words import answered
 from pipeline.discover.beyond_catalogue import with_laws
-from pipeline.inference.model_file import NAME, ModelFile, model_text
+from pipeline.inference.model_file import NAME, ModelFile, Uncertainty, model_text
 from pipeline.inference.model_reading import read_model_file
 from pipeline.inference.suitable import known_effects, named_effects
-from pipeline.page.collect import Subject, collect
-from pipeline.page.command import write_page
-from pipeline.page.isolability import attempted_isolability
+from pipeline.init.choices import Choices, filled
+from pipeline.init.command import found_in
+from pipeline.init.found import Found
+from pipeline.page.collect import Subject, collect, shown_model
+from pipeline.page.command import of_diagnosis, write_page
 from pipeline.page.record import Isolability, Page
+from pipeline.page.rivals import possible
 from pipeline.plan.command import plan_of
 from pipeline.plan.record import Plan
 from pipeline.provenance import commit, versions
+from pipeline.studio.preview import Preview, preview_of
 from pipeline.typed import command
 
 Say = Callable[[str], None]
-Kind = Literal["open", "add", "remove", "diagnose", "plan", "export"]
+Kind = Literal["open", "add", "remove", "diagnose", "plan", "export", "look", "preview"]
 
 
 @dataclass(frozen=True)
 class Task:
     """What to do. model: text of a model.toml, None for the one of the campaign. at: folder for it, to which paths of
-    the user's effects are relative. effects: to add, or the one to remove. out: folder of an exported report."""
+    the user's effects are relative. effects: to add, or the one to remove. page, out: what is exported, and where.
+    file, choices: a table that is to become a campaign in `at`. tolerance: of the rig, in the place of what is written.
+    """
 
     kind: Kind
     folder: Path
@@ -41,15 +48,30 @@ class Task:
     model: str | None = None
     effects: tuple[str, ...] = ()
     effects_from: tuple[Path, ...] = ()
-    answer: Answer | None = None
-    isolability: Isolability | None = None
+    page: Page | None = None
     out: Path | None = None
+    file: Path | None = None
+    choices: Choices | None = None
+    tolerance: tuple[tuple[str, float], ...] | None = None
+
+
+@dataclass(frozen=True)
+class Proposal:
+    """What a diagnosis would make of the model: shown as it would be, and accepted or not. model, kept: as in `Done`;
+    answer: the record of this very set."""
+
+    page: Page
+    model: str
+    kept: str
+    answer: Answer
 
 
 @dataclass(frozen=True)
 class Done:
     """What came of it; None where the task does not change it. model, kept: text of a model.toml in the folder of the
     task and in that of the campaign, which differ in the paths of the user's effects. names: effects that are known.
+    proposals: of a diagnosis, one for each set that it leaves possible, the simplest first; where it adds nothing the
+    one is the model as it is.
     """
 
     kind: Kind
@@ -58,15 +80,24 @@ class Done:
     page: Page | None = None
     answer: Answer | None = None
     isolability: Isolability | None = None
+    proposals: tuple[Proposal, ...] = ()
     plan: Plan | None = None
     names: tuple[tuple[str, str], ...] = ()
     written: Path | None = None
+    found: Found | None = None
+    preview: Preview | None = None
 
 
 def do(task: Task, say: Say) -> Done:
     """The task. InputError for bad input, RuntimeError where the numerics failed."""
     say("reading")
+    if task.kind == "export":
+        return _exported(task)
+    if task.kind in ("look", "preview"):
+        return _table(task)
     campaign = read(task.folder)
+    if task.tolerance is not None:
+        campaign = replace(campaign, tolerance=dict(task.tolerance))
     model_file = None
     if task.model is not None:
         model_file = task.at / NAME
@@ -76,13 +107,15 @@ def do(task: Task, say: Say) -> Done:
     told = dict(read_model_file(saved, known).uncertainty) if saved.exists() else {}
     subject = Subject(campaign, model, known, told)
     if task.kind == "diagnose":
-        found = with_laws(diagnose(campaign, model, known.effects, say), say)
-        answer = answered(found)
-        return Done("diagnose", answer=answer, isolability=attempted_isolability(found))
+        return _diagnosed(task, subject, say)
     if task.kind == "plan":
         return Done("plan", plan=plan_of(campaign, model, known.effects, say))
-    if task.kind == "export":
-        return _exported(task, subject, say)
+    return _model(task, subject, say)
+
+
+def _model(task: Task, subject: Subject, say: Say) -> Done:
+    """The model as it is, or with effects more or fewer."""
+    campaign, model, known = subject.campaign, subject.model, subject.known
     if task.kind == "add":
         return _changed(
             task, add(campaign, model, named_effects(task.effects, known.effects), say), subject, say
@@ -95,6 +128,34 @@ def do(task: Task, say: Say) -> Done:
             return _changed(task, add(campaign, rest, [], say), subject, say)
         subject = replace(subject, model=rest, uncertainty={})
     return _shown(task, subject, say)
+
+
+def _diagnosed(task: Task, subject: Subject, say: Say) -> Done:
+    """The answer, and every set that it leaves possible drawn as the model would be with it."""
+    found = with_laws(diagnose(subject.campaign, subject.model, subject.known.effects, say), say)
+    sets = possible(found, answered(found), say)
+    seen = of_diagnosis(subject, found, sets)
+    shown = [replace(seen, answer=each.answer, fitted=each.model) for each in sets]
+    return Done(
+        "diagnose",
+        answer=sets[0].answer,
+        isolability=seen.isolability,
+        proposals=tuple(_proposal(task, it, say) for it in shown),
+    )
+
+
+def _proposal(task: Task, it: Subject, say: Say) -> Proposal:
+    """The model with the set of an answer."""
+    answer, model = it.answer, shown_model(it)
+    assert answer is not None
+    told = {
+        name: Uncertainty(value.std, value.low95, value.high95)
+        for name, value in answer.parameters.items()
+        if value.interval != "fixed"
+    }
+    file = ModelFile(model, told, it.known.files_of(model.names), it.campaign.name, commit(), versions())
+    page = collect(it, (), say)
+    return Proposal(page, model_text(file, task.at), model_text(file, task.folder), answer)
 
 
 def _changed(task: Task, found: Added, subject: Subject, say: Say) -> Done:
@@ -113,10 +174,19 @@ def _shown(task: Task, it: Subject, say: Say) -> Done:
     )
 
 
-def _exported(task: Task, subject: Subject, say: Say) -> Done:
-    answer = task.answer
-    fits = answer is not None and set(answer.effects) == set(subject.model.names)
-    shown = replace(subject, answer=answer, isolability=task.isolability) if fits else subject
-    assert task.out is not None
-    commands = (command("report", task.folder),)
-    return Done("export", written=write_page(collect(shown, commands, say), task.out))
+def _table(task: Task) -> Done:
+    """What a table says by itself, or with what its owner said of it; then a campaign is laid beside the table."""
+    assert task.file is not None
+    found = found_in(task.file)
+    if task.choices is None:
+        return Done("look", found=found)
+    text = filled(task.file.name, found, task.choices)
+    (task.file.parent / DESCRIPTION).write_text(text, encoding="utf-8")
+    return Done("preview", preview=preview_of(read(task.file.parent)))
+
+
+def _exported(task: Task) -> Done:
+    """The page that is seen, and no other."""
+    assert task.out is not None and task.page is not None
+    page = task.page.model_copy(update={"commands": (command("report", task.folder),)})
+    return Done("export", written=write_page(page, task.out))

@@ -4,6 +4,7 @@ Plots are plain dicts as plotly.js reads them: a page has hundreds, and plotly's
 """
 
 import json
+from collections.abc import Sequence
 from functools import cache
 from html import escape
 from typing import Any
@@ -21,7 +22,7 @@ COLOURS = {"before": "#D55E00", "after": "#0072B2"}
 DASHES = {"before": "dash", "after": "solid"}
 SYMBOLS = {"before": "diamond-open", "after": "circle-open"}
 NAMES = {"before": BEFORE, "after": AFTER}
-HEIGHT = 620
+HEIGHT = 500
 BAND = 2.0
 """Sigmas that noise seldom leaves."""
 
@@ -35,15 +36,20 @@ def thinned(test: Json, curve: Json, stride: int) -> tuple[Json, Json]:
     return {**test, **steps}, kept
 
 
-def figure(test: Json, curve: Json, height: int = HEIGHT) -> dict[str, Any]:
-    """Lines join the steps in the order in which they were done, so that a loop is a loop."""
-    traces = [_predicted(test, curve, key) for key in NAMES]
+def figure(
+    test: Json, curve: Json, height: int = HEIGHT, stages: Sequence[str] = ("before", "after")
+) -> dict[str, Any]:
+    """Lines join the steps in the order in which they were done, so that a loop is a loop. stages: before alone where
+    the model is the plain one."""
+    traces = [_predicted(test, curve, key) for key in stages]
     traces.append(_measured(test, curve))
-    traces += [_left(test, curve, key, axis) for key, axis in (("before", "2"), ("after", "3"))]
-    layout = json.loads(_layout(height))
+    traces += [_left(test, curve, key, str(axis)) for axis, key in enumerate(stages, 2)]
+    layout = json.loads(_layout(height, tuple(stages)))
     channel = axis_label(curve["channel"], curve["unit"])
     layout["title"]["text"] = f"{escape(test_label(test))}, {place(test)}: {channel}"
-    layout["xaxis3"]["title"]["text"] = f"{axis_label(test['load'], test['load_unit'])} (drives the test)"
+    layout[f"xaxis{len(stages) + 1}"]["title"]["text"] = (
+        f"{axis_label(test['load'], test['load_unit'])} (drives the test)"
+    )
     layout["yaxis"]["title"]["text"] = axis_label(curve["channel"], curve["unit"])
     return {"data": traces, "layout": layout}
 
@@ -96,17 +102,19 @@ def _left(test: Json, curve: Json, key: str, axis: str) -> dict[str, Any]:
 
 
 @cache
-def _layout(height: int) -> str:
+def _layout(height: int, stages: tuple[str, ...]) -> str:
     """What all curves share, as JSON."""
+    heights = [0.52, 0.22, 0.26] if len(stages) > 1 else [0.62, 0.38]
     plot: go.Figure = make_subplots(
-        rows=3, cols=1, shared_xaxes=True, vertical_spacing=0.045, row_heights=[0.52, 0.22, 0.26]
+        rows=len(heights), cols=1, shared_xaxes=True, vertical_spacing=0.045, row_heights=heights
     )
     legend = {"orientation": "h", "y": 1.01, "yanchor": "bottom", "x": 0, "xanchor": "left"}
     title = {"text": "", "x": 0, "xref": "paper", "font": {"size": 14}}
     style(plot, height, title=title, margin={"l": 80, "r": 20, "t": 64, "b": 46}, legend=legend)
     plot.update_xaxes(title_text="")
     unit, size = ("sigma", 13) if height >= HEIGHT else ("σ", 11)
-    for row, said in ((1, ""), (2, f"before, {unit}"), (3, f"after, {unit}")):
+    names = [f"{key}, {unit}" if len(stages) > 1 else f"left, {unit}" for key in stages]
+    for row, said in enumerate(("", *names), 1):
         plot.update_yaxes(title_text=said, title_font_size=size, row=row, col=1)
         if row > 1:
             band = {"fillcolor": FAINT, "opacity": 0.18, "line_width": 0, "layer": "below"}

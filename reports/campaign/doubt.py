@@ -22,7 +22,7 @@ def blocks(page: Json) -> Iterator[Block]:
     """Mistakes of the table first, then what moved, then the readings."""
     if page.get("doctor"):
         yield Text("The table seems to have a mistake; nothing else is named before that is settled:")
-        yield Bullets([f"{it['hypothesis']}. Then {it['mend']}." for it in page["doctor"]])
+        yield Bullets(mistakes(page))
     if page.get("nominals"):
         yield nominals(page)
     if page.get("set_aside"):
@@ -31,28 +31,35 @@ def blocks(page: Json) -> Iterator[Block]:
         yield noise(page)
 
 
+def mistakes(page: Json) -> list[str]:
+    """What the table seems to have wrong, and what mends it."""
+    return [f"{it['hypothesis']}. Then {it['mend']}." for it in page["doctor"]]
+
+
 def nominals(page: Json) -> Table:
     """Every number that was known to a tolerance, and where it ends."""
     columns = [
-        Column("number", numeric=False),
+        Column("what", numeric=False),
         Column("as written"),
         Column("tolerance, 1 sigma"),
         Column("found"),
         Column("standard error"),
         Column("pull", "sigma"),
         Column("unit", numeric=False),
-        Column("meaning", numeric=False),
     ]
     rows = [
         [
-            Cell(it["name"], "not seen" if not it["seen"] else "far" if abs(it["pull"]) > PULLED else ""),
+            Cell(
+                it["meaning"],
+                "not seen" if not it["seen"] else "far" if abs(it["pull"]) > PULLED else "",
+                it["name"],
+            ),
             Cell(number(it["nominal"], 4)),
             Cell(number(it["tolerance"], 3)),
             Cell(number(it["value"], 4) if it["seen"] else DASH),
             Cell(number(it["std"], 2) if it["seen"] else DASH),
             Cell(f"{it['pull']:+.1f}".replace("-", "−") if it["seen"] else DASH),
             Cell("" if it["unit"] == "1" else it["unit"]),
-            Cell(it["meaning"]),
         ]
         for it in page["nominals"]
     ]

@@ -5,12 +5,20 @@ from pathlib import Path
 
 from reports import markdown, page
 from reports.campaign import pictures
-from reports.campaign.sections import build
+from reports.campaign.sections import build, first
 from reports.errors import ReportError
 from reports.files import write_bytes
 from reports.load import Json
 
 NAME = "page.json"
+
+
+def first_screen(record: Json) -> str:
+    """Verdict, picture, what is certain and the next step of a page: HTML that needs nothing from outside.
+
+    record: of a `pipeline.page.record.Page`, as its `model_dump()` has it; for a notebook (`_repr_html_`).
+    """
+    return page.screen(first(record))
 
 
 def draw(folder: Path) -> list[Path]:

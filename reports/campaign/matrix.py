@@ -5,14 +5,15 @@ from html import escape
 
 import plotly.graph_objects as go
 
-from reports.campaign.plots import SHADES
+from reports.campaign.plots import numbers
 from reports.load import Json
 from reports.plots import style
+from reports.shading import LIKENESS, inks, scale
 
 CLOSE = 0.3
 """A correlation below which a cell stays without a number."""
 
-CELLS = {"colorscale": SHADES, "zmin": 0.0, "zmax": 1.0, "xgap": 1, "ygap": 1}
+CELLS = {"colorscale": scale(LIKENESS), "zmin": 0.0, "zmax": 1.0, "xgap": 1, "ygap": 1}
 
 
 def isolability(found: Json) -> go.Figure:
@@ -23,16 +24,15 @@ def isolability(found: Json) -> go.Figure:
         z=found["correlation"],
         x=names,
         y=names,
-        text=[
-            ["" if v is None or v < CLOSE else f"{v:.3f}"[1:] if v < 0.9995 else "1" for v in row]
-            for row in found["correlation"]
-        ],
-        texttemplate="%{text}",
-        textfont={"size": 10},
         hovertemplate="%{y} as %{x}: %{z:.4f}<extra></extra>",
         **CELLS,
         colorbar={"title": {"text": "correlation"}, "thickness": 12},
     )
+    said = [
+        ["" if v is None or v < CLOSE else f"{v:.3f}"[1:] if v < 0.9995 else "1" for v in row]
+        for row in found["correlation"]
+    ]
+    numbers(plot, names, names, said, [inks(LIKENESS, row) for row in found["correlation"]], 10)
     plot.update_xaxes(
         title_text="could be taken for this effect", tickangle=-50, automargin=True, showgrid=False
     )
@@ -47,21 +47,21 @@ def numbered(names: Sequence[str], alike: Sequence[Sequence[float]], height: int
     is for what cannot be told apart at all."""
     rows = [f"{escape(name)}  {k}" for k, name in enumerate(names, 1)]
     plot = go.Figure()
+    columns = [str(k) for k in range(1, len(names) + 1)]
     plot.add_heatmap(
         z=alike,
-        x=[str(k) for k in range(1, len(names) + 1)],
+        x=columns,
         y=rows,
-        text=[
-            ["" if j == k or v < CLOSE else str(int(100 * min(v, 1.0) + 1e-6)) for j, v in enumerate(row)]
-            for k, row in enumerate(alike)
-        ],
         customdata=[[escape(name) for name in names]] * len(names),
-        texttemplate="%{text}",
-        textfont={"size": 11},
         hovertemplate="%{y} as %{customdata}: %{z:.4f}<extra></extra>",
         **CELLS,
         showscale=False,
     )
+    said = [
+        ["" if j == k or v < CLOSE else str(int(100 * min(v, 1.0) + 1e-6)) for j, v in enumerate(row)]
+        for k, row in enumerate(alike)
+    ]
+    numbers(plot, columns, rows, said, [inks(LIKENESS, row) for row in alike])
     plot.update_xaxes(title_text="could be taken for", showgrid=False, type="category", tickangle=0, dtick=1)
     plot.update_yaxes(autorange="reversed", automargin=True, showgrid=False, type="category", dtick=1)
     return style(plot, height, margin={"l": 10, "r": 10, "t": 4, "b": 40}, font={"size": 11})

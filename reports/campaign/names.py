@@ -4,6 +4,7 @@ from html import escape
 
 from reports.load import Json
 
+COORDINATES = ("x", "y", "z", "rx", "ry", "rz", "fx", "fy", "fz", "mx", "my", "mz")
 BEFORE, AFTER = "plain virtual springs", "the model"
 
 
@@ -20,7 +21,12 @@ def unit_label(unit: str) -> str:
 
 def axis_label(name: str, unit: str) -> str:
     """A channel with its unit, for the title of an axis."""
-    return f"{escape(channel_label(name))}, {unit_label(unit)}"
+    return f"{escape(spelled(name))}, {unit_label(unit)}"
+
+
+def spelled(name: str) -> str:
+    """A channel beside a place where there is room: a gauge says that it is one."""
+    return channel_label(name) if name in COORDINATES else f"gauge {name}"
 
 
 def by_role(page: Json) -> list[Json]:
@@ -48,20 +54,9 @@ def measured(page: Json) -> bool:
 
 def channels(page: Json) -> list[str]:
     """Channels that any test has, in the order of the columns."""
-    order = ["x", "y", "z", "rx", "ry", "rz", "fx", "fy", "fz", "mx", "my", "mz"]
     found = dict.fromkeys(curve["channel"] for test in page["tests"] for curve in test["curves"])
-    known = [name for name in order if name in found]
+    known = [name for name in COORDINATES if name in found]
     return [*known, *(name for name in found if name not in known)]
-
-
-def stage_labels(page: Json) -> list[str]:
-    """The stages of the error: plain, then what each adds."""
-    labels, seen = [], set[str]()
-    for stage in page["error"]:
-        new = [name for name in stage["effects"] if name not in seen]
-        seen |= set(new)
-        labels.append(f"+ {' + '.join(new)}" if new else BEFORE)
-    return labels
 
 
 def worst(page: Json, count: int) -> list[tuple[Json, Json]]:

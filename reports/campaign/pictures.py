@@ -6,6 +6,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from reports.campaign import first_picture
 from reports.campaign.curve import BAND, COLOURS
 from reports.campaign.names import (
     AFTER,
@@ -15,15 +16,14 @@ from reports.campaign.names import (
     channels,
     measured,
     place,
-    stage_labels,
     test_label,
     unit_label,
     worst,
 )
-from reports.campaign.plots import HELD_OUT, SHADES
+from reports.campaign.plots import short
 from reports.charts import dress, picture
-from reports.formats import number
 from reports.load import Json
+from reports.shading import ATTENTION, LIKENESS, MISFIT, TOP, colormap, colour, ink_on, share_of
 from reports.style import FAINT, INK
 
 WORST = 6
@@ -33,46 +33,11 @@ STYLES = {"before": (BEFORE, "--"), "after": (AFTER, "-")}
 
 def draw(page: Json) -> dict[str, bytes]:
     """All pictures by name."""
-    out = {"waterfall": waterfall(page), "misfit": misfit(page)} if measured(page) else {}
+    out = {"misfit": misfit(page), first_picture.NAME: first_picture.drawn(page)[1]} if measured(page) else {}
     out |= {f"curve_{k}": curve(test, it) for k, (test, it) in enumerate(worst(page, WORST), 1)}
     if page["isolability"] is not None:
         out["isolability"] = isolability(page["isolability"])
     return out
-
-
-def waterfall(page: Json) -> bytes:
-    """Error of every stage, fitted and held out."""
-    labels = stage_labels(page)
-    figure = Figure(figsize=(8.6, 1.3 + 0.62 * len(labels)))
-    ax = figure.subplots()
-    for shift, key, name, colour in (
-        (-0.18, "fit", "fitted tests", COLOURS["after"]),
-        (0.18, "holdout", "held-out tests", HELD_OUT),
-    ):
-        places = [(k + shift, stage[key]) for k, stage in enumerate(page["error"]) if stage[key] is not None]
-        if not places:
-            continue
-        ax.barh(
-            [place for place, _ in places],
-            [value for _, value in places],
-            height=0.32,
-            color=colour,
-            label=name,
-            hatch="//" if shift > 0 else "",
-            ec="w",
-        )
-        for y, value in places:
-            ax.text(value * 1.06, y, number(value, 3), va="center", fontsize=9, color=INK)
-    ax.set_xscale("log")
-    errors = [stage[key] or 0.0 for stage in page["error"] for key in ("fit", "holdout")]
-    ax.set_xlim(0.3, 2.0 * max([3.0, *errors]))
-    ax.axvline(1.0, color=INK, ls="--", lw=1)
-    ax.set_yticks(range(len(labels)), labels)
-    ax.invert_yaxis()
-    ax.set_xlabel("error, sigma (1 is noise)")
-    dress(ax)
-    ax.legend(frameon=False, loc="lower right")
-    return picture(figure)
 
 
 def misfit(page: Json) -> bytes:
@@ -81,28 +46,21 @@ def misfit(page: Json) -> bytes:
     figure = Figure(figsize=(2.6 + 0.72 * len(names), 1.6 + 0.27 * len(tests)))
     axes = figure.subplots(1, 2, sharey=True, gridspec_kw={"wspace": 0.04})
     grids = [_grid(tests, names, key) for key in ("rms_before", "rms_after")]
-    top = max([1.0, *(float(np.nanmax(grid, initial=1.0)) for grid in grids)])
+    shades = colormap(MISFIT)
     for ax, grid, title in zip(axes, grids, (f"before: {BEFORE}", f"after: {AFTER}"), strict=True):
-        image = ax.imshow(
-            np.log10(np.maximum(grid, 1e-3)), cmap=SHADES, vmin=0.0, vmax=np.log10(top) or 1.0, aspect="auto"
-        )
+        shares = np.array([[np.nan if np.isnan(v) else share_of(v) for v in row] for row in grid])
+        image = ax.imshow(shares, cmap=shades, vmin=0.0, vmax=1.0, aspect="auto")
         ax.set_title(title, fontsize=10, loc="left", color=INK)
         ax.set_xticks(range(len(names)), [channel_label(name) for name in names], fontsize=8)
         for (row, column), value in np.ndenumerate(grid):
-            if value >= 1.5:
-                dark = np.log10(value) > 0.5 * np.log10(top)
-                ax.text(
-                    column,
-                    row,
-                    number(float(value), 2),
-                    ha="center",
-                    va="center",
-                    fontsize=6.5,
-                    color="w" if dark else INK,
-                )
+            if np.isfinite(value):
+                ink = ink_on(colour(MISFIT, share_of(float(value))))
+                said = short(float(value))
+                ax.text(column, row, said, ha="center", va="center", fontsize=6.5, color=ink)
     axes[0].set_yticks(range(len(tests)), [test_label(test) for test in tests], fontsize=8)
     bar = figure.colorbar(image, ax=list(axes), fraction=0.02, pad=0.015)
-    bar.set_ticks(range(int(np.log10(top)) + 1), labels=[f"{10**k:g}" for k in range(int(np.log10(top)) + 1)])
+    shown = [1.0, ATTENTION, 10.0, 100.0, TOP]
+    bar.set_ticks([share_of(v) for v in shown], labels=[f"{v:g}" for v in shown])
     bar.set_label("misfit, sigma")
     return picture(figure)
 
@@ -129,7 +87,7 @@ def curve(test: Json, it: Json) -> bytes:
     )
     upper.set_ylabel(f"{channel_label(it['channel'])}, {unit_label(it['unit'])}")
     upper.set_title(f"{test_label(test)}, {place(test)}", fontsize=10, loc="left", color=INK)
-    upper.legend(frameon=False, fontsize=8)
+    upper.legend(frameon=False, fontsize=8, loc="lower right", bbox_to_anchor=(1.0, 1.0), ncol=3)
     for ax, (key, (_, dash)) in zip(lower, STYLES.items(), strict=True):
         ax.axhspan(-BAND, BAND, color=FAINT, alpha=0.18, lw=0)
         ax.plot(loads, _floats(it[f"left_{key}"]), color=COLOURS[key], ls=dash, marker="o", ms=3, lw=0.9)
@@ -148,7 +106,7 @@ def isolability(found: Json) -> bytes:
     figure = Figure(figsize=(2.6 + 0.42 * len(names), 2.2 + 0.34 * len(names)))
     ax: Axes = figure.subplots()
     grid = np.array([_floats(row) for row in found["correlation"]])
-    image = ax.imshow(grid, cmap=SHADES, vmin=0.0, vmax=1.0, aspect="auto")
+    image = ax.imshow(grid, cmap=colormap(LIKENESS), vmin=0.0, vmax=1.0, aspect="auto")
     for (row, column), value in np.ndenumerate(grid):
         if value >= 0.9 and row != column:
             ax.text(
@@ -158,7 +116,7 @@ def isolability(found: Json) -> bytes:
                 ha="center",
                 va="center",
                 fontsize=6,
-                color="w",
+                color=ink_on(colour(LIKENESS, float(value))),
             )
     ax.set_xticks(range(len(names)), names, rotation=60, ha="right", fontsize=8)
     ax.set_yticks(range(len(names)), names, fontsize=8)

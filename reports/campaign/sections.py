@@ -3,10 +3,24 @@
 from collections.abc import Iterator, Mapping
 from math import ceil
 
-from reports.blocks import Block, Bullets, Code, Explorer, Figure, Lead, Section, Tables, Text
-from reports.campaign import curve, doubt, matrix, plots, tables
-from reports.campaign.names import channel_label, measured, test_label, worst
+from reports.blocks import (
+    Block,
+    Bullets,
+    Code,
+    Columns,
+    Details,
+    Explorer,
+    Figure,
+    Heading,
+    Lead,
+    Section,
+    Tables,
+    Text,
+)
+from reports.campaign import curve, doubt, first_picture, matrix, plots, tables, words
+from reports.campaign.names import BEFORE, channel_label, measured, test_label, worst
 from reports.formats import number
+from reports.laws import law_picture
 from reports.load import Json
 
 Pictures = Mapping[str, bytes]
@@ -14,56 +28,83 @@ MAP = "misfit"
 """Name of the map; a click on it chooses the curve."""
 READINGS = 20_000
 """Readings that the page draws, some 110 bytes each; of more steps some are left out."""
+NEAREST = 5
+"""Candidates that are shown at once."""
 CAPTION = "Measured, plain virtual springs and the model; below, what each leaves in sigmas."
 
 
 def build(page: Json, pictures: Pictures) -> list[Section]:
     """All sections; pictures: PNG by name."""
-    parts = [verdict(page)]
+    parts = [first(page)]
     if measured(page):
-        parts += [waterfall(page, pictures), misfit(page, pictures), curves(page, pictures)]
-    parts += [Section("held-out", "Tests held out", list(held_out(page)))]
-    parts += [Section("candidates", "What could be missing", list(candidates(page, pictures)))]
+        parts += [misfit(page, pictures), curves(page, pictures)]
+    parts.append(Section("candidates", "What could be missing", list(candidates(page, pictures))))
     if page["parameters"]:
-        parts.append(Section("parameters", "Parameters", list(parameters(page))))
+        parts.append(Section("parameters", "Values", list(parameters(page))))
+    if page.get("laws"):
+        parts.append(Section("laws", "Laws found", list(found_laws(page))))
     if doubt.known(page):
-        parts.append(
-            Section("doubt", "What was written, and what the readings are", list(doubt.blocks(page)))
-        )
-    parts.append(Section("next", "Next test", list(next_test(page))))
-    parts.append(Section("assumed", "What was assumed", [Bullets(page["assumptions"]), tables.sigmas(page)]))
-    return [*parts, sources(page), record(page)]
+        parts.append(Section("doubt", "The rig and the readings", list(doubt.blocks(page))))
+    return [*parts, record(page)]
 
 
-def verdict(page: Json) -> Section:
-    """The answer first."""
-    blocks: list[Block] = [Lead(page["headline"])]
-    if page["sentences"]:
-        blocks.append(Bullets(page["sentences"]))
-    if not page["sentences"] and page["remarks"]:
-        blocks.append(Bullets([f"{remark}." for remark in page["remarks"]]))
-    return Section("verdict", "Verdict", [*blocks, tables.summary(page)])
-
-
-def waterfall(page: Json, pictures: Pictures) -> Section:
-    """How the error falls."""
-    caption = (
-        "Error of the fitted tests and of those held out, from plain virtual springs to the model, one effect more in "
-        "each row, every row fitted. Logarithmic; the dashed line is noise."
+def first(page: Json) -> Section:
+    """What is to be seen without scrolling: the verdict, a picture, what is certain, what to do next."""
+    left: list[Block] = []
+    if sure := words.sure(page):
+        left += [Heading("What is certain"), Bullets(sure)]
+    if page.get("doctor"):
+        left += [Heading("The table seems to have a mistake"), Bullets(doubt.mistakes(page))]
+    left += [Heading("Next step"), *next_step(page)]
+    right: list[Block] = []
+    if measured(page):
+        svg, png = first_picture.drawn(page)
+        right = [Figure(first_picture.NAME, first_picture.caption(page), svg=svg, png=png)]
+        left.append(tables.bars(page))
+    more: list[Block] = [tables.summary(page)]
+    said = words.others(page) or [f"{remark}." for remark in page["remarks"]]
+    if said:
+        more = [Bullets(said), *more]
+    if page.get("rivals"):
+        left.insert(0, tables.rivals(page))
+    return Section(
+        "verdict",
+        words.heading(page),
+        [Lead(words.headline(page)), Columns(left, right), Details("Why, and what the campaign is", more)],
     )
-    drawn = Figure("waterfall", caption, plots.waterfall(page), png=pictures["waterfall"])
-    return Section("error", "How the error falls", [drawn, tables.stages(page)])
+
+
+def next_step(page: Json) -> Iterator[Block]:
+    """What to do next, with the command that does it."""
+    found = page.get("following", ())
+    for it in found:
+        yield Text(it["words"])
+        if it["command"]:
+            yield Code(it["command"])
+    if page["next_test"] is not None:
+        yield Details("How to measure it", list(next_test(page)))
+    if not found:
+        yield Text(
+            "None is needed: the model explains what was measured."
+            if page["verdict"] == "within_noise"
+            else "Measure what a model predicts."
+            if not measured(page)
+            else "None is known."
+        )
 
 
 def misfit(page: Json, pictures: Pictures) -> Section:
     """Where it fails."""
     caption = (
-        "Root mean square of measured less predicted in each channel, in its own sigmas: 1 is noise, light; dark is "
-        "misfit, logarithmic. Empty: prescribed or not measured. Tests held out stand below the line. A click shows "
-        "the curve below."
+        "Root mean square of measured less predicted in each channel, in its own sigmas. White: noise; grey: up to 3 "
+        "sigmas; coloured: misfit, the darker the more (k: thousand). Empty: prescribed or not measured. Tests held "
+        "out stand below the line. A click shows the curve below."
     )
     drawn = Figure(MAP, caption, plots.misfit_map(page), png=pictures[MAP])
-    return Section("misfit", "Where it fails", [drawn, tables.tests(page, "fit")])
+    more = [tables.tests(page, "fit"), *held_out(page), tables.stages(page)]
+    return Section(
+        "misfit", "Where it fails", [drawn, Details("Errors test by test, and as effects are added", more)]
+    )
 
 
 def curves(page: Json, pictures: Pictures) -> Section:
@@ -99,16 +140,21 @@ def held_out(page: Json) -> Iterator[Block]:
 
 def candidates(page: Json, pictures: Pictures) -> Iterator[Block]:
     """What was looked at, and what could be taken for what."""
-    if page["candidates"]:
-        yield tables.candidates(page)
-        if page.get("out_by_plausibility"):
-            yield Text("These would fit as well, but only with an implausible size:")
-            yield Bullets([" + ".join(names) for names in page["out_by_plausibility"]])
-    else:
+    every = page["candidates"]
+    if not every:
         yield Text("Not looked for: this page shows the model as it is saved. With --diagnose it looks.")
+    else:
+        near = [it for it in every if it["chosen"] or it["evidence"] is not None][:NEAREST]
+        yield tables.candidates(page, near or every[:NEAREST])
+        if len(every) > len(near):
+            yield Details(f"All {len(every)} candidates", [tables.candidates(page, every)])
+    if page.get("out_by_plausibility"):
+        sets = [words.set_of(names, page.get("titles", {})) for names in page["out_by_plausibility"]]
+        yield Text("These would fit as well, but only with an implausible size:")
+        yield Bullets(sets)
     found = page["isolability"]
     if found is not None:
-        about = " + ".join(found["about"]) or "plain virtual springs"
+        about = words.set_of(found["about"], page.get("titles", {})) if found["about"] else BEFORE
         caption = (
             f"Which effect could be taken for which in these tests, about {about}: the correlation of what the effect "
             "of a row does, at its typical size, with the best that the effect of a column can do. Dark, near 1: these "
@@ -116,50 +162,66 @@ def candidates(page: Json, pictures: Pictures) -> Iterator[Block]:
         )
         if found.get("anew"):
             caption += " Computed for this page: the saved answer does not hold it."
-        yield Figure("isolability", caption, matrix.isolability(found), png=pictures["isolability"])
+        drawn = Figure("isolability", caption, matrix.isolability(found), png=pictures["isolability"])
+        yield Details("What could be taken for what", [drawn])
 
 
 def parameters(page: Json) -> Iterator[Block]:
-    """Values and what goes with what."""
-    yield tables.parameters(page)
+    """Values, what the effects are, and what goes with what."""
+    yield tables.parameters(
+        page, page["parameters"], "Fitted, with 95 % intervals; a dash where the data set no end"
+    )
+    told = words.evidence(page)
+    titles = page.get("titles", {})
+    if said := [
+        f"{words.capital(words.title_of(name, titles))}: {text}" for name, text in told.items() if text
+    ]:
+        yield Bullets(said)
     if page["correlations"]:
-        yield Bullets(
-            [
-                f"{it['first']} and {it['second']}: correlation {it['value']:+.3f}."
-                for it in page["correlations"]
-            ]
-        )
+        pairs = [
+            f"{it['first']} and {it['second']}: correlation {it['value']:+.3f}."
+            for it in page["correlations"]
+        ]
+        yield Details("Values whose errors go together", [Bullets(pairs)])
+
+
+def found_laws(page: Json) -> Iterator[Block]:
+    """What was discovered in what is left: where it sits, its form, its picture."""
+    for at, law in enumerate(page["laws"], 1):
+        said = law["where"] if law["equation"] is None else f"{law['where']}: {law['equation']}"
+        yield Heading(f"{said[:1].upper()}{said[1:]}")
+        yield Text(f"The readings say of it: {law['shape']}.")
+        if law["parameters"]:
+            yield tables.parameters(page, law["parameters"])
+        if law["curve"] is not None:
+            png = law_picture(page["campaign"], law)
+            yield Figure(
+                f"law_{at}", f"{law['site']}: the curve without a form, its band, and the law.", png=png
+            )
 
 
 def next_test(page: Json) -> Iterator[Block]:
     """What to measure next."""
-    found = page["next_test"]
-    if found is None:
-        said = {
-            "identified": "None is needed to tell the candidates apart: no rival fits as well.",
-            "within_noise": "None is needed: the model explains what was measured.",
-            "nothing_tested": "Any with readings that no unknown zero takes: these tests test nothing.",
-        }
-        unknown = "No test of the menu is known to help." if page["diagnosed"] else "Not looked for."
-        yield Text(said.get(page["verdict"], unknown))
-        return
+    found, titles = page["next_test"], page.get("titles", {})
     yield Tables([tables.next_test(it) for it in (found, *found["together_with"])])
     yield Bullets(
         [
-            f"It tells {' + '.join(a)} from {' + '.join(b)}: chi-square between them would be {number(value, 3)}."
+            f"It tells {words.set_of(a, titles)} from {words.set_of(b, titles)}: chi-square between them would be "
+            f"{number(value, 3)}."
             for (a, b), value in zip(found["tells_apart"], found["expected_chi_square"], strict=True)
         ]
     )
 
 
-def sources(page: Json) -> Section:
-    """Equations and where they come from."""
-    blocks: list[Block] = [tables.equations(page)] if page["catalogue"] else []
-    return Section("sources", "Equations and sources", [*blocks, Bullets(page["sources"])])
-
-
 def record(page: Json) -> Section:
-    """How to make the page again."""
+    """What it rests on, and how to make the page again."""
+    equations: list[Block] = [tables.equations(page)] if page["catalogue"] else []
     return Section(
-        "record", "How to make it again", [Code("\n".join(page["commands"])), tables.versions(page)]
+        "record",
+        "What it rests on",
+        [
+            Details("What was assumed", [Bullets(page["assumptions"]), tables.sigmas(page)]),
+            Details("Equations and sources", [*equations, Bullets(page["sources"])]),
+            Details("How to make it again", [Code("\n".join(page["commands"])), tables.versions(page)]),
+        ],
     )

@@ -1,7 +1,10 @@
 """Tables of a campaign's page."""
 
-from reports.blocks import Cell, Column, Table, table
-from reports.campaign.names import channel_label, place, stage_labels, unit_label
+from collections.abc import Iterator, Sequence
+
+from reports.blocks import Bar, Bars, Cell, Column, Table, table
+from reports.campaign.names import BEFORE, channel_label, place, unit_label
+from reports.campaign.words import set_of, title_of, values
 from reports.formats import DASH, count, number
 from reports.load import Json
 from reports.quantities import NONE, ends_text, estimate, marks, p_value, std_text, value_text
@@ -28,10 +31,30 @@ def summary(page: Json) -> Table:
             "rig": f"{rig['kind']}, L = {rig['length_mm']:g} mm{width}",
             "tests": f"{len(tests)}, {held_out} of them held out",
             "load steps": count(sum(len(test["steps"]) for test in tests)),
-            "model": " + ".join(page["effects"]) or "plain virtual springs",
-            **({"not yet in model.toml": " + ".join(page["proposed"])} if page["proposed"] else {}),
+            "model": " + ".join(page["effects"]) or BEFORE,
+            **(
+                {"proposed, not yet in the model's file": " + ".join(page["proposed"])}
+                if page["proposed"]
+                else {}
+            ),
         },
     )
+
+
+def stages_of(page: Json) -> Iterator[tuple[str, str, Json]]:
+    """Every stage of the error in words, by its code names, and what it leaves."""
+    seen = set[str]()
+    for stage in page["error"]:
+        new = [name for name in stage["effects"] if name not in seen]
+        seen |= set(new)
+        words = " and ".join(title_of(name, page.get("titles", {})) for name in new)
+        yield (f"with {words}" if new else BEFORE), " + ".join(new), stage
+
+
+def bars(page: Json) -> Bars:
+    """The error as effects are added."""
+    rows = [Bar(words, code, (stage["fit"], stage["holdout"])) for words, code, stage in stages_of(page)]
+    return Bars(("fitted", "held out"), rows)
 
 
 def stages(page: Json) -> Table:
@@ -40,15 +63,15 @@ def stages(page: Json) -> Table:
         Column("model", numeric=False),
         Column("fitted tests", "sigma"),
         Column("held-out tests", "sigma"),
-        Column("noise is so large", "p"),
-        Column("noise is so smooth", "p"),
+        Column("chance that noise is as large", "p"),
+        Column("chance that noise is as smooth", "p"),
     ]
     rows = []
-    for label, stage in zip(stage_labels(page), page["error"], strict=True):
+    for label, code, stage in stages_of(page):
         lost = f"{len(stage['lost'])} tests with rows that have no prediction" if stage["lost"] else ""
         rows.append(
             [
-                Cell(label, lost),
+                Cell(label, lost, code),
                 *(Cell(sigma(stage[key])) for key in ("fit", "holdout")),
                 *(Cell(_set(p_value(stage[key]))) for key in ("chi_square_p", "lag_one_p")),
             ]
@@ -86,61 +109,79 @@ def tests(page: Json, role: str) -> Table:
     return table(caption, columns, rows)
 
 
-def candidates(page: Json) -> Table:
-    """What was looked at, best first, and why each was chosen or lost."""
+def candidates(page: Json, some: Sequence[Json]) -> Table:
+    """What was looked at, best first, and why each was chosen or lost. some: of the page's candidates."""
     columns = [
         Column("effect", numeric=False),
-        Column("first order", "sigma"),
+        Column("promised", "sigma"),
         Column("fitted", "sigma"),
         Column("tests left out", "sigma"),
-        Column("evidence", "BIC behind"),
+        Column("BIC behind"),
         Column("why", numeric=False),
     ]
     rows = [
         [
-            Cell(it["effect"], "✓" if it["chosen"] else ""),
+            Cell(f"{'✓ ' if it['chosen'] else ''}{it['title']}", "", it["effect"]),
             *(Cell(sigma(it[key])) for key in ("screen", "fit", "crossvalidated")),
             Cell(number(it["evidence"], 3)),
-            Cell(f"{it['title']}; {it['why']}"),
+            Cell(it["why"]),
         ]
-        for it in page["candidates"]
+        for it in some
     ]
     notes = (
-        "First order: what the linear look promises with this effect. Tests left out: error in tests that the fit did "
-        "not see, each left out in turn.",
+        "Promised: the error to first order. Tests left out: the error in tests that the fit did not see, each left "
+        "out in turn. BIC behind: of the best set with this effect, behind the best of all.",
     )
-    return table("Candidates", columns, rows, *notes)
+    return table("", columns, rows, *notes)
 
 
-def parameters(page: Json) -> Table:
+def parameters(page: Json, values: Json, caption: str = "") -> Table:
     """Values with 95 % intervals."""
     columns = [
-        Column("effect", numeric=False),
-        Column("parameter", numeric=False),
+        Column("what", numeric=False),
         Column("value"),
         Column("standard error"),
         Column("95 % from"),
         Column("to"),
         Column("unit", numeric=False),
-        Column("meaning", numeric=False),
     ]
-    rows, last = [], ""
-    for name, it in page["parameters"].items():
-        effect, _, parameter = name.rpartition(".")
+    rows = []
+    for name, it in values.items():
         known = estimate(it)
         rows.append(
             [
-                Cell("" if effect == last else effect),
-                Cell(parameter, ", ".join(marks(known))),
+                Cell(it["meaning"], ", ".join(marks(known)), name),
                 Cell(_set(value_text(known, number))),
                 Cell(_set(std_text(known, number))),
                 *(Cell(_set(end)) for end in ends_text(known, number)),
                 Cell("" if it["unit"] == "1" else it["unit"]),
-                Cell(it["meaning"]),
             ]
         )
-        last = effect
-    return table("Parameters with 95 % intervals; a dash where the data set no end", columns, rows)
+    return table(caption, columns, rows)
+
+
+def rivals(page: Json) -> Table:
+    """Sets that explain the readings alike, side by side."""
+    columns = [
+        Column("set", numeric=False),
+        Column("fitted", "sigma"),
+        Column("held out", "sigma"),
+        Column("values, 95 % intervals", numeric=False),
+    ]
+    rows = [
+        [
+            Cell(set_of(it["effects"], page["titles"]), "", " + ".join(it["effects"])),
+            Cell(sigma(it["error"]["fit"])),
+            Cell(sigma(it["error"]["holdout"])),
+            Cell("; ".join(_said(it["parameters"], name) for name in it["effects"]).strip("; ")),
+        ]
+        for it in page["rivals"]
+    ]
+    return table("Sets that explain the readings alike", columns, rows)
+
+
+def _said(parameters: Json, effect: str) -> str:
+    return ", ".join(f"{what} {value} ({interval})" for what, value, interval in values(parameters, effect))
 
 
 def sigmas(page: Json) -> Table:
@@ -168,7 +209,7 @@ def equations(page: Json) -> Table:
     keys = {"name": "effect", "equation": "equation", "signature": "what it looks like", "source": "source"}
     columns = [Column(title, numeric=False) for title in keys.values()]
     rows = [
-        [f"{it['name']}: {it['title']}" if key == "name" else it[key] for key in keys]
+        [Cell(it["title"], "", it["name"]) if key == "name" else Cell(it[key]) for key in keys]
         for it in page["catalogue"]
     ]
     return table("Effects of the model", columns, rows)

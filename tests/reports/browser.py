@@ -81,13 +81,13 @@ def seconds_to_open(found: Any, path: Path, enough: float, tries: int = 5) -> fl
     for _ in range(tries):
         context = found.new_context(viewport={"width": 1280, "height": 800}, offline=True)
         bare = context.new_page()
-        seconds = _thread_seconds(bare)
+        seconds = thread_seconds(bare)
         bare.goto("about:blank")
         before = seconds()
         bare.evaluate(YARDSTICK)
         measured = min(measured, seconds() - before)
         page = watched(context, said)
-        seconds = _thread_seconds(page)
+        seconds = thread_seconds(page)
         page.add_init_script(OPENED)
         page.goto(path.as_uri())
         page.wait_for_function("window.opened !== undefined")
@@ -99,7 +99,7 @@ def seconds_to_open(found: Any, path: Path, enough: float, tries: int = 5) -> fl
     return opened * REFERENCE / measured
 
 
-def _thread_seconds(page: Any) -> Callable[[], float]:
+def thread_seconds(page: Any) -> Callable[[], float]:
     """The clock of a page's own thread, which runs while the page works [s]."""
     meter = page.context.new_cdp_session(page)
     meter.send("Performance.enable", {"timeDomain": "threadTicks"})

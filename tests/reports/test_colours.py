@@ -6,16 +6,17 @@ Simulation: G. M. Machado, M. M. Oliveira, L. A. F. Fernandes, IEEE Trans. Vis. 
 
 from __future__ import annotations
 
+import re
 from itertools import combinations
 
 import numpy as np
 import pytest
-from matplotlib import colormaps
 from matplotlib.colors import to_rgb
 from numpy.typing import NDArray
 
+from reports.bars import FILLS
 from reports.campaign.curve import COLOURS, DASHES, SYMBOLS
-from reports.campaign.plots import HELD_OUT, SHADES
+from reports.shading import ATTENTION, LIKENESS, MISFIT, Stops, colour, contrast, ink_on, share_of
 from reports.style import FAINT, INK
 
 Array = NDArray[np.float64]
@@ -41,7 +42,7 @@ EYES = {
 XYZ = np.array([[0.4124, 0.3576, 0.1805], [0.2126, 0.7152, 0.0722], [0.0193, 0.1192, 0.9505]])
 PAIRS = {
     "before, after": list(COLOURS.values()),
-    "fitted, held out": [COLOURS["after"], HELD_OUT],
+    "fitted, held out": [shade for fill in FILLS for shade in re.findall(r"#\w{6}", fill)[:1]],
     "measured, before, after": [INK, *COLOURS.values()],
     "measured, unloaded": [INK, FAINT],
 }
@@ -68,9 +69,29 @@ def test_what_stands_side_by_side_is_told_apart(name: str, eye: str) -> None:
 @pytest.mark.parametrize("eye", EYES)
 def test_more_misfit_is_darker(eye: str) -> None:
     """Every tenth of the scale by more than is just noticeable."""
-    shades = colormaps[SHADES](np.linspace(0.0, 1.0, 11))[:, :3]
-    light = np.array([lab((float(r), float(g), float(b)), eye)[0] for r, g, b in shades])
-    assert np.all(np.diff(light) < -2.3), light
+    for stops in (MISFIT, LIKENESS):
+        shades = [to_rgb(colour(stops, float(share))) for share in np.linspace(0.0, 1.0, 11)]
+        light = np.array([lab(shade, eye)[0] for shade in shades])
+        assert np.all(np.diff(light) < -2.3), light
+
+
+def test_noise_has_no_hue_and_misfit_has_one() -> None:
+    """Chroma in CIELAB: white and grey below three sigmas, a strong hue from there on; a step that is seen between."""
+    for sigma in (0.2, 1.0, 2.0, 2.99):
+        _, a, b = lab(to_rgb(colour(MISFIT, share_of(sigma))), "all cones")
+        assert np.hypot(a, b) < 5.0, sigma
+    for sigma in (3.01, 10.0, 100.0, 900.0, 1e5):
+        _, a, b = lab(to_rgb(colour(MISFIT, share_of(sigma))), "all cones")
+        assert np.hypot(a, b) > 30.0, sigma
+    below, above = (colour(MISFIT, share_of(ATTENTION * by)) for by in (0.999, 1.001))
+    assert np.linalg.norm(lab(to_rgb(below), "all cones") - lab(to_rgb(above), "all cones")) > APART
+
+
+@pytest.mark.parametrize("stops", [MISFIT, LIKENESS])
+def test_numbers_can_be_read_on_every_colour(stops: Stops) -> None:
+    """4.5 is what WCAG 2.2 asks of small text."""
+    shades = [colour(stops, float(share)) for share in np.linspace(0.0, 1.0, 1001)]
+    assert min(contrast(shade, ink_on(shade)) for shade in shades) > 4.5
 
 
 def test_before_and_after_differ_without_any_colour() -> None:

@@ -42,7 +42,8 @@ def test_all_of_it_in_order() -> None:
     assert isinstance(said, Text) and isinstance(mends, Bullets)
     nominals, aside, noise = (it for it in tables if isinstance(it, Table))
     rows = texts(nominals)
-    assert rows[0][:6] == ["EIz", "1.000", "0.0200", "1.031", "0.0040", "+1.6"]
+    assert [row[0].code for row in nominals.rows] == ["EIz", "GJ", "EA"]
+    assert rows[0][:6] == [NOMINAL["meaning"], "1.000", "0.0200", "1.031", "0.0040", "+1.6"]
     # What the tests do not see has no value of theirs.
     assert rows[1][3:6] == [DASH, DASH, DASH] and nominals.rows[1][0].mark == "not seen"
     assert rows[2][5] == "−3.4" and nominals.rows[2][0].mark == "far"

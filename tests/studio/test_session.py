@@ -157,7 +157,7 @@ def test_a_plan_before_measuring_is_that_of_the_command_line(
 ) -> None:
     write(tmp_path / "ahead", unmeasured())
     it = opened(session, tmp_path / "ahead")
-    assert it.headline.startswith("not measured yet") and it.plan is None
+    assert panel(it)["headline"].startswith("Not measured yet") and it.plan is None
     assert not panel(it)["measured"] and not panel(it)["planned"]
     it.look_ahead()
     until(it, lambda s: ":" in s.progress)
