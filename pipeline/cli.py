@@ -8,6 +8,7 @@ from typing import Annotated, NoReturn
 
 import typer
 
+from pipeline.bar.wiring import register as register_bar
 from pipeline.discover.wiring import register as register_discover
 from pipeline.errors import InputError
 from pipeline.export.wiring import register as register_export
@@ -378,5 +379,6 @@ def guarded(work: Callable[[], object]) -> None:
         give_up("interrupted; what was finished is kept and will be reused", 130)
 
 
+register_bar(app, guarded)
 register_discover(app, guarded)
 register_export(app, guarded)
