@@ -14,11 +14,11 @@ from reports.load import Json
 
 RECORD = "bar.json"
 READING = (
-    "Units are N, mm, rad and MPa; a 6x6 maps x y z rx ry rz of the tip point to Fx Fy Fz Mx My Mz there, the base held. "
+    "Units are N, mm, rad and MPa; a 6x6 maps x y z rx ry rz of the tip point to Fx Fy Fz Mx My Mz, the base held. "
     "x points from the base point to the tip point.",
     "Under an axial force P, tension positive, the 6x6 is K_b + P K_g.",
-    "Band by mesh: how far the entry may be from the limit of ever finer meshes. Band by tie: how far it moves when the "
-    "ends are tied to the solid in another way, which no mesh decides.",
+    "Band by mesh: how far the entry may be from the limit of ever finer meshes. Band by tie: how far it moves when "
+    "the ends are tied in another way, which no mesh decides.",
     "Every number is from bar.json beside this page.",
 )
 
@@ -41,7 +41,7 @@ def sections(folder: Path, record: Json) -> list[Section]:
     stiff: list[Block] = [stiffness(record), geometric(record)]
     if record["said"]:
         stiff.append(Bullets(record["said"]))
-    facts = {"length_mm": record["length_mm"], **{k: v for k, v in record["ends"].items()}}
+    facts = {"length_mm": record["length_mm"], **record["ends"]}
     small: list[Table] = [
         tables_bar.given("The bar", {**facts, "ties of the ends": record["tie"]}),
         tables_bar.given("Material", record["material"]),

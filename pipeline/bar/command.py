@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 from pathlib import Path
+from typing import Any
 
+from meshes.brought.formats import readers
+from pipeline.bar.file_case import case_of_options, file_case, names_a_file
 from pipeline.bar.record import BarRecord, named_entries
 from pipeline.command import OWN, WORKSHOP, usable
 from pipeline.errors import InputError
@@ -18,7 +22,7 @@ RECORD = "bar.json"
 
 @dataclass(frozen=True)
 class Asked:
-    """What was typed. file: a case, or a file with a bar. detail: coarse, fine or neither."""
+    """What was typed. file: a case, or a file with a bar, which `options` describe (`pipeline.bar.file_case`)."""
 
     file: str
     coarse: bool = False
@@ -27,6 +31,7 @@ class Asked:
     json: Path | None = None
     quiet: bool = False
     typed: str = ""
+    options: Mapping[str, Any] = field(default_factory=dict)
 
 
 def bar(asked: Asked) -> BarRecord:
@@ -37,7 +42,9 @@ def bar(asked: Asked) -> BarRecord:
     if asked.coarse and asked.fine:
         raise InputError("--coarse and --fine are both given, allowed is one of the two")
     progress = Progress(asked.quiet)
-    record, folder = _of_case(asked, progress)
+    path = Path(asked.file)
+    of_file = asked.file not in shipped_cases() and (path.suffix.lower() in readers() or names_a_file(path))
+    record, folder = (_of_file if of_file else _of_case)(asked, progress)
     record.write(folder / RECORD)
     if asked.json is not None:
         record.write(asked.json)
@@ -50,7 +57,7 @@ def _of_case(asked: Asked, progress: Progress) -> tuple[BarRecord, Path]:
     """The bar of a case with a section."""
     detail = COARSE if asked.coarse else FINE if asked.fine else DEFAULT
     if asked.file not in shipped_cases() and Path(asked.file).suffix != ".toml":
-        allowed = f"allowed are a case as .toml, or {', '.join(shipped_cases())}"
+        allowed = f"allowed are a case as .toml, {', '.join(readers())}, or {', '.join(shipped_cases())}"
         raise InputError(f"{asked.file} is no file with a bar, {allowed}")
     case = load_case(asked.file, max(detail.study))
     require("solid")
@@ -61,6 +68,30 @@ def _of_case(asked: Asked, progress: Progress) -> tuple[BarRecord, Path]:
     usable(folder, f"--out {folder}")
     usable(WORKSHOP, f"the folder for intermediate results, {WORKSHOP},")
     return bar_of_case(case, asked.file, detail, Workshop(WORKSHOP, progress), folder, asked.typed), folder
+
+
+def _of_file(asked: Asked, progress: Progress) -> tuple[BarRecord, Path]:
+    """The bar that a file holds, as a case or as options describe it."""
+    path = Path(asked.file)
+    given = [f"--{key}" for key, value in asked.options.items() if value is not None]
+    if path.suffix.lower() == ".toml":
+        if given:
+            raise InputError(f"{', '.join(given)} belong to a file without a case, {path} says it all itself")
+        case = file_case(path)
+    else:
+        if not path.is_file():
+            raise InputError(f"{path} is missing or no file")
+        case = case_of_options(path, asked.options)
+    if asked.coarse or asked.fine:
+        raise InputError(
+            "--coarse and --fine are for a case with a section, allowed for a file is a mesh size"
+        )
+    require("solid")
+    from pipeline.bar.of_file import bar_of_file
+
+    folder = asked.out or OWN / f"{case.name}-bar"
+    usable(folder, f"--out {folder}")
+    return bar_of_file(case, path.parent, folder, progress, asked.typed), folder
 
 
 def summary(record: BarRecord) -> list[str]:

@@ -45,7 +45,7 @@ class BarRecord(Record):
     """How an end moves the solid: rigid, half or distributed."""
     material: dict[str, float | str]
     stiffness: Matrix
-    """K_b, (6, 6) at the tip point, base held."""
+    """K_b, (6, 6) at the tip point, base held; of a section that of the working mesh, of a file extrapolated."""
     extrapolated: Matrix
     """K_b of the mesh study's limit."""
     numerical_band: dict[str, float]
