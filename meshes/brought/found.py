@@ -38,7 +38,8 @@ def packed(raws: Sequence[Raw], asked: Mapping[str, Any]) -> tuple[dict[str, Any
     arrays: Arrays = {}
     ends: dict[str, End] = {}
     kinds: list[list[str]] = []
-    for level, raw in enumerate(map(raised, raws)):
+    whole = [raised(raw) for raw in raws]
+    for level, raw in enumerate(whole):
         outside = outside_of(raw)
         missing = [which for which in ("base", "tip") if asked[which] is None]
         if missing:
@@ -58,7 +59,7 @@ def packed(raws: Sequence[Raw], asked: Mapping[str, Any]) -> tuple[dict[str, Any
     told = {
         "regions": list(raws[-1].regions),
         "kinds": kinds,
-        "remarks": list(raws[-1].remarks),
+        "remarks": list(whole[-1].remarks),
         **{which: end.said for which, end in ends.items()},
     }
     return told, arrays

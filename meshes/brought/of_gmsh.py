@@ -76,10 +76,10 @@ def _cells(entity: tuple[int, int], number: Ints) -> Iterator[tuple[str, Ints]]:
 def region_name(entity: tuple[int, int]) -> str:
     """Of a solid: that of its physical group, else its own, else its number."""
     for tag in gmsh.model.getPhysicalGroupsForEntity(*entity):
-        if name := gmsh.model.getPhysicalName(3, int(tag)):
+        if name := gmsh.model.getPhysicalName(3, int(tag)).strip():
             return str(name)
         return f"group {tag}"
-    name = gmsh.model.getEntityName(*entity).split("/")[-1]
+    name = gmsh.model.getEntityName(*entity).split("/")[-1].strip()
     return name if name and "Open CASCADE" not in name else f"solid {entity[1]}"
 
 
@@ -87,10 +87,11 @@ def _named(number: Ints) -> Iterator[tuple[str, Ints]]:
     """Nodes of every named surface and group of surfaces."""
     groups: dict[str, list[int]] = {}
     for _, tag in gmsh.model.getPhysicalGroups(2):
-        name = gmsh.model.getPhysicalName(2, tag) or f"group {tag}"
+        # MED fills its names up with blanks.
+        name = gmsh.model.getPhysicalName(2, tag).strip() or f"group {tag}"
         groups.setdefault(name, []).extend(int(e) for e in gmsh.model.getEntitiesForPhysicalGroup(2, tag))
     for _, tag in gmsh.model.getEntities(2):
-        if name := gmsh.model.getEntityName(2, tag).split("/")[-1]:
+        if name := gmsh.model.getEntityName(2, tag).split("/")[-1].strip():
             groups.setdefault(name, []).append(tag)
     for name, entities in groups.items():
         parts: list[Any] = [gmsh.model.mesh.getElements(2, e)[2] for e in dict.fromkeys(entities)]

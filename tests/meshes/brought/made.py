@@ -102,9 +102,16 @@ def cad(path: Path, make: Callable[[], None]) -> Path:
     return path
 
 
-def brought(path: Path, base: Any, tip: Any, unit: str | None = None, size: float | None = None) -> Brought:
+def brought(
+    path: Path,
+    base: Any,
+    tip: Any,
+    unit: str | None = None,
+    size: float | None = None,
+    seconds: float = 120.0,
+) -> Brought:
     asked = {"path": str(path), "unit": unit, "size": size, "base": base, "tip": tip}
-    return unpacked(*in_child(module_of(path), asked, 120.0))
+    return unpacked(*in_child(module_of(path), asked, seconds))
 
 
 def framed(it: Brought) -> BarFrame:
