@@ -13,8 +13,10 @@ from fem.linear import LinearModel
 from fem.linkage import single_bar
 from fem.material import Isotropic
 from fem.part_space import part_space
+from fem.slices.solver import ChainSolver
 from fem.space import Space
 from meshes.facets import facet_normals
+from meshes.layers import as_sweep
 from meshes.part import CORNERS, PartMesh
 from meshes.solid import Floats, Ints
 
@@ -45,7 +47,21 @@ class PartBar:
 
     @cached_property
     def _rigid(self) -> LinearModel:
-        return LinearModel(single_bar(self.space, self.length), self.material)
+        linkage = single_bar(self.space, self.length)
+        if self.swept and isinstance(self.material, Isotropic):
+            return LinearModel(linkage, self.material, ChainSolver(linkage, self.material))
+        return LinearModel(linkage, self.material)
+
+    @property
+    def swept(self) -> bool:
+        """Whether the cells stand in layers between planes across the bar, so that a chain of slices solves them."""
+        if self.mesh.kind != "hexahedron27":
+            return False
+        try:
+            as_sweep(self.mesh)
+        except ValueError:
+            return False
+        return True
 
     @cached_property
     def _half(self) -> Space:
@@ -93,6 +109,8 @@ def pressed(points: Floats, facets: Mapping[str, Ints], pull: float) -> dict[str
 # J. Appl. Mech. 19 (1952) 526-528) and 4 of a smooth field of quadratic cells. With 2, bar P comes within 0.05 % (K44
 # 0.15 %) from 12 000 and 80 000 unknowns; the band reaches from the limit by the one power to that by the other.
 POWER, SLOWEST, FASTEST = 2.0, 1.4, 4.0
+# Of swept hexahedra, graded to the ends: bending of bar P falls by 8, its torsion by 4.
+SWEPT_POWER = 3.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -103,14 +121,14 @@ class Limit:
     error: Floats
 
 
-def limit(coarse: Floats, fine: Floats) -> Limit:
-    """The limit of matrices on two meshes of which one halves the cells of the other."""
+def limit(coarse: Floats, fine: Floats, power: float = POWER) -> Limit:
+    """The limit of matrices on two meshes of which one halves the cells of the other, falling as h to a power."""
     step = fine - coarse
 
-    def beyond(power: float) -> Floats:
-        return fine + step / (2.0**power - 1.0)
+    def beyond(p: float) -> Floats:
+        return fine + step / (2.0**p - 1.0)
 
-    value = beyond(POWER)
+    value = beyond(power)
     error = np.maximum(np.abs(beyond(SLOWEST) - value), np.abs(value - beyond(FASTEST)))
     return Limit(value, error)
 

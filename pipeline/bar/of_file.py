@@ -12,7 +12,7 @@ import numpy as np
 
 from fem.anisotropic import Orthotropic, Regional, in_frame
 from fem.material import Isotropic
-from fem.part_bar import Limit, PartBar, limit
+from fem.part_bar import POWER, SWEPT_POWER, Limit, PartBar, limit
 from fem.part_space import shape_quality
 from meshes.brought.child import in_child
 from meshes.brought.formats import module_of
@@ -57,7 +57,8 @@ def bar_of_file(case: FileCase, folder: Path, out: Path, progress: Progress, typ
         elastic = [
             a.elastic if tie != "distributed" else b.stiffness(tie) for a, b in zip(axial, bars, strict=True)
         ]
-        found, geometric = limited(elastic), limited([a.geometric for a in axial])
+        power = SWEPT_POWER if bars[-1].mesh.kind == "hexahedron27" else POWER
+        found, geometric = limited(elastic, power), limited([a.geometric for a in axial], power)
     with progress.stage("ties of the ends"):
         others = {
             other: found.value + bars[0].stiffness(other) - elastic[0]
@@ -122,6 +123,7 @@ def place(case: FileCase, path: Path) -> Placed:
         "path": str(path.resolve()),
         "unit": bar.unit,
         "size": case.mesh.size_mm,
+        "tetrahedra": case.mesh.tetrahedra,
         "base": None if bar.base is None else bar.base.model_dump(),
         "tip": None if bar.tip is None else bar.tip.model_dump(),
     }
@@ -175,11 +177,11 @@ def checked_quality(placed: Placed) -> dict[str, float]:
     return worst[-1]
 
 
-def limited(matrices: list[Floats]) -> Limit:
+def limited(matrices: list[Floats], power: float) -> Limit:
     """Of two nested meshes their limit; of one mesh itself, its error not known and counted as nothing."""
     if len(matrices) == 1:
         return Limit(matrices[0], np.zeros((6, 6)))
-    return limit(matrices[-2], matrices[-1])
+    return limit(matrices[-2], matrices[-1], power)
 
 
 def described(case: FileCase) -> dict[str, float | str]:
@@ -197,7 +199,8 @@ def described(case: FileCase) -> dict[str, float | str]:
 def sentences(placed: Placed, tie: str) -> list[str]:
     """What a reader has to know."""
     brought = placed.brought
-    said = [
+    said = [f"Meshed: {brought.told['meshed']}."]
+    said += [
         f"Length {placed.frame.length:.6g} mm from base point to tip point, {placed.frame.said}.",
         *brought.told["remarks"],
     ]

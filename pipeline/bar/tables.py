@@ -121,6 +121,8 @@ class FileMesh(Part):
 
     size_mm: Length | None = None
     """Size of a cell of the coarser of two nested meshes. Left out: by how thick the part is."""
+    tetrahedra: bool = False
+    """Whether a prism is meshed with tetrahedra too, and not swept with hexahedra."""
     seconds: Annotated[Number, Field(gt=0.0, le=7200.0)] = 300.0
     """How long reading and meshing may take."""
 

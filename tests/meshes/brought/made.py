@@ -109,8 +109,16 @@ def brought(
     unit: str | None = None,
     size: float | None = None,
     seconds: float = 120.0,
+    tetrahedra: bool = False,
 ) -> Brought:
-    asked = {"path": str(path), "unit": unit, "size": size, "base": base, "tip": tip}
+    asked = {
+        "path": str(path),
+        "unit": unit,
+        "size": size,
+        "base": base,
+        "tip": tip,
+        "tetrahedra": tetrahedra,
+    }
     return unpacked(*in_child(module_of(path), asked, seconds))
 
 

@@ -9,12 +9,13 @@ from typing import Any
 import numpy as np
 import pytest
 
-from fem.part_bar import limit
+from fem.part_bar import POWER, SWEPT_POWER, limit
 from fem.slices.stiffness import chain_stiffness
 from meshes.brought.child import in_child
 from meshes.extrusion import section_sweep, stepped_thickness
 from meshes.resolution import Resolution
-from meshes.section import Rectangle
+from meshes.section import Rectangle, Tube
+from tests.fem import bar_p as bar_p_data
 from tests.meshes.brought import made
 from tests.meshes.brought.made import bars, bore, brought, cad, difference, plane
 
@@ -26,8 +27,9 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return tmp_path_factory.mktemp("cad")
 
 
+@pytest.mark.long
 def test_two_nested_meshes_of_a_box_reach_the_swept_one_within_their_band(folder: Path) -> None:
-    meshes = bars(brought(cad(folder / "box.step", made.box), *ENDS, size=6.0))
+    meshes = bars(brought(cad(folder / "box.step", made.box), *ENDS, size=6.0, tetrahedra=True))
     coarse, fine = (bar.stiffness("rigid") for bar in meshes)
     sweep = section_sweep(Rectangle(6.0, 10.0), Resolution(1.25), stepped_thickness(60.0, (8, 8, 8)))
     reference = chain_stiffness(sweep, made.ALUMINIUM)
@@ -35,12 +37,13 @@ def test_two_nested_meshes_of_a_box_reach_the_swept_one_within_their_band(folder
     diagonal = np.arange(6), np.arange(6)
     error = np.abs(found.value / np.where(reference == 0.0, 1.0, reference) - 1.0)[diagonal]
     # Torsion of a section two cells wide is the last to be right.
-    assert np.delete(error, 3).max() < 1e-3 and error[3] < 1.2e-2
+    assert np.delete(error, 3).max() < 2e-3 and error[3] < 1.2e-2
     # A clamped face has a singular edge: both meshes are too stiff, the finer one less.
     assert np.all(np.diag(coarse) > np.diag(fine)) and np.all(np.diag(fine) > np.diag(reference))
     assert np.all(np.abs(found.value - reference)[diagonal] <= found.error[diagonal])
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(("name", "unit"), [("a.iges", None), ("a.brep", "mm"), ("m.brep", "m")])
 def test_every_format_and_unit_gives_the_same_bar(name: str, unit: str | None, folder: Path) -> None:
     make = made.half_scale_box if unit == "m" else made.box
@@ -83,6 +86,7 @@ def test_a_fork_has_its_hinges_in_its_bores(folder: Path) -> None:
     assert tip[:, 0].min() > 59.0 and base[:, 0].max() < 1.0
 
 
+@pytest.mark.long
 def test_a_bar_lying_askew_in_its_file_is_the_same_bar(folder: Path) -> None:
     import gmsh
 
@@ -128,6 +132,7 @@ def test_what_cannot_be_is_a_sentence(make: Callable[[], None], ends: Any, said:
     assert said in str(caught.value)
 
 
+@pytest.mark.long
 def test_the_list_of_faces_can_be_written_back(folder: Path) -> None:
     path = cad(folder / "fork3.step", made.fork)
     with pytest.raises(ValueError) as caught:
@@ -160,3 +165,60 @@ def test_time_runs_out_and_crashes_are_sentences() -> None:
         in_child(module, {"do": "fill"}, 60.0)
     told, arrays = in_child(module, {"do": "nothing"}, 60.0)
     assert told == {"said": "nothing"} and arrays["a"].tolist() == [1, 2]
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("make", [made.box, made.hollow])
+def test_a_prism_is_swept(make: Callable[[], None], folder: Path) -> None:
+    """A block and a tube: hexahedra in layers, K_b as that of the swept section."""
+    it = brought(cad(folder / f"{make.__name__}_swept.step", make), *ENDS, size=6.0)
+    assert it.told["meshed"] == "a prism, swept"
+    coarse, fine = bars(it)
+    assert fine.mesh.kind == "hexahedron27" and fine.swept
+    section = Rectangle(6.0, 10.0) if make is made.box else Tube(10.0, 2.0)
+    sweep = section_sweep(section, Resolution(1.25), stepped_thickness(60.0, (8, 8, 8)))
+    reference = chain_stiffness(sweep, made.ALUMINIUM)
+    found = limit(coarse.stiffness("rigid"), fine.stiffness("rigid"), SWEPT_POWER).value
+    error = np.abs(np.diag(found) / np.diag(reference) - 1.0)
+    assert np.delete(error, 3).max() < 2e-3 and error[3] < 1e-2
+
+
+def test_what_is_no_prism_is_not_swept(folder: Path) -> None:
+    """A stepped bar has the same section at both ends and another one in between."""
+
+    def stepped() -> None:
+        import gmsh
+
+        made.box()
+        gmsh.model.occ.fuse([(3, 1)], [(3, gmsh.model.occ.addBox(20, -4, -6, 20, 8, 12))])
+
+    it = brought(cad(folder / "stepped.step", stepped), *ENDS, size=12.0)
+    assert it.told["meshed"] == "curved tetrahedra"
+
+
+@pytest.mark.long
+def test_bar_p_by_tetrahedra_and_swept(folder: Path) -> None:
+    """The figures that were asked for: forced to tetrahedra and extrapolated 0.1 %, K44 0.5 %; swept 0.1 %, K44 1 %."""
+
+    def bar_p() -> None:
+        import gmsh
+
+        from meshes.sweep import add_patch
+
+        occ = gmsh.model.occ
+        flats = [(2, add_patch(patch, 0.0)) for patch in bar_p_data.SECTION.patches()]
+        solids = [e for e in occ.extrude(flats, bar_p_data.LENGTH, 0.0, 0.0) if e[0] == 3]
+        occ.fuse(solids[:1], solids[1:])
+
+    path = cad(folder / "p.step", bar_p)
+    sweep = section_sweep(
+        bar_p_data.SECTION, Resolution(0.75), stepped_thickness(bar_p_data.LENGTH, (16, 16, 16, 16, 16))
+    )
+    reference = bar_p_data.entries(chain_stiffness(sweep, bar_p_data.MATERIAL))
+    for tetrahedra, torsion in ((True, 5e-3), (False, 1e-2)):
+        it = brought(path, plane(0, 0, 0), plane(310, 0, 0), tetrahedra=tetrahedra)
+        power = POWER if tetrahedra else SWEPT_POWER
+        found = limit(*(bar.stiffness("rigid") for bar in bars(it)), power)
+        error = np.abs(bar_p_data.entries(found.value) / reference - 1.0)
+        assert np.delete(error, 5).max() < 1e-3 and error[5] < torsion
+        assert np.all(error <= bar_p_data.entries(found.error) / np.abs(reference))

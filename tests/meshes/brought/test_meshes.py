@@ -67,6 +67,7 @@ def test_metres_names_and_sets(tmp_path: Path) -> None:
         brought(in_mm, *ENDS)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("suffix", ["msh", "unv", "med"])
 @pytest.mark.parametrize("order", [1, 2])
 def test_formats_of_gmsh(suffix: str, order: int, tmp_path: Path) -> None:
@@ -221,9 +222,8 @@ def test_two_hundred_mutated_files_are_a_result_or_a_sentence(tmp_path: Path) ->
         path = tmp_path / f"m{number}{source.suffix}"
         path.write_bytes(mutated(source.read_bytes(), generator))
         try:
-            brought(
-                path, *ENDS, unit=unit, size=8.0 if source.suffix in (".step", ".brep", ".iges") else None
-            )
+            size = 8.0 if source.suffix in (".step", ".brep", ".iges") else None
+            brought(path, *ENDS, unit=unit, size=size, seconds=15.0)
             results += 1
         except ValueError as error:
             assert str(error) and "Traceback" not in str(error)
