@@ -17,6 +17,7 @@ from fem.space import Space
 from fem.stiffness import bar_stiffness
 from fem.virtual_experiments import rigid_motions
 from meshes.bar import Bar
+from meshes.facets import Cylinder, on_surface
 from meshes.part import CORNERS, FACETS, PartMesh
 from meshes.resolution import Resolution
 from meshes.section import Rectangle
@@ -148,3 +149,11 @@ def test_a_cell_that_is_inside_out_is_refused() -> None:
     with pytest.raises(ValueError, match="12 of 12 cells of kind hexahedron20 are inside out"):
         part_space(parts.part(replace(raw, blocks=(("hexahedron", turned_cells),))))
     assert reference("tetra10").weights.sum() == pytest.approx(1 / 6)
+
+
+def test_a_facet_beside_a_bore_whose_corners_stand_on_its_edge_is_no_part_of_it() -> None:
+    points = np.array([[1.0, 0, 0], [0, 1.0, 0], [-1.0, 0, 0], [1.0, 0, 1.0]])
+    cylinder = Cylinder((0.0, 0.0, 0.0), (0.0, 0.0, 1.0), 1.0)
+    beside, along = np.array([[0, 1, 2, 0, 1, 2]]), np.array([[0, 1, 3, 0, 1, 3]])
+    assert on_surface(points, {"triangle6": beside}, cylinder, 3.0) == {}
+    assert on_surface(points, {"triangle6": along}, cylinder, 3.0)["triangle6"].tolist() == along.tolist()

@@ -41,7 +41,7 @@ def test_a_case_with_a_file(pipeline_command: Callable[..., Done], tmp_path: Pat
     assert done.code == 0, done.err
     record = json.loads((tmp_path / "it.json").read_text())
     series = 1.0 / (30 / (210e3 * 60) + 30 / (70e3 * 60))
-    assert record["stiffness"][0][0] == pytest.approx(series, rel=0.02)
+    assert record["stiffness"][0][0] == pytest.approx(series, rel=0.03)
     assert record["width_mm"] == 40.0 and record["length_mm"] == pytest.approx(60.0)
     assert set(record["data"]) == {"link.inp"} and set(record["modelling"]) == {"distributed"}
     said = " ".join(record["said"])
