@@ -35,8 +35,14 @@ def stiff(path: Path, unit: str = "mm", ends: tuple[Any, Any] = ENDS) -> Any:
     )
 
 
-@pytest.mark.parametrize("kind", ["hexahedron", "wedge", "mixed"])
-@pytest.mark.parametrize("quadratic", [False, True])
+@pytest.mark.parametrize(
+    ("kind", "quadratic"),
+    [
+        ("mixed", False),
+        *(pytest.param(k, q, marks=pytest.mark.long) for k in ("hexahedron", "wedge") for q in (False, True)),
+        pytest.param("mixed", True, marks=pytest.mark.long),
+    ],
+)
 def test_text_formats_and_vtu_hold_the_same_bar(kind: str, quadratic: bool, tmp_path: Path) -> None:
     raw = parts.mixed() if kind == "mixed" else parts.block(kind)
     mesh = parts.part(raw)
@@ -55,6 +61,7 @@ def test_text_formats_and_vtu_hold_the_same_bar(kind: str, quadratic: bool, tmp_
         assert difference(stiff(path), expected) < 1e-6, path.name
 
 
+@pytest.mark.long
 def test_metres_names_and_sets(tmp_path: Path) -> None:
     from dataclasses import replace
 
@@ -146,6 +153,7 @@ def test_what_bulk_data_would_lose_is_refused(card: str, said: str, tmp_path: Pa
     assert said in str(caught.value), str(caught.value)
 
 
+@pytest.mark.long
 def test_pieces_shells_and_folded_meshes_are_refused(tmp_path: Path) -> None:
     from dataclasses import replace
 

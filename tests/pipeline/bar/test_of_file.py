@@ -8,7 +8,9 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from typer.testing import CliRunner
 
+from pipeline.cli import app
 from tests.conftest import Done
 from tests.meshes.brought import made, parts, written
 
@@ -84,14 +86,16 @@ def test_a_case_that_cannot_be_is_a_sentence(old: str, new: str, said: str, tmp_
     assert not (tmp_path / "out").exists()
 
 
-def test_a_file_with_options(pipeline_command: Callable[..., Done], tmp_path: Path) -> None:
+def test_a_file_with_options(tmp_path: Path) -> None:
     laid(tmp_path)
-    done = pipeline_command("bar", "link.inp", "--unit", "mm", cwd=tmp_path)
-    assert done.code == 2 and "add --E and --nu" in done.err
-    done = pipeline_command("bar", "link.inp", "--unit", "mm", "--E", "7e4", "--nu", "0.33", cwd=tmp_path)
-    assert done.code == 2 and "base and tip not said" in done.err and '{ name = "FOOT" }' in done.err
-    done = pipeline_command("bar", "link.toml", "--E", "7e4", cwd=tmp_path)
-    assert done.code == 2 and "--E belong to a file without a case" in done.err
+    mesh, case = str(tmp_path / "link.inp"), str(tmp_path / "link.toml")
+    for arguments, said in (
+        ((mesh, "--unit", "mm"), "add --E and --nu"),
+        ((mesh, "--unit", "mm", "--E", "7e4", "--nu", "0.33"), '{ name = "FOOT" }'),
+        ((case, "--E", "7e4"), "--E belong to a file without a case"),
+    ):
+        done = CliRunner().invoke(app, ["bar", *arguments])
+        assert done.exit_code == 2 and said in done.stderr, done.stderr
 
 
 @pytest.mark.long

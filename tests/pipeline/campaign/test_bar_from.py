@@ -124,6 +124,7 @@ def test_a_length_that_is_not_the_bars_and_a_file_that_is_not_there(tmp_path: Pa
         read(out)
 
 
+@pytest.mark.long
 def test_a_virtual_bench_of_that_rig_feels_its_bars(tmp_path: Path) -> None:
     """From a campaign that is not filled in, and from the record itself: the same bench."""
     folder = written(tmp_path)
