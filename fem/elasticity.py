@@ -7,6 +7,7 @@ Gram matrix of the shape-function gradients, from which the isotropic law picks 
 import numpy as np
 import scipy.sparse as sp
 
+from fem.anisotropic import Regional, regional_blocks, regional_stress
 from fem.material import Isotropic
 from fem.space import Space
 from meshes.solid import Floats
@@ -32,17 +33,32 @@ def isotropic_blocks(gram: Floats, material: Isotropic) -> Floats:
     return blocks
 
 
-def stiffness_matrix(space: Space, material: Isotropic) -> sp.csr_matrix:
+def stiffness_matrix(space: Space, material: Isotropic | Regional) -> sp.csr_matrix:
     """K of ∫ σ(u):ε(v) dV, (dofs, dofs) sparse, N/mm."""
+    if isinstance(material, Regional):
+        return regional_matrix(space, material)
     # The law is linear in the Gram matrix: applied to the sums it is applied once a block, not once a cell.
     gram = space.summed(lambda cells: gradient_gram(space.gradients[cells], space.weights[cells]))
     return space.pattern.matrix(isotropic_blocks(gram.reshape(-1, 3, 3), material))
 
 
-def stress(space: Space, material: Isotropic, u: Floats) -> Floats:
+def regional_matrix(space: Space, material: Regional) -> sp.csr_matrix:
+    """K of several or of orthotropic materials, (dofs, dofs) sparse, N/mm: the law is applied in every cell."""
+
+    def local(cells: slice) -> Floats:
+        gram = gradient_gram(space.gradients[cells], space.weights[cells])
+        blocks = regional_blocks(gram, material.tensors, material.of_cell[cells])
+        return blocks.reshape(*blocks.shape[:3], 9)
+
+    return space.pattern.matrix(space.summed(local).reshape(-1, 3, 3))
+
+
+def stress(space: Space, material: Isotropic | Regional, u: Floats) -> Floats:
     """Cauchy stress of small displacements `u` at the integration points, (m, q, 3, 3) MPa."""
     gradient = space.displacement_gradient(u)
     strain = 0.5 * (gradient + np.swapaxes(gradient, -1, -2))
+    if isinstance(material, Regional):
+        return regional_stress(strain, material.tensors, material.of_cell)
     volumetric = np.einsum("...aa->...", strain)[..., None, None]
     return 2.0 * material.shear_modulus * strain + material.lame * volumetric * IDENTITY
 

@@ -7,6 +7,7 @@ from functools import cached_property
 import numpy as np
 import scipy.sparse as sp
 
+from fem.anisotropic import Regional
 from fem.coarse_space import CORNERS_AND_EDGES, prolongation
 from fem.elasticity import stiffness_matrix
 from fem.linkage import PLATFORM, Linkage
@@ -23,12 +24,19 @@ class LinearModel:
     """A linkage with its stiffness matrices, one for each member."""
 
     linkage: Linkage
-    material: Isotropic
+    material: Isotropic | Regional
     solver: Solver = automatic
 
     @cached_property
     def reduction(self) -> Reduction:
         return Reduction(self.linkage)
+
+    @property
+    def isotropic(self) -> Isotropic:
+        """The material where it is one, and isotropic; ValueError where large strains cannot be had for it."""
+        if isinstance(self.material, Regional):
+            raise ValueError("load paths are made of one isotropic material, this part has regions or axes")
+        return self.material
 
     @property
     def matrices(self) -> tuple[sp.csr_matrix, ...]:

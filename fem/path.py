@@ -223,7 +223,7 @@ def residual_at(model: LinearModel, state: State) -> Floats:
     r = model.reduction
     fields = r.displacements(state.inner, state.at)
     members = zip(r.linkage.members, fields, strict=True)
-    return r.loads([deformed_forces(m.space, model.material, u) for m, u in members], state.at)
+    return r.loads([deformed_forces(m.space, model.isotropic, u) for m, u in members], state.at)
 
 
 def residual_and_tangent(model: LinearModel, state: State) -> tuple[Floats, sp.csr_matrix]:
@@ -231,7 +231,7 @@ def residual_and_tangent(model: LinearModel, state: State) -> tuple[Floats, sp.c
     r = model.reduction
     fields = r.displacements(state.inner, state.at)
     evaluated = [
-        force_and_tangent(m.space, model.material, u) for m, u in zip(r.linkage.members, fields, strict=True)
+        force_and_tangent(m.space, model.isotropic, u) for m, u in zip(r.linkage.members, fields, strict=True)
     ]
     forces = [f for f, _ in evaluated]
     tangent = r.reduce([k for _, k in evaluated], state.at, r.curvature(forces, state.at))

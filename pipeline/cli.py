@@ -8,6 +8,7 @@ from typing import Annotated, NoReturn
 
 import typer
 
+from pipeline.bar.wiring import register as register_bar
 from pipeline.discover.wiring import register as register_discover
 from pipeline.errors import InputError
 from pipeline.export.wiring import register as register_export
@@ -128,7 +129,7 @@ def init(
     ] = None,
     kind: Annotated[str, typer.Option(help="Of the rig: bar, parallelogram, manipulator.")] = "bar",
     known: Annotated[
-        str | None, typer.Option("--from", metavar="BAR", help="A case, or the result.json of run: its bar.")
+        str | None, typer.Option("--from", metavar="BAR", help="A case, result.json or bar.json: its bar.")
     ] = None,
 ) -> None:
     """A campaign to fill in, commented; what a file of readings says by itself is filled in already."""
@@ -182,14 +183,20 @@ def simulate(
     manipulator: Annotated[
         str | None, typer.Option(metavar="FILE", help="A whole manipulator; default a parallelogram.")
     ] = None,
+    known: Annotated[
+        Path | None,
+        typer.Option("--from", metavar="CAMPAIGN|RESULT", help="Whose rig it is; default the paper's."),
+    ] = None,
     quiet: Quiet = False,
 ) -> None:
     """A virtual bench: finite elements with hidden effects and noise write a campaign; the answer is sealed."""
     from pipeline.simulate import simulate
     from pipeline.simulate_manipulator import simulate_manipulator
 
+    if manipulator is not None and known is not None:
+        give_up("--manipulator and --from are both given, allowed is one of the two", 2)
     if manipulator is None:
-        guarded(lambda: simulate(out, effect or [], seed, quiet))
+        guarded(lambda: simulate(out, effect or [], seed, quiet, known))
     else:
         guarded(lambda: simulate_manipulator(out, manipulator, effect or [], seed, quiet))
 
@@ -380,6 +387,7 @@ def guarded(work: Callable[[], object]) -> None:
         give_up("interrupted; what was finished is kept and will be reused", 130)
 
 
+register_bar(app, guarded)
 register_discover(app, guarded)
 register_export(app, guarded)
 register_predict(app, guarded)

@@ -10,6 +10,7 @@ from pydantic import BaseModel
 from docs.made.allowed import allowed, anchor, default_of, unit_of
 from docs.made.described import descriptions, summary
 from pipeline import answer, law_record, value
+from pipeline.bar import tables as bar
 from pipeline.campaign import tables as campaign
 from pipeline.campaign.mapped import schema as mapped
 from pipeline.campaign.rigs import KINDS
@@ -48,6 +49,14 @@ TABLES: dict[str, type[BaseModel]] = {
     "case lug": case.LugSize,
     "case paper": case.Paper,
     "case mesh": case.MeshSize,
+    "file case": bar.FileCase,
+    "file bar": bar.FileBar,
+    "file end plane": bar.PlaneEnd,
+    "file end cylinder": bar.CylinderEnd,
+    "file end name": bar.NamedEnd,
+    "file material": bar.OrthotropicMaterial,
+    "file linkage": bar.FileLinkage,
+    "file mesh": bar.FileMesh,
     "model": model._Top,
     "model from": model._Source,
     "model effects": model._Effect,

@@ -85,8 +85,9 @@ class _Reader:
         try:
             return None if described is None else described.rig(self.folder)
         except InputError as error:
+            key = "bar_from" if "bar_from" in raw else "file"
             for said in str(error).splitlines():
-                self.say(("rig", "file"), said, "rig.file")
+                self.say(("rig", key), said, f"rig.{key}")
         return None
 
     def _table(self, raw: Raw) -> type[RigTable] | None:
@@ -147,7 +148,10 @@ class _Reader:
     def tolerance(self, raw: Raw | None, rig: Rig | None) -> dict[str, float] | None:
         if raw is None or rig is None:
             return None
-        return tolerance(raw, rig.written, lambda path, said: self.say(("tolerance", *path), said))
+        return tolerance(raw, rig.written, self._say_of_tolerance, rig.usual_tolerance)
+
+    def _say_of_tolerance(self, path: tuple[str, ...], said: str) -> None:
+        self.say(("tolerance", *path), said)
 
     def heads(self, raw: list[Raw], base: Raw, rig: Rig | None) -> tuple[Head, ...]:
         heads: list[Head] = []

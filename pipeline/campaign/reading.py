@@ -24,7 +24,6 @@ from pipeline.campaign.plausible import judge
 from pipeline.campaign.posture_rows import parted
 from pipeline.campaign.rows import data_by_test, measured_of
 from pipeline.campaign.sheet import sheet
-from pipeline.campaign.tolerance import usual
 from pipeline.toml.complaints import BadCampaign, Complaints, shown
 
 DESCRIPTION, MEASUREMENTS = "campaign.toml", "measurements.csv"
@@ -71,7 +70,7 @@ def read(folder: Path) -> Campaign:
     shorter = [thinned(test, noise, description.gauges) for test in tests]
     tests = tuple(test for test, _ in shorter)
     remarks += [said for _, said in shorter if said]
-    files = [folder / DESCRIPTION, *files]
+    files = [folder / DESCRIPTION, *description.rig.files, *files]
     digests = tuple((_named(path, folder), sha256(path.read_bytes()).hexdigest()) for path in files)
     return Campaign(
         description.name,
@@ -88,16 +87,18 @@ def read(folder: Path) -> Campaign:
 
 def _tolerance(description: Description) -> tuple[dict[str, float], list[str]]:
     """What is written about the rig, by how much it may be off, and the remark where nobody said it."""
+    rig = description.rig
+    of_bar = [f"{DESCRIPTION}, rig.bar_from: {rig.tolerance_said}"] if rig.tolerance_said else []
     if description.tolerance is not None:
-        return description.tolerance, []
-    written = description.rig.written
-    known = usual(written)
+        return description.tolerance, of_bar
+    known = rig.usual_tolerance
     if not known:
         return known, []
     said = ", ".join(f"{key} {_deviation(key, value)}" for key, value in known.items())
     return known, [
         f"{DESCRIPTION}, tolerance: is missing, so what is written about the rig counts as known to one standard "
-        f'deviation of {said}; write [tolerance] with your own, or all = "exact"'
+        f'deviation of {said}; write [tolerance] with your own, or all = "exact"',
+        *of_bar,
     ]
 
 

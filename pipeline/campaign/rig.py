@@ -7,12 +7,14 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any, ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
 
 from pipeline.campaign.gauge import Gauge, Vector
+from pipeline.campaign.tolerance import usual
 from pipeline.campaign.usual_tests import UsualTest
 from vjm.effects.base import Rig as Bench
 from vjm.effects.sized import Scale
@@ -80,6 +82,21 @@ class Rig(ABC):
     def written(self) -> tuple[str, ...]:
         """Keys of the tolerances (`vjm.tolerances`) of what its table says."""
         return ()
+
+    @property
+    def usual_tolerance(self) -> dict[str, float]:
+        """Of what is written, the standard deviations that count where nothing is said."""
+        return usual(self.written)
+
+    @property
+    def files(self) -> tuple[Path, ...]:
+        """That its table names, beside the campaign's own."""
+        return ()
+
+    @property
+    def tolerance_said(self) -> str:
+        """Where these come from, if from more than usage; else empty."""
+        return ""
 
     @property
     def point(self) -> Vector | None:

@@ -24,12 +24,14 @@ def usual(written: tuple[str, ...]) -> dict[str, float]:
     return {key: every[key] for key in written}
 
 
-def tolerance(raw: Mapping[str, Any], written: tuple[str, ...], say: Say) -> dict[str, float]:
+def tolerance(
+    raw: Mapping[str, Any], written: tuple[str, ...], say: Say, known: Mapping[str, float] | None = None
+) -> dict[str, float]:
     """Standard deviations by key of a rig's tolerances, zero left out; with a complaint about every mistake.
 
-    A number for `bar` is that of all of its stiffnesses. What is not said has its usual one.
+    A number for `bar` is that of all of its stiffnesses. What is not said is as in `known`, by default as usual.
     """
-    found = usual(written)
+    found = usual(written) if known is None else dict(known)
     allowed = [ALL, *_spelled(written)]
     for key, value in raw.items():
         if key == ALL:

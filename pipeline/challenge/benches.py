@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 
 from pipeline.campaign import Noise, ParallelogramRig, UniformBar
-from pipeline.simulate import LENGTH, REFERENCE_C, WIDTH, bench_rig
+from pipeline.simulate import REFERENCE_C, bench_rig
 from pipeline.virtual.plan import SENSORS, PlannedTest, bench_plan
 
 _EA, _EIZ, _EIY, _GJ = 6.82e6, 4.5e7, 2.0e8, 1.08e7
@@ -62,17 +61,6 @@ def drawn_noise(generator: np.random.Generator) -> Noise:
     )
 
 
-def scaled(plan: Sequence[PlannedTest], rig: ParallelogramRig, share: float) -> tuple[PlannedTest, ...]:
-    """The plan of the paper's bench for another rig: loads by Euler's load, travels by the length, times a share."""
-    base = bench_rig()
-    by_load = _euler(rig) / _euler(base)
-    by_length = rig.length / LENGTH
-    by_width = rig.width / WIDTH
-    # Of the coordinates, as forces along x and about y, and as travels along and about the others.
-    factors = share * np.array([by_load, by_length, by_length, 1.0, by_load * by_width, 1.0])
-    return tuple(replace(test, values=test.values * factors) for test in plan)
-
-
 def whole_plan(steps: int) -> tuple[PlannedTest, ...]:
     """All tests of the good bench, the fitted ones of so many steps, those held out of `HELD`."""
     plans = bench_plan(steps), bench_plan(HELD)
@@ -87,7 +75,3 @@ def drawn_plan(generator: np.random.Generator, label: str, steps: int) -> tuple[
     chosen = set(generator.choice(len(fitted), count, replace=False).tolist())
     kept = {fitted[k].id for k in chosen}
     return tuple(test for test in every if test.holdout or test.id in kept)
-
-
-def _euler(rig: ParallelogramRig) -> float:
-    return float(rig.stiffness[1, 1]) * rig.length

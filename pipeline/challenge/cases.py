@@ -17,13 +17,12 @@ from pipeline.challenge.benches import (
     drawn_noise,
     drawn_plan,
     drawn_rig,
-    scaled,
     whole_plan,
 )
 from pipeline.challenge.faults import FAULTS
 from pipeline.coverage.cases import is_size
 from pipeline.parameter_names import parted, path_of
-from pipeline.simulate import bench_rig
+from pipeline.simulate import bench_rig, scaled
 from pipeline.virtual.plan import SENSORS
 from vjm.effects import catalogue
 

@@ -69,7 +69,8 @@ def _rig(kind: str, bar: KnownBar | None) -> str:
     text = KINDS[kind].template
     if bar is not None:
         text = text.replace('length_mm = "?"', f"length_mm = {bar.length!r}")
-        text = text.replace('width_mm = "?"', f"width_mm = {bar.width!r}")
+        if bar.width is not None:
+            text = text.replace('width_mm = "?"', f"width_mm = {bar.width!r}")
         text = "".join(bar.lines if line.startswith("bar =") else line for line in text.splitlines(True))
     return text
 

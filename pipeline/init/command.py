@@ -33,21 +33,28 @@ def init(folder: Path, file: Path | None, kind: str, known: str | None = None) -
     found = None if file is None else found_in(file)
     folder.mkdir(parents=True, exist_ok=True)
     if file is not None and found is not None:
-        copy = folder / file.name
-        if copy.exists() and copy.read_bytes() != file.read_bytes():
-            raise InputError(f"{copy} is there already and is another file, allowed is a folder without it")
-        if not copy.exists():
-            shutil.copyfile(file, copy)
+        _beside(file, folder)
         text = campaign_text(file.stem, kind, file.name, found, bar)
     else:
         text = campaign_text(folder.resolve().name, kind, bar=bar)
         if not (folder / MEASUREMENTS).exists():
             (folder / MEASUREMENTS).write_text(plain_header(known_columns(())), encoding="utf-8")
+    if bar is not None and bar.file is not None:
+        _beside(bar.file, folder)
     (folder / DESCRIPTION).write_text(text, encoding="utf-8")
     print(f"{folder / DESCRIPTION}: written; fill in what is a question mark")
     if found is not None and found.question:
         print(f"{file}: {found.question}")
     print(f"next: {command('check', folder)}")
+
+
+def _beside(file: Path, folder: Path) -> None:
+    """Copy a file into the campaign's folder, where it is not there yet."""
+    copy = folder / file.name
+    if copy.exists() and copy.read_bytes() != file.read_bytes():
+        raise InputError(f"{copy} is there already and is another file, allowed is a folder without it")
+    if not copy.exists():
+        shutil.copyfile(file, copy)
 
 
 def found_in(file: Path) -> Found:

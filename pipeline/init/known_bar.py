@@ -7,17 +7,19 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from pipeline.campaign.bar_from import bar_from
 from pipeline.errors import InputError
 from pipeline.validation.case import load_case
 
 
 @dataclass(frozen=True)
 class KnownBar:
-    """length, width: mm, of the linkage. lines: what `[rig]` of a campaign says of the bar."""
+    """length, width: mm, of the linkage. lines: what `[rig]` of a campaign says of the bar. file: that it names."""
 
     length: float
-    width: float
+    width: float | None
     lines: str
+    file: Path | None = None
 
 
 def known_bar(source: str) -> KnownBar:
@@ -27,15 +29,11 @@ def known_bar(source: str) -> KnownBar:
 
 def _of_result(path: Path) -> KnownBar:
     try:
-        result = json.loads(path.read_text(encoding="utf-8"))
-        matrix = [[float(value) for value in row] for row in result["bar"]["stiffness"]]
-        length, width = float(result["length_mm"]), float(result["width_mm"])
-    except OSError as error:
-        raise InputError(f"--from {path}: cannot be read: {error.strerror}") from error
-    except (ValueError, KeyError, TypeError) as error:
-        raise InputError(f"--from {path}: is no result of run, allowed is its result.json") from error
-    rows = "".join(f"    [{', '.join(f'{value:.9g}' for value in row)}],\n" for row in matrix)
-    return KnownBar(length, width, f"bar_stiffness = [          # identified, of {path.name}\n{rows}]\n")
+        found = bar_from(path)
+    except InputError as error:
+        raise InputError(f"--from {error}") from error
+    line = f"bar_from = {json.dumps(path.name)}        # K_b, K_g and their bands, as computed\n"
+    return KnownBar(found.length, found.width, line, path)
 
 
 def _of_case(source: str) -> KnownBar:

@@ -46,6 +46,10 @@ def load_case(name: str, finest: int = 1) -> Case:
         raw = tomllib.loads(text)
     except (tomllib.TOMLDecodeError, UnicodeDecodeError, OSError) as error:
         raise InputError(f"{path}: not a readable TOML file: {error}") from error
+    if isinstance(raw.get("bar"), dict) and "file" in raw["bar"]:
+        raise InputError(
+            f"{path}: its bar is a file, which the command bar takes; allowed here is a bar with a section"
+        )
     reader = _Reader(raw, text, Complaints(str(path)))
     case = reader.case()
     reader.together(finest)

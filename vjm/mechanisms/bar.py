@@ -40,8 +40,8 @@ class Bar(WithPlaces):
     tip: "free" carries nothing; "guided" shifts but does not turn; "pinned" has a hinge about y to a block,
     the platform, that slides along x only. `held` names the coordinates that this holds.
     bar: another model of the bar than the 6x6 lumped at `spring_at`, such as `vjm.refined.Refined`.
-    hinges, single_hinges, alterations, mount, base_joints, line_load, gravity, sensors, gauge_at, fibre_y, fibre_z: as
-    in `vjm.mechanisms.parallelogram`.
+    hinges, single_hinges, alterations, mount, base_joints, line_load, gravity, sensors, gauge_at, fibre_y, fibre_z,
+    polar_radius: as in `vjm.mechanisms.parallelogram`.
     ValueError for a length that is not positive, a stiffness that is not symmetric positive definite or a
     support that is none of those named.
     """
@@ -63,6 +63,7 @@ class Bar(WithPlaces):
     gauge_at: tuple[GaugeAt, ...] = ()
     fibre_y: float | None = None
     fibre_z: float | None = None
+    polar_radius: float = 0.0
 
     def __post_init__(self) -> None:
         checks.positive("length", self.length)
@@ -120,7 +121,7 @@ class Bar(WithPlaces):
 
     def refined(self, segments: int = SEGMENTS) -> Bar:
         """The mechanism with its bar refined into segments."""
-        return replace(self, bar=Refined(segments))
+        return replace(self, bar=Refined(segments, self.polar_radius))
 
     @cached_property
     def _assembly(self) -> Assembly:

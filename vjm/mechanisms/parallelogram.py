@@ -50,6 +50,7 @@ class Parallelogram(WithPlaces):
     body, at the base origin along and about the axes of the base frame. line_load: (3,) N/mm along
     the bars, base frame. gravity: (3,) unit vector of weights given without a direction. sensors, gauge_at:
     what is read (`vjm.sensors`, `vjm.gauges`). fibre_y, fibre_z: outermost fibres of the bars, mm, where known.
+    polar_radius: radius of gyration of the section by which an axial force stiffens the twist of refined bars, mm.
     ValueError for lengths that are not positive, |q| of 90 degrees or more, a K_b that is not
     symmetric positive definite.
     """
@@ -72,6 +73,7 @@ class Parallelogram(WithPlaces):
     gauge_at: tuple[GaugeAt, ...] = ()
     fibre_y: float | None = None
     fibre_z: float | None = None
+    polar_radius: float = 0.0
 
     def __post_init__(self) -> None:
         checks.positive("length", self.length)
@@ -131,7 +133,7 @@ class Parallelogram(WithPlaces):
 
     def refined(self, segments: int = SEGMENTS) -> Parallelogram:
         """The linkage with both bars refined into segments."""
-        return replace(self, bar=Refined(segments))
+        return replace(self, bar=Refined(segments, self.polar_radius))
 
     def _gauge(self, place: GaugeAt) -> Gauge:
         if self._based is not None:

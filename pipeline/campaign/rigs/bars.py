@@ -13,9 +13,11 @@ from pydantic import field_validator, model_validator
 
 from fem.beam import uniform_stiffness
 from fem.torsion import torsion_constant
+from pipeline.campaign.bar_from import BarFrom, bar_from
 from pipeline.campaign.gauge import Gauge, Vector
 from pipeline.campaign.rig import Array, Mistakes, Rig
 from pipeline.campaign.rig_table import RigTable
+from pipeline.errors import InputError
 from pipeline.toml.fields import BarTable, Entry, Length, Weight
 from pipeline.toml.stiffness import not_a_stiffness, symmetric
 from pipeline.validation.case_tables import Material, SectionSize
@@ -27,6 +29,8 @@ from vjm.mechanisms.parallelogram import Parallelogram
 
 Mechanism = TypeVar("Mechanism", Bar, Parallelogram)
 Own = TypeVar("Own", bound="RigOfBars")
+SAME_LENGTH = 1e-6
+"""Relative: two lengths of one bar differ by how many digits were written."""
 
 
 @dataclass(frozen=True)
@@ -44,13 +48,27 @@ class RigOfBars(Rig):
     """Bars of one stiffness; one of `bar_stiffness` and `bar` is given.
 
     bar_stiffness: (6, 6) of one bar at its tip, base clamped, bar frame. fibre_y, fibre_z: mm from the bar's axis to
-    its outermost fibres.
+    its outermost fibres. computed: the result that bar_stiffness comes from, with K_g and bands.
     """
 
     bar_stiffness: Array | None = None
     bar: UniformBar | None = None
     fibre_y: float | None = None
     fibre_z: float | None = None
+    computed: BarFrom | None = None
+
+    @property
+    def usual_tolerance(self) -> dict[str, float]:
+        usual = super().usual_tolerance
+        return usual if self.computed is None else self.computed.tolerance(usual)
+
+    @property
+    def files(self) -> tuple[Path, ...]:
+        return () if self.computed is None else (self.computed.path,)
+
+    @property
+    def tolerance_said(self) -> str:
+        return "" if self.computed is None else self.computed.said
 
     @cached_property
     def stiffness(self) -> Array:
@@ -94,6 +112,8 @@ class RigOfBars(Rig):
         """The mechanism with the weights, sensors, gauges and fibres of the rig."""
         places = tuple(GaugeAt(g.bar, g.station, g.vector, g.offset) for g in gauges)
         it = replace(plain, sensors=self.sensors, gauge_at=places, fibre_y=self.fibre_y, fibre_z=self.fibre_z)
+        if self.computed is not None:
+            it = replace(it, polar_radius=self.computed.polar_radius)
         down = self.down
         return it if down is None else replace(it, gravity=down, line_load=self.line_weight * down)
 
@@ -113,10 +133,11 @@ class RigOfBars(Rig):
 
 
 class TableOfBars(RigTable):
-    """A rig of bars: one of bar, bar_stiffness, and section with material."""
+    """A rig of bars: one of bar, bar_stiffness, bar_from, and section with material."""
 
     further = """# section = { kind = "round", diameter_mm = 12.0 } and material = { E_MPa = 7e4, nu = 0.33 } for `bar`
 # bar_stiffness = [[...], ...]   the 6x6 of one bar at its tip instead of `bar`; N, mm, rad
+# bar_from = "bar.json"          or a result of the commands bar or run, in this folder: K_b, K_g and their bands
 # gravity = [0, 0, -1]           direction of gravity; with line_weight_N_per_mm, platform_weight_N
 # reference_temperature_C = 20.0 needed where a temperature was measured
 # fibre_y_mm, fibre_z_mm         outermost fibres of the bar, for the effect material_yield
@@ -127,6 +148,8 @@ class TableOfBars(RigTable):
     bar_stiffness: list[list[Entry]] | None = None
     """6x6 stiffness of one bar at its tip with the base clamped, bar frame; x y z rx ry rz to Fx Fy Fz Mx My Mz;
     N, mm, rad."""
+    bar_from: str | None = None
+    """Result of the command `bar` or of `run`, from the folder of the campaign: K_b, K_g and both bands."""
     bar: BarTable | None = None
     """Rigidities of a uniform slender bar."""
     section: SectionSize | None = None
@@ -149,16 +172,18 @@ class TableOfBars(RigTable):
 
     @model_validator(mode="after")
     def stiff(self) -> TableOfBars:
-        if self.bar_stiffness is None and (why := not_a_stiffness(self.bars().stiffness.tolist())):
+        unread = self.bar_stiffness is None and self.bar_from is None
+        if unread and (why := not_a_stiffness(self.bars().stiffness.tolist())):
             raise ValueError(f"the 6x6 of bar at this length cannot be used: {why}")
         return self
 
     def contradictions(self) -> list[str]:
         said = []
-        given = [name for name in ("bar_stiffness", "bar", "section") if getattr(self, name) is not None]
+        ways = ("bar_stiffness", "bar_from", "bar", "section")
+        given = [name for name in ways if getattr(self, name) is not None]
         if len(given) != 1:
-            what = " and ".join(given) + " are" if given else "none of bar_stiffness, bar and section is"
-            said.append(f"{what} given, allowed is one of the three")
+            what = " and ".join(given) + " are" if given else f"none of {', '.join(ways[:-1])} and section is"
+            said.append(f"{what} given, allowed is one of them")
         if (self.section is None) != (self.material is None):
             there, missing = ("material", "section") if self.section is None else ("section", "material")
             said.append(f"{there} is given without {missing}, allowed are both together")
@@ -173,7 +198,16 @@ class TableOfBars(RigTable):
         """The frozen object; bars name no file."""
 
     def rig(self, folder: Path | None) -> RigOfBars:
-        return self.bars()
+        if self.bar_from is None:
+            return self.bars()
+        found = bar_from((folder or Path()) / self.bar_from)
+        if abs(found.length - self.length_mm) > SAME_LENGTH * self.length_mm:
+            raise InputError(
+                f"{found.name} is of a bar of {found.length:.9g} mm, but length_mm is {self.length_mm:.9g}; allowed is "
+                "its own length"
+            )
+        own = self.model_copy(update={"bar_stiffness": found.stiffness.tolist(), "bar_from": None})
+        return replace(own.bars(), computed=found)
 
     def made_of(self) -> dict[str, Any]:
         """What rigs of bars are made with, in the words of `RigOfBars`."""
@@ -209,12 +243,19 @@ class TableOfBars(RigTable):
     @classmethod
     def merged(cls, base: dict[str, Any], own: dict[str, Any]) -> dict[str, Any]:
         raw = dict(base)
-        if {"bar", "bar_stiffness", "section"} & set(own):
-            for key in ("bar", "bar_stiffness", "section", *(() if "section" in own else ("material",))):
+        if {"bar", "bar_stiffness", "bar_from", "section"} & set(own):
+            for key in (
+                "bar",
+                "bar_stiffness",
+                "bar_from",
+                "section",
+                *(() if "section" in own else ("material",)),
+            ):
                 raw.pop(key, None)
         raw |= own
         stretched = own.get("length_mm", base.get("length_mm")) != base.get("length_mm")
-        if stretched and "bar_stiffness" in raw and "bar_stiffness" not in own:
+        fixed = {"bar_stiffness", "bar_from"}
+        if stretched and fixed & set(raw) and not fixed & set(own):
             raise ValueError(
                 "length_mm is overridden, allowed only where the bar is given by bar: a 6x6 has its length"
             )

@@ -8,11 +8,12 @@ from dataclasses import dataclass
 import numpy as np
 
 from pipeline.campaign.names import channel_columns
-from pipeline.challenge.benches import FAIR, RICH, Bench, drawn_noise, drawn_plan, drawn_rig, scaled
+from pipeline.challenge.benches import FAIR, RICH, Bench, drawn_noise, drawn_plan, drawn_rig
 from pipeline.challenge.cases import HIDDEN, STEPS, Case, drawn
 from pipeline.challenge.dirty.dirt import Dirt, drawn_dirt
 from pipeline.challenge.faults import FAULTS
 from pipeline.parameter_names import path_of
+from pipeline.simulate import scaled
 from pipeline.virtual.plan import GAUGES
 from vjm.effects import catalogue, effect_of
 

@@ -25,7 +25,6 @@ from pipeline.challenge.benches import (
     drawn_noise,
     drawn_plan,
     drawn_rig,
-    scaled,
     whole_plan,
 )
 from pipeline.challenge.cases import ROUND, STEPS, Case, case
@@ -33,6 +32,7 @@ from pipeline.challenge.dirty.cases import ROUND as DIRTY_ROUND
 from pipeline.challenge.dirty.cases import dirty_case
 from pipeline.challenge.dirty.dirt import BAD_MOST, CELL, CORRELATED, DIALS, Dirt
 from pipeline.challenge.laws.shapes import EVERY, GRAMMAR, OUTSIDE, SMOOTH_LAWS, Draw, Shape
+from pipeline.simulate import scaled
 from pipeline.virtual.plan import GAUGES, PlannedTest
 
 Kind = Literal["law", "pair", "clean"]

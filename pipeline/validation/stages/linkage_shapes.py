@@ -67,7 +67,7 @@ def write_shape(model: LinearModel, fields: tuple[Floats, ...], path: Path) -> N
         points.append(in_base_frame(member, mesh.points))
         cells.append(mesh.cells + first)
         moved.append(u @ member.turn.T)
-        stressed.append(von_mises(nodal_stress(mesh, model.material, u)))
+        stressed.append(von_mises(nodal_stress(mesh, model.isotropic, u)))
         first += len(mesh.points)
     data = {
         "displacement": np.concatenate(moved).astype(np.float32),

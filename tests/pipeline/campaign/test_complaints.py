@@ -43,7 +43,7 @@ DESCRIPTION = {
     "true is no number": ("width_mm = 80.0", "width_mm = true", "rig.width_mm: is True, allowed is: a valid number"),
     "infinite": ("width_mm = 80.0", "width_mm = inf", "rig.width_mm: is inf, allowed is: a finite number"),
     "no width": ("width_mm = 80.0", "", "rig: width_mm is missing, a parallelogram needs it"),
-    "neither": ("\nbar = {", "\n# {", "none of bar_stiffness, bar and section is given, allowed is one"),
+    "neither": ("\nbar = {", "\n# {", "none of bar_stiffness, bar_from, bar and section is given, allowed is one"),
     "both": ("gravity", f"{SIX[8:]}\ngravity", "rig: bar_stiffness and bar are given, allowed is one"),
     "key of bar": ("GJ_Nmm2", "GJ_Nm2", "rig.bar.GJ_Nm2: is not a key of this table, did you mean 'GJ_Nmm2'?"),
     "no use": ("EIy_Nmm2 = 1.98e8", "EIy_Nmm2 = 1e-3", "the 6x6 of bar at this length cannot be used: K33 is"),

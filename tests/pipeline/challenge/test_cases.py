@@ -5,11 +5,11 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from pipeline.challenge.benches import drawn_rig, scaled
+from pipeline.challenge.benches import drawn_rig
 from pipeline.challenge.cases import ALWAYS, HIDDEN, ROUND, Case, case
 from pipeline.challenge.faults import FAULTS
 from pipeline.challenge.outcome import judged
-from pipeline.simulate import bench_rig
+from pipeline.simulate import bench_rig, scaled
 from pipeline.virtual.bench import true_readings
 from pipeline.virtual.plan import GAUGES, bench_plan
 from vjm.effects import catalogue, for_kind

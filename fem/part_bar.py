@@ -1,0 +1,138 @@
+"""A brought part as a bar: K_b by three ways to tie its ends, K_g, and the study of nested meshes."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from fem.anisotropic import Regional
+from fem.axial import AxialStiffness, axial_stiffness
+from fem.distributed import distributed_stiffness
+from fem.linear import LinearModel
+from fem.linkage import single_bar
+from fem.material import Isotropic
+from fem.part_space import part_space
+from fem.slices.solver import ChainSolver
+from fem.space import Space
+from meshes.facets import facet_normals
+from meshes.layers import as_sweep
+from meshes.part import CORNERS, PartMesh
+from meshes.solid import Floats, Ints
+
+TIES = ("rigid", "half", "distributed")
+
+
+@dataclass(frozen=True, eq=False)
+class PartBar:
+    """A part in the bar's frame: base point at the origin, tip point at (`length`, 0, 0) mm, ends facets of the mesh.
+
+    bores : whether base and tip are bores, of which a pin presses one half
+    """
+
+    mesh: PartMesh
+    length: float
+    material: Isotropic | Regional
+    bores: tuple[bool, bool]
+
+    @cached_property
+    def space(self) -> Space:
+        return part_space(self.mesh)
+
+    def model(self, tie: str) -> LinearModel:
+        """The bar clamped at its base with rigid ends, "rigid" or "half"; kept for the first of these."""
+        return (
+            self._rigid if tie == "rigid" else LinearModel(single_bar(self._half, self.length), self.material)
+        )
+
+    @cached_property
+    def _rigid(self) -> LinearModel:
+        linkage = single_bar(self.space, self.length)
+        if self.swept and isinstance(self.material, Isotropic):
+            return LinearModel(linkage, self.material, ChainSolver(linkage, self.material))
+        return LinearModel(linkage, self.material)
+
+    @property
+    def swept(self) -> bool:
+        """Whether the cells stand in layers between planes across the bar, so that a chain of slices solves them."""
+        if self.mesh.kind != "hexahedron27":
+            return False
+        try:
+            as_sweep(self.mesh)
+        except ValueError:
+            return False
+        return True
+
+    @cached_property
+    def _half(self) -> Space:
+        """The same space with only the pressed facets of its bores as ends."""
+        ends = {
+            which: pressed(self.mesh.points, self.mesh.facets[which], pull)
+            if bore
+            else self.mesh.facets[which]
+            for which, bore, pull in zip(("base", "tip"), self.bores, (-1.0, 1.0), strict=True)
+        }
+        s = self.space
+        return Space(self.mesh.named(ends), s.gradients, s.weights, s.connectivity)
+
+    @property
+    def ties(self) -> tuple[str, ...]:
+        """Ways to tie the ends that differ: a plane end has no half that is pressed."""
+        return TIES if any(self.bores) else ("rigid", "distributed")
+
+    def stiffness(self, tie: str) -> Floats:
+        """(6, 6) K_b, N, mm, rad. ValueError for an unknown tie, SolveError if it cannot be solved."""
+        if tie not in TIES:
+            raise ValueError(f"tie is {tie!r}, allowed are {', '.join(TIES)}")
+        if tie != "distributed":
+            return self.model(tie).stiffness
+        points = (np.zeros(3), np.array([self.length, 0.0, 0.0]))
+        facets = (self.mesh.facets["base"], self.mesh.facets["tip"])
+        return distributed_stiffness(self.space, self.material, facets, points)
+
+    def axial(self, tie: str) -> AxialStiffness:
+        """K_b and K_g by rigid ends."""
+        return axial_stiffness(self.model(tie))
+
+
+def pressed(points: Floats, facets: Mapping[str, Ints], pull: float) -> dict[str, Ints]:
+    """The facets of a bore (or of a shaft's end) that a pin presses when it pulls along `pull` x: those facing it."""
+    found = {}
+    for kind, own in facets.items():
+        _, normals, _ = facet_normals(points, own[:, : CORNERS[kind]])
+        if (facing := normals[:, 0] * pull < 0.0).any():
+            found[kind] = own[facing]
+    return found
+
+
+# Two nested meshes: K_b falls as h to a power between that of clamped edges (about 1.4 in energy; M. L. Williams,
+# J. Appl. Mech. 19 (1952) 526-528) and 4 of a smooth field of quadratic cells. With 2, bar P comes within 0.05 % (K44
+# 0.15 %) from 12 000 and 80 000 unknowns; the band reaches from the limit by the one power to that by the other.
+POWER, SLOWEST, FASTEST = 2.0, 1.4, 4.0
+# Of swept hexahedra, graded to the ends: bending of bar P falls by 8, its torsion by 4.
+SWEPT_POWER = 3.0
+
+
+@dataclass(frozen=True, eq=False)
+class Limit:
+    """`value` (6, 6) extrapolated from two nested meshes, `error` (6, 6) of it, absolute."""
+
+    value: Floats
+    error: Floats
+
+
+def limit(coarse: Floats, fine: Floats, power: float = POWER) -> Limit:
+    """The limit of matrices on two meshes of which one halves the cells of the other, falling as h to a power."""
+    step = fine - coarse
+
+    def beyond(p: float) -> Floats:
+        return fine + step / (2.0**p - 1.0)
+
+    value = beyond(power)
+    error = np.maximum(np.abs(beyond(SLOWEST) - value), np.abs(value - beyond(FASTEST)))
+    return Limit(value, error)
+
+
+def spread(matrices: Sequence[Floats]) -> Floats:
+    """(6, 6) largest difference of the others to the first of matrices (6, 6), entry by entry."""
+    return np.asarray(np.max([np.abs(m - matrices[0]) for m in matrices], axis=0))

@@ -1,0 +1,211 @@
+"""A bar that comes as a file: read in a child process, K_b and K_g on nested meshes, critical loads, mode shapes."""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from fem.anisotropic import Orthotropic, Regional, in_frame
+from fem.material import Isotropic
+from fem.part_bar import POWER, SWEPT_POWER, Limit, PartBar, limit
+from fem.part_space import shape_quality
+from meshes.brought.child import in_child
+from meshes.brought.formats import module_of
+from meshes.brought.found import Brought, unpacked
+from meshes.brought.frame import BarFrame, bar_frame
+from meshes.solid import Floats
+from pipeline.bar.modes import buckled
+from pipeline.bar.record import BarRecord, MeshRecord, named_entries, relative_spread
+from pipeline.bar.tables import FileCase, OrthotropicMaterial
+from pipeline.errors import InputError
+from pipeline.progress import Progress
+from pipeline.provenance import commit, versions
+from pipeline.validation.entries import rows
+
+ONE_MESH = (
+    "The mesh came as it is and was not refined, so that the band by mesh is not known: bring a second, finer mesh of "
+    "it and compare."
+)
+
+
+@dataclass(frozen=True, eq=False)
+class Placed:
+    """The part on its meshes, coarse to fine, in the bar's frame."""
+
+    brought: Brought
+    frame: BarFrame
+    bars: tuple[PartBar, ...]
+
+
+def bar_of_file(case: FileCase, folder: Path, out: Path, progress: Progress, typed: str) -> BarRecord:
+    """The record of the bar of a case in `folder`, mode shapes to `out`/modes.
+
+    InputError for a file, ends or materials that cannot be used; SolveError, RuntimeError where the numerics fail.
+    """
+    path = case.path(folder)
+    with progress.stage("read and mesh"):
+        placed = said_of(path, lambda: place(case, path))
+    tie, bars = case.bar.tie, placed.bars
+    quality = said_of(path, lambda: checked_quality(placed))
+    with progress.stage("stiffness"):
+        axial = [bar.axial("half" if tie == "half" else "rigid") for bar in bars]
+        elastic = [
+            a.elastic if tie != "distributed" else b.stiffness(tie) for a, b in zip(axial, bars, strict=True)
+        ]
+        power = SWEPT_POWER if bars[-1].mesh.kind == "hexahedron27" else POWER
+        found, geometric = limited(elastic, power), limited([a.geometric for a in axial], power)
+    with progress.stage("ties of the ends"):
+        others = {
+            other: found.value + bars[0].stiffness(other) - elastic[0]
+            for other in bars[0].ties
+            if other != tie
+        }
+        by_tie = {t: bars[0].axial(t).geometric for t in ("rigid", "half") if t in bars[0].ties}
+    with progress.stage("buckling") as stage:
+        loads = buckled(bars, out / "modes", stage)
+    entries, bent = named_entries(found.value), named_entries(geometric.value)
+    return BarRecord(
+        name=case.name,
+        title=case.title or case.name,
+        length_mm=placed.frame.length,
+        width_mm=None if case.linkage is None else case.linkage.width_mm,
+        ends={"base": placed.brought.base.said, "tip": placed.brought.tip.said},
+        tie=tie,
+        material=described(case),
+        stiffness=rows(found.value),
+        extrapolated=rows(found.value),
+        numerical_band={n: float(found.error[ij] / abs(found.value[ij])) for n, ij in entries.items()},
+        modelling_band=relative_spread(found.value, others),
+        modelling={name: rows(matrix) for name, matrix in others.items()},
+        geometric=rows(geometric.value),
+        geometric_numerical_band={
+            n: float(geometric.error[ij] / abs(geometric.value[ij])) for n, ij in bent.items()
+        },
+        geometric_modelling_band=relative_spread(by_tie["rigid"], by_tie) if len(by_tie) > 1 else {},
+        buckling=loads,
+        mesh=MeshRecord(
+            kind=bars[-1].mesh.kind,
+            cells=bars[-1].mesh.count,
+            dofs=bars[-1].mesh.dofs,
+            study_dofs=[bar.mesh.dofs for bar in bars],
+            quality=quality,
+        ),
+        said=sentences(placed, tie),
+        seconds=dict(progress.seconds),
+        versions=versions(),
+        commit=commit(),
+        command=typed,
+        data={path.name: hashlib.sha256(path.read_bytes()).hexdigest()},
+    )
+
+
+def said_of(path: Path, work: Callable[[], Any]) -> Any:
+    """What the work returns; its ValueError as an InputError that names the file."""
+    try:
+        return work()
+    except InputError:
+        raise
+    except ValueError as error:
+        raise InputError(f"{path}: {error}") from error
+
+
+def place(case: FileCase, path: Path) -> Placed:
+    """Read, mesh and turn into the bar's frame; ValueError says what is wrong with the file or its ends."""
+    if not path.is_file():
+        raise ValueError("is missing or no file")
+    bar = case.bar
+    asked = {
+        "path": str(path.resolve()),
+        "unit": bar.unit,
+        "size": case.mesh.size_mm,
+        "tetrahedra": case.mesh.tetrahedra,
+        "base": None if bar.base is None else bar.base.model_dump(),
+        "tip": None if bar.tip is None else bar.tip.model_dump(),
+    }
+    told, arrays = in_child(module_of(path), asked, case.mesh.seconds)
+    brought = unpacked(told, arrays)
+    base, tip = brought.base, brought.tip
+    frame = bar_frame(base.at, tip.at, (base.axis, tip.axis), bar.y)
+    bores = (base.axis is not None, tip.axis is not None)
+    bars = []
+    for mesh in brought.meshes:
+        material = material_of(case, mesh.regions, mesh.region_of, frame.turn)
+        bars.append(PartBar(mesh.placed(frame.to_bar(mesh.points)), frame.length, material, bores))
+    return Placed(brought, frame, tuple(bars))
+
+
+def material_of(
+    case: FileCase, regions: tuple[str, ...], region_of: Any, turn: Floats
+) -> Isotropic | Regional:
+    """The material of a mesh that has been turned; ValueError for a region without one, or one without a region."""
+    if isinstance(case.material, OrthotropicMaterial):
+        return Regional((in_frame(law_of(case.material), turn),), np.zeros_like(region_of))
+    if case.material is not None:
+        return Isotropic(case.material.E_MPa, case.material.nu, case.material.source)
+    if set(case.materials) != set(regions):
+        raise ValueError(
+            f"its regions are {', '.join(regions)}, but materials are given for {', '.join(case.materials)}; allowed "
+            "is one for each"
+        )
+    return Regional(tuple(in_frame(law_of(case.materials[name]), turn) for name in regions), region_of)
+
+
+def law_of(table: Any) -> Isotropic | Orthotropic:
+    """The material of a table, axes in the file's frame; ValueError where no solid has such constants."""
+    if not isinstance(table, OrthotropicMaterial):
+        return Isotropic(table.E_MPa, table.nu, table.source)
+    t = table
+    return Orthotropic(
+        t.E1_MPa, t.E2_MPa, t.E3_MPa, t.nu12, t.nu13, t.nu23, t.G12_MPa, t.G13_MPa, t.G23_MPa, t.axes, t.source
+    )  # fmt: skip
+
+
+def checked_quality(placed: Placed) -> dict[str, float]:
+    """Of the finest mesh; ValueError where a cell is inside out."""
+    worst = [shape_quality(bar.mesh) for bar in placed.bars]
+    for found in worst:
+        if found["worst_cell"] <= 0.0:
+            raise ValueError(
+                "its mesh has cells that are inside out or fold over, allowed are cells right side out; another "
+                "size_mm, or a repaired mesh"
+            )
+    return worst[-1]
+
+
+def limited(matrices: list[Floats], power: float) -> Limit:
+    """Of two nested meshes their limit; of one mesh itself, its error not known and counted as nothing."""
+    if len(matrices) == 1:
+        return Limit(matrices[0], np.zeros((6, 6)))
+    return limit(matrices[-2], matrices[-1], power)
+
+
+def described(case: FileCase) -> dict[str, float | str]:
+    """The material as it stands in the record."""
+    if case.material is not None:
+        own = case.material.model_dump(exclude_none=True)
+        return {k: v if isinstance(v, float | str) else str(v) for k, v in own.items()}
+    return {
+        f"{name} {k}": v if isinstance(v, float | str) else str(v)
+        for name, each in case.materials.items()
+        for k, v in each.model_dump(exclude_none=True).items()
+    }
+
+
+def sentences(placed: Placed, tie: str) -> list[str]:
+    """What a reader has to know."""
+    brought = placed.brought
+    said = [f"Meshed: {brought.told['meshed']}."]
+    said += [
+        f"Length {placed.frame.length:.6g} mm from base point to tip point, {placed.frame.said}.",
+        *brought.told["remarks"],
+    ]
+    if len(brought.meshes) == 1:
+        said.append(ONE_MESH)
+    if tie == "distributed":
+        said.append("K_g and critical loads are those of rigid ends; K_b is that of distributed loads.")
+    return said

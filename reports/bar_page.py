@@ -1,0 +1,147 @@
+"""The page of one bar: reads bar.json and the mode shapes beside it, solves nothing."""
+
+import json
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+from reports import page, shapes, tables_bar, tables_record, turntable
+from reports.blocks import Block, Bullets, Code, Column, Figure, Section, Table, Tables, Text, table
+from reports.errors import ReportError
+from reports.files import write_bytes
+from reports.formats import entry_unit, number, percent, symbol
+from reports.load import Json
+
+RECORD = "bar.json"
+READING = (
+    "Units are N, mm, rad and MPa; a 6x6 maps x y z rx ry rz of the tip point to Fx Fy Fz Mx My Mz, the base held. "
+    "x points from the base point to the tip point.",
+    "Under an axial force P, tension positive, the 6x6 is K_b + P K_g.",
+    "Band by mesh: how far the entry may be from the limit of ever finer meshes. Band by tie: how far it moves when "
+    "the ends are tied in another way, which no mesh decides.",
+    "Every number is from bar.json beside this page.",
+)
+
+
+def draw(folder: Path) -> Path:
+    """Write index.html beside bar.json; ReportError if that is missing or not laid out as the record of a bar."""
+    path = Path(folder) / RECORD
+    try:
+        record = json.loads(path.read_text(encoding="utf-8"))
+        html = page.render(record["title"], sections(Path(folder), record))
+    except OSError as error:
+        raise ReportError(f"{path} cannot be read: {error.strerror}") from None
+    except (KeyError, IndexError, TypeError, ValueError) as error:
+        raise ReportError(f"{path} is not laid out as the record of a bar: {error!r}") from error
+    return write_bytes(path.with_name("index.html"), html.encode())
+
+
+def sections(folder: Path, record: Json) -> list[Section]:
+    """All of the page."""
+    stiff: list[Block] = [stiffness(record), geometric(record)]
+    if record["said"]:
+        stiff.append(Bullets(record["said"]))
+    facts = {"length_mm": record["length_mm"], **record["ends"]}
+    small: list[Table] = [
+        tables_bar.given("The bar", {**facts, "ties of the ends": record["tie"]}),
+        tables_bar.given("Material", record["material"]),
+        tables_bar.values("Mesh", mesh(record["mesh"]), digits=3),
+    ]
+    return [
+        Section("bar", "The bar and its stiffness", [*stiff, Tables(small)]),
+        buckling(folder, record),
+        reading(record),
+    ]
+
+
+def mesh(found: Json) -> dict[str, Any]:
+    """Counts and checks of the mesh by what they are called."""
+    checks = {tables_bar.QUALITY.get(key, key): value for key, value in found["quality"].items()}
+    study = ", ".join(str(n) for n in found["study_dofs"])
+    return {
+        "cells": found["cells"],
+        "dofs": found["dofs"],
+        **checks,
+        "kind": found["kind"],
+        "study, dofs": study,
+    }
+
+
+def stiffness(record: Json) -> Table:
+    """K_b entry by entry with both bands, and what other ties of its ends give."""
+    others = list(record["modelling"].items())
+    columns = [
+        Column("entry", numeric=False),
+        Column("unit", numeric=False),
+        Column("K_b"),
+        Column("band by mesh", "±%"),
+        Column("extrapolated"),
+        Column("band by tie", "±%"),
+        *(Column(name) for name, _ in others),
+    ]
+    rows = []
+    for entry, band in record["numerical_band"].items():
+        i, j = int(entry[1]) - 1, int(entry[2]) - 1
+        rows.append(
+            [
+                symbol(entry),
+                entry_unit(entry),
+                number(record["stiffness"][i][j]),
+                percent(band, 3).removeprefix("+"),
+                number(record["extrapolated"][i][j]),
+                percent(record["modelling_band"].get(entry)).removeprefix("+"),
+                *(number(matrix[i][j]) for _, matrix in others),
+            ]
+        )
+    return table(f"K_b, ends tied {record['tie']}", columns, rows)
+
+
+def geometric(record: Json) -> Table:
+    """K_g entry by entry with its bands."""
+    columns = [
+        Column("entry", numeric=False),
+        Column("unit", numeric=False),
+        Column("K_g"),
+        Column("band by mesh", "±%"),
+        Column("band by tie", "±%"),
+    ]
+    rows = []
+    for entry, band in record["geometric_numerical_band"].items():
+        unit = tables_bar.AXIAL_UNITS[entry_unit(entry)]
+        other = percent(record["geometric_modelling_band"].get(entry)).removeprefix("+")
+        value = number(record["geometric"][int(entry[1]) - 1][int(entry[2]) - 1])
+        rows.append([symbol(entry), unit, value, percent(band, 3).removeprefix("+"), other])
+    return table("K_g, what 1 N of axial force adds to K_b", columns, rows)
+
+
+def buckling(folder: Path, record: Json) -> Section:
+    """Critical loads, and the modes to turn where their shapes are there."""
+    blocks: list[Block] = [tables_bar.buckling(record)]
+    names: Sequence[str] = shapes.supports_of(record)
+    found = [s for name in names if (s := shapes.read(folder, record, name)) is not None]
+    if found:
+        caption = "The modes to turn and zoom: drag, scroll, choose above. Displacements enlarged."
+        blocks.append(Figure("shapes", caption, turntable.figure(found)))
+    return Section("buckling", "Buckling of the bar", blocks)
+
+
+def reading(record: Mapping[str, Any]) -> Section:
+    """How to read the page and how to make it again."""
+    versions = {**record["versions"], "commit": record["commit"]}
+    files = tables_record.pairs("Files it was made from", "file", "sha256", record["data"])
+    return Section(
+        "reading",
+        "How to read this page",
+        [
+            Bullets(READING),
+            Tables(
+                [
+                    tables_record.seconds(record),
+                    tables_record.pairs("Versions", "package", "version", versions),
+                ]
+            ),
+            files,
+            Text("To make it again:"),
+            Code(str(record["command"])),
+        ],
+    )
