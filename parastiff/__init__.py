@@ -31,6 +31,7 @@ if TYPE_CHECKING:
     from pipeline.face.exports import export
     from pipeline.face.linkages import Linkage, linkage
     from pipeline.face.plans import Plan, plan
+    from pipeline.face.predictions import Prediction, predict
     from pipeline.face.simulations import VirtualBench, simulate
     from pipeline.face.subject import campaign_of as read
     from pipeline.inference.model import Model, Term
@@ -48,6 +49,7 @@ _PUBLIC = {
     "remove": ("pipeline.face.additions", "remove"),
     "improve": ("pipeline.face.additions", "improve"),
     "plan": ("pipeline.face.plans", "plan"),
+    "predict": ("pipeline.face.predictions", "predict"),
     "discover": ("pipeline.face.discoveries", "discover"),
     "simulate": ("pipeline.face.simulations", "simulate"),
     "export": ("pipeline.face.exports", "export"),
@@ -65,6 +67,7 @@ _PUBLIC = {
     "Diagnosis": ("pipeline.face.diagnoses", "Diagnosis"),
     "Addition": ("pipeline.face.additions", "Addition"),
     "Plan": ("pipeline.face.plans", "Plan"),
+    "Prediction": ("pipeline.face.predictions", "Prediction"),
     "Discovery": ("pipeline.face.discoveries", "Discovery"),
     "Catalogue": ("pipeline.face.effects", "Catalogue"),
     "OwnBar": ("pipeline.face.bars", "OwnBar"),
@@ -102,6 +105,7 @@ __all__ = [
     "OwnBar",
     "Parameter",
     "Plan",
+    "Prediction",
     "SiteLaw",
     "Term",
     "UndecidedError",
@@ -122,6 +126,7 @@ __all__ = [
     "linkage",
     "open",
     "plan",
+    "predict",
     "read",
     "remove",
     "rigs",

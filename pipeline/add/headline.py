@@ -54,12 +54,22 @@ def _said(answer: Answer) -> Iterator[str]:
     """The effects, of `unknown` those that help; of many sets ever fewer."""
     if answer.verdict == "ambiguous":
         sets = [" + ".join(names) or "no further effect" for names in sets_of(answer)]
+        sets += [_law_at(answer)] if answer.laws else []
         yield " or ".join(sets)
         for count in range(len(sets) - 1, 0, -1):
             yield f"{', '.join(sets[:count])} or {len(sets) - count} more"
         return
     names = " + ".join(answer.added)
-    if answer.verdict == "unknown" and names:
+    if answer.verdict == "unknown" and answer.laws:
+        helping = f"{names} and " if names else ""
+        yield f"{helping}{_law_at(answer)}"
+        yield _law_at(answer)
+    elif answer.verdict == "unknown" and names:
         yield f"{names} {'helps' if len(answer.added) == 1 else 'help'}"
     elif names:
         yield names
+
+
+def _law_at(answer: Answer) -> str:
+    """The places of laws beyond the catalogue."""
+    return f"a law at {' and '.join(law.site for law in answer.laws)}"

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 
 from rich.console import Console
 from rich.markup import escape
@@ -12,10 +12,11 @@ from rich.text import Text
 from pipeline.add.table import NAME
 from pipeline.discover.record import Discovered
 from pipeline.discover.search import GEOMETRY
+from pipeline.law_record import LawFound
 from pipeline.terminal import cell, lean, one_line, terminal
 from reports.quantities import short, sigma
 
-FORM = 18
+FORM, PLACE = 18, 30
 
 
 def show(it: Discovered, following: Iterable[str], quiet: bool, console: Console | None = None) -> None:
@@ -61,4 +62,15 @@ def table(it: Discovered) -> Table:
         )
     for each in it.entered:
         table.add_row(cell(f"+ {each.effect}", NAME), "", short(each.evidence), "", "")
+    return table
+
+
+def law_table(laws: Sequence[LawFound]) -> Table:
+    """Laws beside an answer that has its own verdict: where each sits in words, its form, how sure it is."""
+    table = lean("site", "place and form", "ln evidence", "fitted", "held out", title="laws, error in sigmas")
+    for law in laws:
+        form = f"{law.where}: {law.form or 'no form'}"
+        numbers = (short(law.evidence), sigma(law.fit), sigma(law.holdout))
+        table.add_row(cell(law.site, FORM), cell(form, PLACE), *numbers)
+    table.columns[1].justify = "left"
     return table

@@ -14,12 +14,12 @@ MANY = 4
 
 def sentences(it: Discovered) -> tuple[str, ...]:
     """What was found, the place and the picture before the form."""
-    return (*_first(it), *(said for law in it.laws for said in _law(law)), *_last(it))
+    return (*_first(it), *(said for law in it.laws for said in said_of(law)), *_last(it))
 
 
 def law_sentences(it: Discovered) -> tuple[str, ...]:
     """Of the laws alone, for an answer that has its own verdict."""
-    return tuple(said for law in it.laws for said in _law(law))
+    return tuple(said for law in it.laws for said in said_of(law))
 
 
 def _first(it: Discovered) -> Iterator[str]:
@@ -58,7 +58,8 @@ def _first(it: Discovered) -> Iterator[str]:
         )
 
 
-def _law(it: LawFound) -> Iterator[str]:
+def said_of(it: LawFound) -> Iterator[str]:
+    """One law: its place and what it is like, what it is not told from, its form with its numbers."""
     reach = f"{short(it.range[0])} to {short(it.range[1])}{f' {it.curve.x_unit}' if it.curve else ''}"
     yield f"{it.site}: {it.where}. What the readings say of it, over {reach}: {it.shape}."
     if it.group:

@@ -21,6 +21,7 @@ from pipeline.face.about import AboutBench, Given, effects_of, subject_of
 from pipeline.face.comparisons import Comparison, compare
 from pipeline.face.diagnoses import Diagnosis, diagnose
 from pipeline.face.plans import Plan, plan
+from pipeline.face.predictions import At, Prediction, predict
 from pipeline.face.subject import Subject
 from pipeline.improve.command import improved
 from pipeline.improve.steps import steps
@@ -89,6 +90,10 @@ class Addition(AboutBench):
     def plan(self) -> Plan:
         """What the tests can show beside the new model, and the next one."""
         return plan(self.subject)
+
+    def predict(self, at: At = None, seed: int = 0) -> Prediction:
+        """What the sensors will read by the new model, with 95 % intervals; at: load cases, default the own rows."""
+        return predict(self.subject, at, seed)
 
     def save_model(self, path: str | Path | None = None) -> Path:
         """Write the model as model.toml, by default into the campaign's folder; returns the path.

@@ -18,6 +18,7 @@ from pipeline.face.comparisons import Comparison, compare
 from pipeline.face.diagnoses import Diagnosis, diagnose
 from pipeline.face.discoveries import Discovery, discover
 from pipeline.face.plans import Plan, plan
+from pipeline.face.predictions import At, Prediction, predict
 from pipeline.inference.driving import column_name, driving, unit_of
 from pipeline.inference.model import Model
 from pipeline.terminal import cell, lean, one_line
@@ -103,6 +104,10 @@ class Bench(AboutBench):
     def plan(self) -> Plan:
         """What the tests can show, and the next one."""
         return plan(self.subject)
+
+    def predict(self, at: At = None, seed: int = 0) -> Prediction:
+        """What the sensors will read by the model, with 95 % intervals; at: load cases, default its own rows."""
+        return predict(self.subject, at, seed)
 
     def discover(self) -> Discovery:
         """Where the rest sits that no effect of the catalogue explains, and what law it follows."""

@@ -16,10 +16,14 @@ from pipeline.diagnose.diagnosis import diagnose as search
 from pipeline.diagnose.table import candidate_table, waterfall
 from pipeline.diagnose.words import answered
 from pipeline.discover.beyond_catalogue import with_laws
+from pipeline.discover.table import law_table
+from pipeline.discover.words import said_of
 from pipeline.errors import InputError
 from pipeline.face.about import AboutBench, Given, subject_of
 from pipeline.face.plans import Plan, plan
+from pipeline.face.predictions import At, Prediction, predict
 from pipeline.inference.model import Model
+from pipeline.law_record import LawFound
 from pipeline.parameter_names import path_of
 from reports.quantities import estimate, phrase
 
@@ -62,6 +66,15 @@ class Diagnosis(AboutBench):
         return self.answer.sentences
 
     @property
+    def laws(self) -> tuple[LawFound, ...]:
+        """Laws beyond the catalogue: of what no effect explains, or of all where they explain it as well."""
+        return self.answer.laws
+
+    @property
+    def beyond(self) -> tuple[str, ...]:
+        return tuple(said for law in self.laws for said in said_of(law))
+
+    @property
     def model(self) -> Model:
         """The model with what was identified. UndecidedError where that is not certain: `model_of` takes a choice."""
         if self.verdict in ("identified", "within_noise"):
@@ -85,9 +98,17 @@ class Diagnosis(AboutBench):
         """What the tests of this bench can show, and the next one."""
         return plan(self.subject)
 
+    def predict(self, at: At = None, seed: int = 0) -> Prediction:
+        """What the sensors will read by the model with what was identified; at: load cases, default the own rows.
+
+        UndecidedError where that model is not certain: `predict(bench.with_model(it.model_of(...)))` takes a choice.
+        """
+        return predict(self.subject.with_model(self.model), at, seed)
+
     def tables(self) -> tuple[RenderableType, ...]:
+        laws = (law_table(self.laws),) if self.laws else ()
         parameters = (parameter_table(self.answer),) if self.answer.parameters else ()
-        return (waterfall(self.answer), candidate_table(self.answer), *parameters)
+        return (*laws, waterfall(self.answer), candidate_table(self.answer), *parameters)
 
     @property
     def sure(self) -> tuple[str, ...]:
@@ -102,14 +123,19 @@ class Diagnosis(AboutBench):
         named = {
             "identified": f"bench.add({', '.join(map(repr, self.choices[0]))}) fits them, save_model() keeps them.",
             "ambiguous": "model_of(...) takes one of the choices.",
-            "unknown": "bench.discover() looks where in the linkage the rest sits, and what law it follows.",
+            "unknown": 'bench.discover().save_effects("law.py") writes the laws as effects for a model.'
+            if any(law.form for law in self.laws)
+            else "bench.discover() looks where in the linkage the rest sits, and what law it follows.",
         }
         if doctor:
             return doctor
         return (*test, *((named[self.verdict],) if self.verdict in named else ()))
 
     def plot(self) -> Picture:
-        """Errors on the way at the left; at the right the readings that the model misses most, beside each choice."""
+        """Errors on the way at the left; at the right the readings that the model misses most, beside each choice.
+
+        Below these the laws that were found, each over its coordinate.
+        """
         from pipeline.face.drawing import worst_curve
         from reports.first_screen.figures import Bars, curve
 
@@ -129,12 +155,13 @@ class Diagnosis(AboutBench):
         bars = Bars(
             labels, ("fitted tests", "held-out tests"), values, "error, sigma (1 is noise)", self.name
         )
-        return curve(worst_curve(self.subject, models), bars)
+        return curve(worst_curve(self.subject, models), bars, [law.model_dump() for law in self.laws])
 
     def to_frame(self) -> DataFrame:
         """One row a parameter of each choice: choice, effect, parameter, value, std, low95, high95 (in `unit`), unit.
 
-        Errors are those of the first choice; of the others the fit alone is known.
+        Errors are those of the first choice; of the others the fit alone is known. Then one row a parameter of each law
+        beyond the catalogue, without a choice: effect is the place of the law.
         """
         from pandas import DataFrame
 
@@ -155,6 +182,12 @@ class Diagnosis(AboutBench):
                     yield choice, term.effect.name, p.name, value, *ends, p.unit
                 if not term.effect.parameters:
                     yield choice, term.effect.name, "", None, None, None, None, ""
+
+        for law in self.laws:
+            for name, it in law.parameters.items():
+                yield "", law.site, name, it.value, it.std, it.low95, it.high95, it.unit
+            if not law.parameters:
+                yield "", law.site, "", None, None, None, None, ""
 
     def _phrases(self, names: Names) -> Iterator[str]:
         for name in names:

@@ -12,6 +12,7 @@ from pipeline.discover.command import discovered, effects_found
 from pipeline.discover.effect_file import effect_text, write_effect
 from pipeline.discover.record import Discovered, LawFound
 from pipeline.discover.table import headline, table
+from pipeline.discover.words import law_sentences
 from pipeline.errors import InputError
 from pipeline.face.about import AboutBench, Given, subject_of
 from pipeline.face.diagnoses import Diagnosis, diagnose
@@ -44,6 +45,10 @@ class Discovery(AboutBench):
         return self.record.sentences
 
     @property
+    def beyond(self) -> tuple[str, ...]:
+        return law_sentences(self.record)
+
+    @property
     def following(self) -> tuple[str, ...]:
         if not self.effect_file:
             return ()
@@ -70,9 +75,9 @@ class Discovery(AboutBench):
 
     def plot(self) -> Picture:
         """Each law over its coordinate: the form, the function without a form with its band, single load steps."""
-        from reports.first_screen.laws import Law, laws
+        from reports.first_screen.laws import laws
 
-        return laws([Law.of(it.model_dump()) for it in self.record.laws], self.name)
+        return laws([it.model_dump() for it in self.record.laws], self.name)
 
     def to_frame(self) -> DataFrame:
         """One row a parameter of each law: site, where, form, equation, parameter, value, unit, evidence, fit,

@@ -59,6 +59,11 @@ class Shown(ABC):
         return ()
 
     @property
+    def beyond(self) -> tuple[str, ...]:
+        """What was found beyond the catalogue of effects, a sentence each."""
+        return ()
+
+    @property
     def following(self) -> tuple[str, ...]:
         """What is worth doing next, a sentence each."""
         return ()
@@ -113,6 +118,7 @@ class Shown(ABC):
                 headline=self.sentences[0] if self.sentences else self.headline,
                 verdict=self.verdict,
                 sure=self.sure,
+                beyond=self.beyond,
                 following=self.following,
                 columns=tuple(map(str, frame.columns)),
                 rows=tuple(tuple(row) for row in frame.itertuples(index=False)),

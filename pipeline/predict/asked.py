@@ -76,14 +76,19 @@ def own_rows(campaign: Campaign) -> Asked:
 
 
 def read_table(path: Path, campaign: Campaign) -> Asked:
-    """The load cases of a table for the rig of a campaign. BadCampaign, with every complaint about the table."""
-    complaints = Complaints(str(path))
+    """The load cases of a file for the rig of a campaign. BadCampaign, with every complaint about the table."""
+    asked = table_of(_text(path), str(path), campaign)
+    return replace(asked, digests={path.name: sha256(path.read_bytes()).hexdigest()})
+
+
+def table_of(text: str, name: str, campaign: Campaign) -> Asked:
+    """The load cases of a table as text. name: of the table in complaints. BadCampaign, with all of these."""
+    complaints = Complaints(name)
     allowed = value_keys(campaign.rig)
     known = (*known_columns(g.name for g in campaign.gauges), ANGLE, *PLACES, *allowed)
-    frame = sheet(_text(path), tuple(dict.fromkeys(known)), complaints, ())
+    frame = sheet(text, tuple(dict.fromkeys(known)), complaints, ())
     complaints.check()
-    asked = _Table(frame, campaign, complaints, allowed).asked()
-    return replace(asked, digests={path.name: sha256(path.read_bytes()).hexdigest()})
+    return _Table(frame, campaign, complaints, allowed).asked()
 
 
 def _text(path: Path) -> str:

@@ -9,13 +9,14 @@ from time import perf_counter
 
 from meshes.files import replacing
 from pipeline.add.command import starting_model
-from pipeline.campaign import read
+from pipeline.campaign import Campaign, read
 from pipeline.command import usable
 from pipeline.errors import InputError
+from pipeline.inference.model import Model
 from pipeline.inference.suitable import known_effects
-from pipeline.predict.asked import own_rows, read_table
+from pipeline.predict.asked import Asked, own_rows, read_table
 from pipeline.predict.files import compensation_table, readings_table
-from pipeline.predict.predicting import fitted_to, predicted
+from pipeline.predict.predicting import Say, fitted_to, predicted
 from pipeline.predict.record import Predictions
 from pipeline.predict.recording import recorded
 from pipeline.predict.table import show
@@ -47,15 +48,23 @@ def predict_readings(asking: Asking) -> Predictions:
     model, _ = starting_model(campaign, asking.folder, asking.model, known)
     asked = own_rows(campaign) if asking.at is None else read_table(asking.at, campaign)
     _check(asking)
-    begin, progress = perf_counter(), Progress(asking.quiet)
-    with progress.stage("predict") as stage:
-        fitted = fitted_to(campaign, model, stage.say)
-        found = predicted(fitted, asked, asking.seed, stage.say)
-        record = recorded(found, perf_counter() - begin, asking.seed)
-    remarks = (*about(found), *asked.remarks, *fitted.whole.remarks)
-    record = record.model_copy(update={"sentences": sentences(record, remarks, fitted.untested)})
+    with Progress(asking.quiet).stage("predict") as stage:
+        record = predictions_of(campaign, model, asked, asking.seed, stage.say)
     show(record, _written(asking, record), asking.quiet)
     return record
+
+
+def predictions_of(
+    campaign: Campaign, model: Model, asked: Asked, seed: int = 0, say: Say = lambda _: None
+) -> Predictions:
+    """The model fitted, then the readings that are asked for, with their sentences. seed: of the samples, where these
+    are needed. InputError for an effect that the campaign cannot have."""
+    begin = perf_counter()
+    fitted = fitted_to(campaign, model, say)
+    found = predicted(fitted, asked, seed, say)
+    record = recorded(found, perf_counter() - begin, seed)
+    remarks = (*about(found), *asked.remarks, *fitted.whole.remarks)
+    return record.model_copy(update={"sentences": sentences(record, remarks, fitted.untested)})
 
 
 def _check(asking: Asking) -> None:

@@ -19,21 +19,24 @@ HEAD = (
 
 def readings_table(it: Predictions) -> str:
     """CSV, one line a reading; prescribed columns as they were prescribed stand beside."""
+    head, lines = reading_lines(it)
+    return _written([head, *lines])
+
+
+def reading_lines(it: Predictions) -> tuple[list[str], list[list[object]]]:
+    """Heads and one line a reading, None for what is not there; numbers in the unit of the reading's column."""
     given = list(dict.fromkeys(column for row in it.rows for column in row.inputs))
     changed = list(dict.fromkeys(key for row in it.rows for key in row.values))
-    lines: list[list[object]] = [[*HEAD, *(f"given.{column}" for column in given), *changed]]
+    lines: list[list[object]] = []
     for row in it.rows:
-        beside = [row.inputs.get(column, "") for column in given] + [row.values.get(k, "") for k in changed]
-        where = [row.test, row.step, row.role, row.q_deg, *(row.at_mm or ("", "", ""))]
+        beside = [row.inputs.get(column) for column in given] + [row.values.get(key) for key in changed]
+        where = [row.test, row.step, row.role, row.q_deg, *(row.at_mm or (None, None, None))]
         last = [int(row.sampled), "; ".join(row.beyond)]
         for each in row.readings:
             numbers = [each.value, each.low95, each.high95, each.parameters, each.tolerances, each.noise]
-            seen = [
-                "" if each.measured is None else each.measured,
-                "" if each.inside is None else int(each.inside),
-            ]
+            seen = [each.measured, None if each.inside is None else int(each.inside)]
             lines.append([*where, each.column, *numbers, *seen, *last, *beside])
-    return _written(lines)
+    return [*HEAD, *(f"given.{column}" for column in given), *changed], lines
 
 
 def compensation_table(it: Predictions) -> str:

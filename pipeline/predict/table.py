@@ -10,7 +10,7 @@ from rich.table import Table
 from rich.text import Text
 
 from pipeline.predict.record import Counted, PredictedRow, Predictions
-from pipeline.terminal import cell, lean, terminal
+from pipeline.terminal import cell, lean, one_line, terminal
 from reports.quantities import short
 
 FEW = 12
@@ -26,14 +26,33 @@ def show(it: Predictions, following: Iterable[str], quiet: bool, console: Consol
     out.print(escape(it.sentences[0]))
     if quiet:
         return
-    out.print("", by_column(it), "")
-    asked = [row for row in it.rows if row.role == "asked"]
-    if asked and sum(len(row.readings) for row in asked) <= FEW * 6:
-        out.print(one_by_one(asked), "")
+    out.print("")
+    for table in listed(it):
+        out.print(table, "")
     for sentence in it.sentences[1:]:
         out.print(escape(sentence))
     for said in following:
         out.print(escape(said), soft_wrap=True)
+
+
+def headline(it: Predictions) -> str:
+    """How many readings are predicted, and how many of those that were made lie inside, in one line."""
+    count, rows = sum(len(row.readings) for row in it.rows), len(it.rows)
+    said = f"{count} {'reading' if count == 1 else 'readings'} at {rows} {'row' if rows == 1 else 'rows'}"
+    counts, name = (it.held_out, "not fitted") if it.held_out.of else (it.fitted, "fitted")
+    if not counts.of:
+        return one_line(f"{it.campaign}: {said} predicted", f"{said} predicted")
+    inside = f"95 % intervals hold {_inside(counts)} {name}"
+    return one_line(f"{it.campaign}: {said}, {inside}", f"{said}, {inside}", inside)
+
+
+def listed(it: Predictions) -> tuple[Table, ...]:
+    """The tables: intervals by column, and few readings of load cases one by one."""
+    if not it.columns:
+        return ()
+    asked = [row for row in it.rows if row.role == "asked"]
+    few = 0 < sum(len(row.readings) for row in asked) <= FEW * 6
+    return (by_column(it), one_by_one(asked)) if few else (by_column(it),)
 
 
 def by_column(it: Predictions) -> Table:

@@ -45,7 +45,7 @@ def headline(it: Predictions) -> str:
     """How many readings are predicted, and how many that were made lie inside."""
     count = sum(len(row.readings) for row in it.rows)
     rows = len(it.rows)
-    said = f"{count} readings predicted at {rows} {'row' if rows == 1 else 'rows'}"
+    said = f"{count} {_readings(count)} predicted at {rows} {'row' if rows == 1 else 'rows'}"
     parts = [
         f"95 % intervals hold {_counted(counts)} {name}"
         for counts, name in ((it.held_out, "that were not fitted"), (it.fitted, "that were fitted"))
@@ -55,7 +55,11 @@ def headline(it: Predictions) -> str:
 
 
 def _counted(it: Counted) -> str:
-    return f"{100.0 * it.inside / it.of:.1f} % of the {it.of} readings"
+    return f"{100.0 * it.inside / it.of:.1f} % of the {it.of} {_readings(it.of)}"
+
+
+def _readings(count: int) -> str:
+    return "reading" if count == 1 else "readings"
 
 
 def _how(it: Predictions, nothing: str) -> Iterator[str]:

@@ -7,10 +7,14 @@ from dataclasses import dataclass
 
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.figure import FigureBase
 
 from reports.campaign.names import channel_label, unit_label
 from reports.charts import dress
 from reports.first_screen.drawn import Picture
+from reports.first_screen.laws import HIGH as LAW_HIGH
+from reports.first_screen.laws import WIDE as LAW_WIDE
+from reports.first_screen.laws import Json, shown, side_by_side
 from reports.quantities import short, sigma
 from reports.style import ACCENT, CYCLE, FAINT, INK
 
@@ -58,20 +62,22 @@ class Bars:
     title: str = ""
 
 
-def curve(it: Measured | None, bars: Bars | None = None) -> Picture:
-    """Errors at the left where there are some, one channel measured and predicted at the right."""
-    if it is None and bars is not None:
+def curve(it: Measured | None, bars: Bars | None = None, found: Sequence[Json] = ()) -> Picture:
+    """Errors at the left where there are some, one channel measured and predicted at the right; laws that were found,
+    as records, below."""
+    drawn = shown(found)
+    if it is None and bars is not None and not drawn:
         return errors(bars)
     rows = 0 if bars is None else min(len(bars.labels), BESIDE)
-    figure = Picture(figsize=(WIDE if bars is None else 1.35 * WIDE, max(3.8, 1.0 + ROW * rows)))
-    if it is None:
-        return _said(figure, "nothing is measured yet that a model predicts")
-    if bars is None:
-        _curve(figure.subplots(), it)
+    wide, high = WIDE if bars is None else 1.35 * WIDE, max(3.8, 1.0 + ROW * rows)
+    if not drawn:
+        figure = Picture(figsize=(wide, high))
+        _beside(figure, it, bars)
         return figure
-    left, right = figure.subplots(1, 2, gridspec_kw={"width_ratios": [1.0, 1.25], "wspace": 0.28})
-    _bars(left, bars, BESIDE)
-    _curve(right, it)
+    figure = Picture(figsize=(max(wide, LAW_WIDE * len(drawn)), high + LAW_HIGH))
+    above, below = figure.subfigures(2, 1, squeeze=False, height_ratios=[high, LAW_HIGH])[:, 0]
+    _beside(above, it, bars)
+    side_by_side(below, drawn)
     return figure
 
 
@@ -118,6 +124,24 @@ def outline(patches: Sequence[Sequence[tuple[float, float]]], title: str) -> Pic
     ax.set_title(title, fontsize=10, loc="left", color=INK)
     dress(ax)
     return figure
+
+
+def _beside(figure: FigureBase, it: Measured | None, bars: Bars | None) -> None:
+    """Errors, a channel, or both side by side."""
+    if it is None and bars is None:
+        figure.text(
+            0.5, 0.5, "nothing is measured yet that a model predicts", ha="center", va="center", color=INK
+        )
+    elif bars is None or it is None:
+        ax = figure.subplots()
+        if it is not None:
+            _curve(ax, it)
+        elif bars is not None:
+            _bars(ax, bars, BESIDE)
+    else:
+        left, right = figure.subplots(1, 2, gridspec_kw={"width_ratios": [1.0, 1.25], "wspace": 0.28})
+        _bars(left, bars, BESIDE)
+        _curve(right, it)
 
 
 def _curve(ax: Axes, it: Measured) -> None:

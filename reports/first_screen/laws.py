@@ -3,49 +3,44 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from typing import Any
 
-from reports.charts import dress
+from matplotlib.figure import FigureBase
+
 from reports.first_screen.drawn import Picture
-from reports.style import ACCENT, FAINT, INK
+from reports.laws import draw
+from reports.style import INK
 
-MOST = 3
-"""Laws that are drawn side by side, the first ones."""
-
-
-@dataclass(frozen=True)
-class Law:
-    """Where a law is, its form in words, and its curve as in the record, None where there is none."""
-
-    site: str
-    equation: str
-    curve: Mapping[str, Any] | None
-
-    @classmethod
-    def of(cls, record: Mapping[str, Any]) -> Law:
-        """From the record of a law."""
-        return cls(record["site"], record["equation"] or "no form", record["curve"])
+Json = Mapping[str, Any]
+MOST, LETTERS = 3, 48
+"""Laws that are drawn side by side, the first ones; letters of a title."""
+WIDE, HIGH = 5.2, 4.4
+"""Inches of each."""
 
 
-def laws(found: Sequence[Law], name: str) -> Picture:
-    """The first laws that have a curve, side by side; in words where there is none."""
-    drawn = [law for law in found if law.curve is not None][:MOST]
-    figure = Picture(figsize=(max(6.0, 4.6 * len(drawn)), 3.8))
+def laws(found: Sequence[Json], name: str) -> Picture:
+    """The first laws that have a curve, side by side; in words where there is none. found: records of laws."""
+    drawn = shown(found)
+    figure = Picture(figsize=(max(6.4, WIDE * len(drawn)), HIGH))
     if not drawn:
         figure.text(0.5, 0.5, f"{name}: no law to draw", ha="center", va="center", color=INK)
         return figure
-    for ax, law in zip(figure.subplots(1, len(drawn), squeeze=False)[0], drawn, strict=True):
-        it = law.curve
-        assert it is not None
-        ax.plot(it["own_x"], it["own_y"], ".", ms=3, color=FAINT, label="single load steps")
-        ax.fill_between(it["free_x"], it["low"], it["high"], color=INK, alpha=0.15, lw=0)
-        ax.plot(it["free_x"], it["free"], color=INK, lw=1.0, ls="--", label="without a form, 95 %")
-        ax.plot(it["x"], it["y"], color=ACCENT, lw=1.8, label=law.equation)
-        ax.set_xlabel(it["x_unit"])
-        ax.set_ylabel(it["y_unit"])
-        ax.set_title(law.site, fontsize=10, loc="left", color=INK)
-        dress(ax)
-        ax.legend(frameon=False, fontsize=8)
-    figure.tight_layout()
+    side_by_side(figure, drawn)
     return figure
+
+
+def shown(found: Sequence[Json]) -> list[Json]:
+    """Those that are drawn."""
+    return [law for law in found if law["curve"] is not None][:MOST]
+
+
+def side_by_side(figure: FigureBase, drawn: Sequence[Json]) -> None:
+    """Laws that have curves into a figure or a part of one."""
+    places = figure.subplots(1, len(drawn), squeeze=False, gridspec_kw={"wspace": 0.32, "bottom": 0.32})[0]
+    for ax, law in zip(places, drawn, strict=True):
+        draw(ax, law)
+        title = f"{law['site']}: {law['where']}"
+        cut = title if len(title) <= LETTERS else f"{title[: LETTERS - 4]} ..."
+        ax.set_title(cut, fontsize=10, loc="left", color=INK)
+        # Below the axes, where it hides no curve.
+        ax.legend(frameon=False, fontsize=8, loc="upper left", bbox_to_anchor=(-0.02, -0.15))

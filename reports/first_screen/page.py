@@ -23,12 +23,13 @@ SAID = {
 
 @dataclass(frozen=True)
 class Screen:
-    """What is shown. verdict: one word or "". sure, following: sentences. rows: cells by columns. picture: a PNG in
-    base64; picture_says: the same in words."""
+    """What is shown. verdict: one word or "". sure, beyond, following: sentences. rows: cells by columns.
+    picture: a PNG in base64; picture_says: the same in words."""
 
     headline: str
     verdict: str
     sure: tuple[str, ...]
+    beyond: tuple[str, ...]
     following: tuple[str, ...]
     columns: tuple[str, ...]
     rows: tuple[tuple[object, ...], ...]
@@ -64,7 +65,12 @@ def _parts(it: Screen) -> Iterator[str]:
     if it.picture:
         says = escape(_limited(it.picture_says, LETTERS), quote=True)
         yield f'<img style="max-width:100%" alt="{says}" src="data:image/png;base64,{it.picture}">'
-    for title, sentences in (("What is certain", it.sure), ("Next", it.following)):
+    lists = (
+        ("What is certain", it.sure),
+        ("Laws beyond the catalogue", it.beyond),
+        ("Next", it.following),
+    )
+    for title, sentences in lists:
         if sentences:
             yield f'<h4 style="margin:10px 0 2px">{title}</h4><ul style="margin:0">{"".join(_items(sentences))}</ul>'
     if it.rows:

@@ -7,13 +7,16 @@ from dataclasses import replace
 from functools import cache
 
 import numpy as np
+from pandas import DataFrame
 
 import parastiff
-from parastiff import Addition, BarStiffness, Diagnosis, Discovery
+from parastiff import Addition, BarStiffness, Diagnosis, Discovery, Prediction
 from pipeline.answer import Answer, ModelError, TestChange, TestNoise
 from pipeline.discover.record import Discovered
+from pipeline.discover.recording import where
 from pipeline.face.shown import Shown
 from pipeline.inference.model import Model
+from pipeline.law_record import Curve, Grouped, LawFound
 from pipeline.value import Value
 from tests.conftest import ROOT
 from vjm import paper
@@ -109,6 +112,72 @@ def nothing_discovered() -> Discovery:
     return Discovery(bench().subject, record, (), "")
 
 
+def law(**keys: object) -> LawFound:
+    """A bushing that stiffens, y = k1 x + k3 x³, with noisy load steps of which one is far off."""
+    x = np.linspace(-0.8, 0.8, 41)
+    y = 40.0 * x + 90.0 * x**3
+    own = y + np.random.default_rng(1).normal(0.0, 4.0, x.size)
+    own[3] = 4000.0
+    curve = Curve(
+        x_unit="mm",
+        y_unit="N",
+        x=tuple(x),
+        y=tuple(y),
+        free_x=tuple(x),
+        free=tuple(y + 2.0 * np.sin(6.0 * x)),
+        low=tuple(y - 6.0),
+        high=tuple(y + 6.0),
+        own_x=tuple(x),
+        own_y=tuple(own),
+    )
+    given: dict[str, object] = {
+        "site": "along@base",
+        "where": where("along@base"),
+        "group": (Grouped(site="along@base.1", evidence=-0.8),),
+        "form": "cubic",
+        "equation": "y = k1 x + k3 x^3",
+        "parameters": {"k1": value(40.0), "k3": value(90.0)},
+        "evidence": 180.0,
+        "margin": 22.0,
+        "left_out": 90.0,
+        "ties": (),
+        "range": (-0.8, 0.8),
+        "fit": 1.02,
+        "holdout": 1.1,
+        "shape": "odd, and steeper with the coordinate",
+        "curve": curve,
+    }
+    return LawFound.model_validate({**given, **keys})
+
+
+@cache
+def by_law() -> Diagnosis:
+    """Nothing known explains it, a law at one place does."""
+    found = answer(
+        verdict="unknown",
+        effects=(),
+        added=(),
+        alternatives=(),
+        parameters={},
+        error=(error(17.5),),
+        laws=(law(),),
+        sentences=("unknown: no effect of the catalogue explains what is left.",),
+    )
+    return Diagnosis(bench().subject, found, ((),), (Model(),))
+
+
+def law_discovered() -> Discovery:
+    record = nothing_discovered().record.model_copy(
+        update={"laws": (law(),), "error": (error(17.5), error(1.02)), "sentences": ("It sits here.",)}
+    )
+    return Discovery(bench().subject, record, ("along_base_law",), "# an effect file")
+
+
+@cache
+def asked() -> Prediction:
+    return bench().predict(at=DataFrame({"fy_N": [1.0, 2.0], "fz_N": [0.0, 3.0]}))
+
+
 def bar() -> parastiff.OwnBar:
     return parastiff.bar(parastiff.sections.Rectangle(10.0, 16.0), 250.0, 70e3, 0.33, lug=(15.0, 14.0, 20.0))
 
@@ -131,7 +200,11 @@ RESULTS: dict[str, Callable[[], Shown]] = {
     "addition of many tests": many_tests,
     "comparison": cache(lambda: bench().compare()),
     "plan": cache(lambda: bench().plan()),
+    "prediction": cache(lambda: bench().predict()),
+    "prediction of load cases": asked,
     "discovery": nothing_discovered,
+    "discovery of a law": law_discovered,
+    "diagnosis with a law": by_law,
     "catalogue": parastiff.catalogue,
     "bar": bar,
     "stiffness": stiffness,

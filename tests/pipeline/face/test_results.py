@@ -5,19 +5,37 @@ from __future__ import annotations
 import inspect
 import pickle
 import re
+import shutil
 import sys
 from dataclasses import replace
 from html.parser import HTMLParser
 from pathlib import Path
+from textwrap import dedent
 
+import numpy as np
 import pandas as pd
 import pytest
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 import parastiff
 from parastiff import InputError, UndecidedError
 from pipeline.face.shown import LARGEST, Drawn, Shown
-from tests.pipeline.face.results import ONE_STEP, RESULTS, TEST, ambiguous, answer, bench, many_tests
+from tests.conftest import ROOT
+from tests.pipeline.face.results import (
+    ONE_STEP,
+    RESULTS,
+    TEST,
+    added,
+    ambiguous,
+    answer,
+    asked,
+    bench,
+    by_law,
+    law,
+    law_discovered,
+    many_tests,
+)
 
 HTML = 300_000
 VOID = {"img", "meta", "br", "hr"}
@@ -48,7 +66,7 @@ def test_every_result_type_that_is_public_is_looked_at() -> None:
         for name in parastiff.__all__
         if inspect.isclass(it := getattr(parastiff, name)) and issubclass(it, Shown)
     }
-    assert public == {type(make()) for make in RESULTS.values()} and len(public) == 11
+    assert public == {type(make()) for make in RESULTS.values()} and len(public) == 12
 
 
 @pytest.mark.parametrize("name", RESULTS)
@@ -165,17 +183,103 @@ def test_a_first_screen_names_what_is_certain_and_what_comes_next(monkeypatch: p
     assert "and 20 more rows" in page and " ..." in page
 
 
-def test_a_bench_to_a_verdict_and_a_picture_in_five_lines(tmp_path: Path) -> None:
-    lines = f"""import parastiff
-found = parastiff.open({str(ONE_STEP)!r}).diagnose()
-print(found)
-found.plot()
-found.save({str(tmp_path / "verdict.html")!r})"""
-    assert len(lines.splitlines()) == 5
+FENCED = re.findall(r"```py\n(.*?)```", (ROOT / "docs" / "reference" / "python.md").read_text(), re.DOTALL)
+DOCSTRING = dedent(re.findall(r"((?:^ {4}.*\n|^\n)+)", parastiff.__doc__ or "", re.MULTILINE)[0])
+
+
+@pytest.mark.parametrize("shown", [FENCED[0], DOCSTRING], ids=["reference", "docstring"])
+def test_a_bench_to_a_verdict_and_a_picture_in_five_lines(
+    shown: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """As the documentation shows it, in a folder that has a bench."""
+    assert 4 <= len([line for line in shown.splitlines() if line.strip()]) <= 5
+    shutil.copytree(ONE_STEP, tmp_path / "bench")
+    monkeypatch.chdir(tmp_path)
     space: dict[str, object] = {}
-    exec(lines, space)
-    assert space["found"].verdict == "nothing_tested"  # type: ignore[attr-defined]
-    assert re.search(r"<title>.*nothing_tested", (tmp_path / "verdict.html").read_text())
+    exec(shown, space)
+    it = space.get("found")
+    assert isinstance(it, parastiff.Diagnosis) and it.verdict == "nothing_tested"
+    assert capsys.readouterr().out.startswith(it.headline)
+    assert (tmp_path / "found.png").read_bytes().startswith(b"\x89PNG")
+    if "found.html" in shown:
+        assert re.search(r"<title>.*nothing_tested", (tmp_path / "found.html").read_text())
+
+
+def test_a_law_is_told_in_words_and_drawn() -> None:
+    it = by_law()
+    assert it.laws == it.answer.laws and it.laws[0].site == "along@base"
+    assert "a law at along@base" in it.headline and "give along the bars" in repr(it)
+    page = it._repr_html_()
+    for part in (
+        "Laws beyond the catalogue",
+        "y = k1 x + k3 x^3",
+        "do not tell it from along@base.1",
+        "law.py",
+    ):
+        assert part in page
+    assert it.to_frame()["value"].tolist() == [40.0, 90.0] and set(it.to_frame()["effect"]) == {"along@base"}
+    assert "Laws beyond" not in ambiguous()._repr_html_()
+    *_, axes = _axes(it)
+    assert axes.get_title(loc="left").startswith("along@base: give along the bars")
+    assert len(_axes(it)) == len(_axes(ambiguous())) + 1
+    also = answer(laws=(law(),))
+    assert "modulus_error or self_weight or a law at along@base" in replace(ambiguous(), answer=also).headline
+
+
+def test_a_law_is_drawn_without_load_steps_that_are_far_off() -> None:
+    (axes,) = _axes(law_discovered())
+    assert max(map(abs, axes.get_ylim())) < 120.0 and axes.get_xlabel() == "displacement / mm"
+    names = axes.get_legend_handles_labels()[1]
+    assert names[-1] == "cubic: y = k1 x + k3 x^3" and len(names) == 4
+    bare = replace(
+        law_discovered(), record=law_discovered().record.model_copy(update={"laws": (law(curve=None),)})
+    )
+    assert not _axes(bare) and "no law to draw" in bare.plot().texts[0].get_text()
+
+
+def _axes(it: Drawn) -> list[Axes]:
+    return it.plot().axes
+
+
+def test_a_prediction_is_that_of_the_command_at_its_rows_and_at_others() -> None:
+    own = bench().predict()
+    (row,) = own.record.rows
+    assert row.role == "fit" and [it.column for it in row.readings] == ["rz_rad"]
+    assert own.to_frame()["measured"].tolist() == [row.readings[0].measured]
+    assert "bench.diagnose() says what the model lacks" in own._repr_html_()
+    there = asked()
+    frame = there.to_frame()
+    assert list(frame["given.fy_N"].unique()) == [1.0, 2.0] and "measured" not in frame
+    # Without noise and without parameters that were fitted some intervals have no width.
+    half = 0.5 * (frame["high95"] - frame["low95"])
+    parts = np.hypot(np.hypot(frame["parameters"], frame["tolerances"]), frame["noise"])
+    straight = frame["sampled"] == 0
+    assert straight.any() and np.allclose(half[straight], 1.959964 * parts[straight])
+    assert half.max() > 1.0
+    assert list(there.record.data)[-1] == "the table of load cases"
+    with pytest.raises(InputError, match="'no such' is not predicted, allowed are case 1"):
+        there.plot("no such")
+
+
+def test_load_cases_of_a_file_and_of_a_pandas_table_are_the_same(tmp_path: Path) -> None:
+    table = pd.DataFrame({"q_deg": [0.0, 10.0], "fy_N": [1.0, 2.0]})
+    table.to_csv(tmp_path / "at.csv", index=False)
+    one, other = bench().predict(table), parastiff.predict(ONE_STEP, tmp_path / "at.csv")
+    assert one.to_frame().equals(other.to_frame())
+    assert one.record.data["the table of load cases"] == other.record.data["at.csv"]
+    # Histories of one load step are drawn together.
+    assert all(len(axes.get_xticks()) == 2 for axes in _axes(one))
+    with pytest.raises(InputError, match=r"the table of load cases line 1, column fq_N"):
+        bench().predict(pd.DataFrame({"fy_N": [1.0], "fq_N": [1.0]}))
+    with pytest.raises(InputError, match="at = 3 is no table, allowed are the path of one"):
+        bench().predict(3)  # type: ignore[arg-type]
+
+
+def test_a_diagnosis_predicts_by_what_it_identified_only() -> None:
+    with pytest.raises(UndecidedError, match="ambiguous"):
+        ambiguous().predict()
+    known = replace(ambiguous(), answer=answer(verdict="identified"))
+    assert known.predict().record.effects == ("modulus_error",) == added().predict().record.effects
 
 
 def test_a_virtual_bench_is_measured_and_written_with_its_answer_beside(tmp_path: Path) -> None:
