@@ -20,6 +20,8 @@ from vjm.site_joint import SiteJoint
 
 ROOM = 1e3
 """Bounds of an amplitude, in typical sizes."""
+UNSEEN = 0.01
+"""Of what a law says in all, the typical size of a part that was found to be nothing."""
 
 
 class SiteLaw(Effect):
@@ -153,6 +155,8 @@ def parameters_of(
     """
     low, high = form.bounds(largest)
     bounds = dict(zip((q.name for q in form.shapes), zip(low, high, strict=True), strict=True))
+    # An amplitude that is zero is sized by what the others say at the largest coordinate.
+    said = max((abs(values[q.name]) * largest ** (-q.of_x) for q in form.amplitudes), default=0.0)
     out = []
     for quantity in form.quantities:
         if quantity.name in form.fixed:
@@ -161,7 +165,7 @@ def parameters_of(
             quantity.identifier(kind.gives, kind.over),
             quantity.unit(kind.gives, kind.over),
         )
-        size = abs(values[quantity.name]) or 1.0
+        size = abs(values[quantity.name]) or UNSEEN * said * largest**quantity.of_x or 1.0
         if quantity in form.shapes:
             least, most = bounds[quantity.name]
             null, lowest, highest = values[quantity.name], float(least), float(most)

@@ -27,6 +27,8 @@ LOADS = 241
 """At which that is looked at."""
 LEVEL = 1e-9
 """Of the whole rise, below which a part of it may be by rounding."""
+LEAST = 1e-3
+"""Of the mean rise, that one is at least where amplitudes are held to rise."""
 LOOKS = 40
 """Evaluations of the shapes from each start, at most."""
 
@@ -90,7 +92,8 @@ def _from(form: Form, site: Site, rest: Rest, largest: float, start: Array) -> I
         amplitudes = _amplitudes(form, columns, whitened)
         slopes = _slopes(form, site, shapes, largest)
         if slopes is not None and np.any(slopes @ amplitudes < 0.0):
-            amplitudes = rising(columns, whitened, slopes)
+            # Not flat either: that is rigid, and no law of a mechanism.
+            amplitudes = rising(columns, whitened, slopes - LEAST * slopes.mean(axis=0))
         return amplitudes, whitened - columns @ amplitudes
 
     def done(shapes: Array) -> Formed:

@@ -187,20 +187,25 @@ def _coarsest_first(group: tuple[Located, ...]) -> tuple[Located, ...]:
 
 
 def _ways(seen: Map, it: Located, cases: Program, name: str, say: Say) -> tuple[Through, ...]:
-    """Forms through the mechanism: the best where influences are known, then all near ones about where that stands."""
+    """Forms through the mechanism: the best that explains anything there of those where influences are known, then all
+    near ones about where that stands."""
     base = seen.found.model
     first = formed(it.site, seen.rest, it.evidence.site.largest)
-    if not first:
+    # One that leaves as much as the model without it is no law there.
+    before = seen.found.chi_square - criteria.PROPOSED
+    done: dict[str, Through] = {}
+    for each in first[: criteria.FORMS]:
+        say(f"{each.form.title} through the mechanism")
+        done[each.form.name] = through(each, base, cases, name)
+        if done[each.form.name].cost < before:
+            break
+    else:
         return ()
-    say(f"{first[0].form.title} through the mechanism")
-    done = {first[0].form.name: through(first[0], base, cases, name)}
-    about = next(iter(done.values()))
-    for other in _about(about, first, seen.rest)[: criteria.FORMS]:
+    about = list(done.values())[-1]
+    for other in _about(about, seen.rest)[: criteria.FORMS]:
         if other.form.name not in done:
             say(f"{other.form.title} through the mechanism")
             done[other.form.name] = through(other, base, cases, name)
-    # One that leaves as much as the model without it is no law there.
-    before = seen.found.chi_square - criteria.PROPOSED
     ordered = sorted((way for way in done.values() if way.cost < before), key=lambda way: way.cost)
     if not ordered:
         return ()
@@ -211,11 +216,9 @@ def _ways(seen: Map, it: Located, cases: Program, name: str, say: Say) -> tuple[
     )
 
 
-def _about(way: Through, before: list[Formed], noise: Rest) -> list[Formed]:
+def _about(way: Through, noise: Rest) -> list[Formed]:
     """Forms near the best, fitted anew about the fit with one of them, whose loads and coordinates are nearer to those
-    that are there; those of before where it is no fit."""
-    if way.fit.lost:
-        return _near(before)
+    that are there."""
     old, rest = way.formed.site, Rest.of(way.fit.residual)
     rest = rest if noise.correlated is None else rest.with_noise(noise.correlated)
     places = {(each.kind, each.place) for each in old.elements}

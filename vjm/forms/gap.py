@@ -12,9 +12,10 @@ from vjm.forms.curve import CurveForm, Points
 from vjm.frames import Array
 from vjm.laws import Law
 
-WITHIN = 2e-4
+WITHIN = (2e-4, 2e-3, 0.02, 0.1)
 """Of the largest load, over which the travel is gone through where influences are known: a gap has no place at no
-load. In the mechanism it has a soft centring spring."""
+load, and loads are those of the model without it, in which bars share small ones otherwise. In the mechanism it has a
+soft centring spring."""
 
 
 class Gap(CurveForm):
@@ -45,4 +46,4 @@ class Gap(CurveForm):
         return Clearance(gap, 1.0 / max(slope, 1.0 / STOP))
 
     def starts(self, largest: float) -> Sequence[Array]:
-        return [np.array([WITHIN * largest])]
+        return [np.array([share * largest]) for share in WITHIN]
