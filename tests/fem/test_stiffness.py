@@ -83,6 +83,7 @@ def test_yardstick_of_bar_p() -> None:
     assert np.all(np.abs(found - UNIFORM_301K) < np.abs(UNIFORM_20K - UNIFORM_301K))
 
 
+@pytest.mark.long
 def test_extrapolated_bar_p() -> None:
     """Three nested meshes to their limit, against 301k unknowns; conforming elements come from above."""
     values = np.array([bar_p.entries(bar_p.model(level).stiffness) for level in (1, 2, 3)])

@@ -16,7 +16,7 @@ import hatch_build
 import parastiff
 
 ROOT = Path(__file__).resolve().parents[2]
-LARGEST = 1_300_000
+LARGEST = 1_500_000
 """Bytes of the wheel: its code takes 1.13 million; results of the checkout would be millions more."""
 OWN = """
 from {module} import Effect, Parameter

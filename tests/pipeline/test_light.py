@@ -30,13 +30,17 @@ def run(code: str) -> subprocess.CompletedProcess[str]:
     )
 
 
-@pytest.mark.parametrize("arguments", [("effects",), ("compare", "examples/bench", "--quiet")])
+@pytest.mark.parametrize(
+    "arguments",
+    [("effects",), pytest.param(("compare", "examples/bench", "--quiet"), marks=pytest.mark.long)],
+)
 def test_runs_without_mesher_and_pictures(arguments: tuple[str, ...]) -> None:
     done = run(f"from pipeline.cli import app\napp({list(arguments)!r})")
     assert done.returncode == 0, done.stderr
     assert done.stdout.strip()
 
 
+@pytest.mark.long
 def test_no_command_about_measurements_loads_them() -> None:
     names = ("effects_page", "compare.command", "diagnose.command", "add.command", "plan.command")
     names = (*names, "improve.command", "simulate", "simulate_manipulator", "export.command")

@@ -59,6 +59,7 @@ def test_a_known_truth_comes_back_with_an_honest_error_bar(name: str) -> None:
     assert found[0].significance == pytest.approx(abs(found[0].value) / std)
 
 
+@pytest.mark.long
 def test_noise_raises_no_more_flags_than_stated() -> None:
     """1000 benches of pure noise: any of eleven numbers is flagged in at most 5 % (plus three sigma of that count)."""
     empty, rng = bench(), np.random.default_rng(5)

@@ -34,6 +34,7 @@ def laid(folder: Path) -> Path:
     return folder
 
 
+@pytest.mark.long
 def test_every_stored_shape_is_in_the_page_with_its_load(tmp_path: Path) -> None:
     folder = laid(tmp_path)
     draw(folder)

@@ -136,6 +136,7 @@ def outside(requests: list[str]) -> list[str]:
     ]
 
 
+@pytest.mark.long
 def test_open_add_and_save_with_a_browser_that_is_killed_on_the_way(tmp_path: Path) -> None:
     """Everything comes from this machine; a complaint is the command line's; a new browser finds what was done."""
     write(tmp_path / "rig", bench("modulus_error.scale", 0.95))

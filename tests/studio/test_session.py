@@ -57,6 +57,7 @@ def opened(session: Session, folder: Path) -> Session:
     return session
 
 
+@pytest.mark.long
 def test_add_remove_and_save_are_those_of_the_command_line(
     session: Session, folder: Path, tmp_path: Path
 ) -> None:

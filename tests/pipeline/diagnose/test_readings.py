@@ -99,6 +99,7 @@ def test_a_search_without_a_reading_begins_where_the_one_with_it_ended() -> None
     assert here.evaluations < anew.evaluations
 
 
+@pytest.mark.long
 def test_a_reading_of_a_test_that_was_held_out_may_be_knocked_too() -> None:
     it = plain()
     held = replace(it, tests=(*it.tests[:-1], replace(it.tests[-1], role="holdout")))
@@ -107,6 +108,7 @@ def test_a_reading_of_a_test_that_was_held_out_may_be_knocked_too() -> None:
     assert found.verdict == "identified" and "modulus_error" in found.added
 
 
+@pytest.mark.long
 def test_knocked_readings_are_set_aside_before_all_that_competes_is_fitted() -> None:
     known = {n: catalogue()[n] for n in ("bar_geometric_nonlinearity", "modulus_error", "axis_flexibility")}
     shelf = fit_cache(knocked(plain()), Model(), known)

@@ -76,6 +76,7 @@ def test_before_an_effect_that_looks_at_the_sensors_they_are_not_alone(
     np.testing.assert_array_equal(found, predict(model, cases).by_free)
 
 
+@pytest.mark.long
 def test_derivatives_are_those_of_linkages_built_again(monkeypatch: pytest.MonkeyPatch) -> None:
     """To the rounding of differences of the residual, in sigmas of what is read."""
     cases = program(campaign((("modulus_error.scale", 0.9),), 1, 6))

@@ -48,6 +48,7 @@ def fits() -> list[Fit]:
     return fits_at_once([(it, partial(fit, it, CASES)) for it in begun()], CASES)
 
 
+@pytest.mark.long
 def test_a_fit_comes_back_as_it_was_made(two: None) -> None:
     begin = work.spent()
     alone = [fit(it, CASES) for it in begun()]

@@ -79,6 +79,7 @@ def std_by_differences(best: Fit, tests: Program) -> np.ndarray:
     return np.asarray(np.sqrt(np.diag(np.linalg.inv(slopes.T @ slopes))))
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("play", [0.003, 0.03, 0.3])
 def test_play_of_any_size_is_found_beside_a_number_that_is_smooth(play: float) -> None:
     """From a tenth of the typical size to thirty times, beyond the end of the ladder's first rungs."""

@@ -41,6 +41,7 @@ def filled_in(folder: Path, **columns: str) -> None:
     path.write_text(text, encoding="utf-8")
 
 
+@pytest.mark.long
 def test_a_workbook_is_read_once_its_questions_are_answered(
     tmp_path: Path, pipeline_command: Callable[..., Done]
 ) -> None:

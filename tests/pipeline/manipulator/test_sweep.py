@@ -75,6 +75,7 @@ def test_every_point_is_what_one_point_is(whole: Path) -> None:
         assert 5e3 < row[8] < 1e4 and row[9] in (0, 1, 2)
 
 
+@pytest.mark.long
 def test_killed_and_resumed_is_the_same_file(orthoglide: Description, whole: Path, tmp_path: Path) -> None:
     nodes = -(-coarse(GRID).size // 5)
     with pytest.raises(KeyboardInterrupt):
