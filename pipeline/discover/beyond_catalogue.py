@@ -90,6 +90,9 @@ def _competing(it: Diagnosis, best: Names, say: Say) -> Diagnosis:
     if law is None or not 0 < len(found.laws) <= len(best - root_of(it.shelf, best)):
         return it
     behind = law.cost - min(_cost_of_set(it, names) for names in map(frozenset, it.sets))
+    if any(each.ways[0].formed.form.kinked for each in found.laws):
+        # Where each row chooses its side of a gap that takes up noise: it is never better than a set by that alone.
+        behind = max(behind, -criteria.ALIKE)
     if behind > (criteria.ALIKE if several else -criteria.ALIKE):
         return it
     told = _told(found, law)
@@ -134,7 +137,9 @@ def _standing(it: Diagnosis, found: Discovery) -> _Law | None:
     if found.end.lost or not judge(found.end, it.shelf.criteria).noise:
         return None
     numbers = sum(law.ways[0].numbers for law in found.laws) + int(found.bent)
-    return _Law(found.end.chi_square + numbers * _of_one(it), numbers)
+    # Choices of sides cost a law what they cost an effect.
+    left = found.end.chi_square + found.end.residual.doubt + found.end.residual.spread
+    return _Law(left + numbers * _of_one(it), numbers)
 
 
 def _cost_of_set(it: Diagnosis, names: Names) -> float:
