@@ -9,6 +9,9 @@ LEFT_OUT = 12.0
 """Chi-square that tests which were left out gain at least, without the best of them."""
 ALIKE = 10.0
 """Evidence, or cost of a form, within which two are not told apart: a factor of 150 and more in their probability."""
+ALIKE_SHARE = 0.01
+"""Of the evidence, within which two sites are not told apart either: it goes with the square of what is explained, so
+that influences which are a tenth off, as where a law changes the load that passes, take so much off it."""
 FEW_TESTS = 3
 """Tests that see a site, below which blocks of the histories are left out instead."""
 BLOCKS = 4

@@ -166,8 +166,8 @@ def _step(seen: Map, cases: Program, number: int, say: Say) -> Law | Added | Non
     gains, enough = _gained(seen.rest, best.site.values, best.size * best.prior.root, best.explained)
     if not enough:
         return None
-    group = _coarsest_first(seen.group(criteria.ALIKE))
-    if group[0].site.kind.startswith("column"):
+    group = _coarsest_first(seen.group(max(criteria.ALIKE, criteria.ALIKE_SHARE * seen.best)))
+    if _is_column(group[0]):
         return Law(seen, group, gains, ())
     say(f"the law at {group[0].site.name}")
     return Law(seen, group, gains, _ways(seen, group[0], cases, f"law{number}", say))
@@ -181,9 +181,17 @@ def _gained(rest: Rest, columns: Array, root: Array, explained: Array) -> tuple[
 
 
 def _coarsest_first(group: tuple[Located, ...]) -> tuple[Located, ...]:
-    """The sites of a group, those of more parts of the best one's kind before those of fewer."""
-    kind = group[0].site.kind
-    return tuple(sorted(group, key=lambda it: (it.site.kind != kind, -it.site.parts, -it.value)))
+    """The sites of a group, those of more parts of the best one's kind before those of fewer; columns of the table come
+    after places of the linkage, at which there are laws to go on with."""
+    first = next((it for it in group if not _is_column(it)), group[0])
+    kind = first.site.kind
+    return tuple(
+        sorted(group, key=lambda it: (_is_column(it), it.site.kind != kind, -it.site.parts, -it.value))
+    )
+
+
+def _is_column(it: Located) -> bool:
+    return it.site.kind.startswith("column")
 
 
 def _ways(seen: Map, it: Located, cases: Program, name: str, say: Say) -> tuple[Through, ...]:

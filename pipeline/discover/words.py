@@ -67,7 +67,7 @@ def said_of(it: LawFound) -> Iterator[str]:
         more = f" and {len(others) - MANY} more" if len(others) > MANY else ""
         yield (
             f"These tests do not tell it from {', '.join(others[:MANY])}{more}: their ln evidence is within "
-            f"{short(criteria.ALIKE)} of its own."
+            f"{short(max(criteria.ALIKE, criteria.ALIKE_SHARE * it.evidence), 2)} of its own."
         )
     if it.form is None:
         yield f"No form of a law in the mechanism explains it there (ln evidence {short(it.evidence)})."
