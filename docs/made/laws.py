@@ -13,7 +13,7 @@ _THRESHOLDS = {
     "proposed": criteria.PROPOSED,
     "left out": criteria.LEFT_OUT,
     "alike": criteria.ALIKE,
-    "alike share": f"{100 * criteria.ALIKE_SHARE:g} %",
+    "alike share in percent": 100.0 * criteria.ALIKE_SHARE,
     "few tests": criteria.FEW_TESTS,
     "laws": criteria.LAWS,
     "beyond": criteria.BEYOND,
