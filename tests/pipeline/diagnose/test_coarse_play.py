@@ -8,7 +8,6 @@ import numpy as np
 import pytest
 
 from pipeline.adequacy.patterns import scores
-from pipeline.challenge.benches import scaled
 from pipeline.coverage.cases import BASE
 from pipeline.diagnose.diagnosis import diagnose
 from pipeline.inference.fit import Fit, fit
@@ -16,7 +15,7 @@ from pipeline.inference.model import Model
 from pipeline.inference.program import Program, program
 from pipeline.inference.starts import best_fit
 from pipeline.selection.criteria import CRITERIA
-from pipeline.simulate import bench_rig
+from pipeline.simulate import bench_rig, scaled
 from pipeline.virtual.bench import measure
 from pipeline.virtual.plan import GAUGES, bench_plan
 from tests.pipeline.diagnose.bench import COARSE

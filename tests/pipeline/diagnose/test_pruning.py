@@ -6,7 +6,6 @@ from dataclasses import replace
 
 import pytest
 
-from pipeline.challenge.benches import scaled
 from pipeline.coverage.cases import BASE
 from pipeline.diagnose.diagnosis import diagnose
 from pipeline.diagnose.merit import cost
@@ -16,7 +15,7 @@ from pipeline.inference.fit import Fit, fit
 from pipeline.inference.model import Model
 from pipeline.inference.program import program
 from pipeline.selection.criteria import CRITERIA
-from pipeline.simulate import bench_rig
+from pipeline.simulate import bench_rig, scaled
 from pipeline.virtual.bench import measure
 from pipeline.virtual.plan import GAUGES, SENSORS, bench_plan
 from tests.pipeline.diagnose.bench import AXIAL, bench

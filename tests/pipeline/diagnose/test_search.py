@@ -7,14 +7,13 @@ from dataclasses import replace
 import pytest
 
 from pipeline.campaign import Campaign
-from pipeline.challenge.benches import scaled
 from pipeline.coverage.cases import BASE
 from pipeline.diagnose.diagnosis import Diagnosis, diagnose
 from pipeline.diagnose.search import _unforeseen
 from pipeline.diagnose.shelf import Shelf
 from pipeline.inference.model import Model
 from pipeline.inference.program import program
-from pipeline.simulate import bench_rig
+from pipeline.simulate import bench_rig, scaled
 from pipeline.virtual.bench import measure
 from pipeline.virtual.plan import GAUGES, SENSORS, PlannedTest, bench_plan
 from tests.pipeline.diagnose.bench import AXIAL, COARSE, bench

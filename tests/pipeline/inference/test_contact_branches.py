@@ -9,7 +9,6 @@ import numpy as np
 import pytest
 from scipy.stats import chi2
 
-from pipeline.challenge.benches import scaled
 from pipeline.compare.error import Discrepancy
 from pipeline.coverage.cases import BASE, typical
 from pipeline.coverage.trial import campaign
@@ -20,7 +19,7 @@ from pipeline.inference.predicted import Prediction
 from pipeline.inference.prediction import predict
 from pipeline.inference.program import Program, program
 from pipeline.inference.residual import FARTHEST, Residual, residual
-from pipeline.simulate import bench_rig
+from pipeline.simulate import bench_rig, scaled
 from pipeline.virtual.bench import measure
 from pipeline.virtual.plan import GAUGES, SENSORS, bench_plan
 from tests.pipeline.diagnose.bench import COARSE
