@@ -214,9 +214,9 @@ def _explains(found: Fit, it: _Residual, correlations: Array, criteria: Criteria
         scatter = float(np.sqrt(size / degrees))
         if scatter > criteria.scatter_factor:
             return False
-    series = _series(found, z)
+    series = series_of(found, z)
     worst = min(float(chi2.sf(float(r @ r) / scatter**2, r.size)) for r in series) * len(series)
-    if worst < level or not _without_order(series, level):
+    if worst < level or not without_order(series, level):
         return False
     return _no_pattern(found, it, correlations, z, scatter, criteria)
 
@@ -238,14 +238,15 @@ def _beside(columns: Array, taken: Array) -> Array:
     return np.asarray(columns - taken @ (taken.T @ columns))
 
 
-def _series(found: Fit, z: Array) -> list[Array]:
-    """Of each test and channel, in the order of the rows."""
+def series_of(found: Fit, z: Array) -> list[Array]:
+    """Residuals (N,) of each test and channel, in the order of the rows."""
     rows = found.residual.rows
     keys = np.stack([found.residual.program.test[rows[:, 0]], rows[:, 1]], axis=1)
     return [z[np.all(keys == key, axis=1)] for key in np.unique(keys, axis=0)]
 
 
-def _without_order(series: Sequence[Array], level: float) -> bool:
+def without_order(series: Sequence[Array], level: float) -> bool:
+    """Whether neighbouring residuals are no more alike than noise makes them."""
     try:
         return lag_one(series).p_value >= level
     except ValueError:

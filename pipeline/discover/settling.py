@@ -5,14 +5,11 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-import numpy as np
-
 from pipeline.adequacy.bad_readings import BadReading, bad_readings, set_aside
+from pipeline.adequacy.correlated import series_of, without_order
 from pipeline.adequacy.tails import tails_of, without_tails
 from pipeline.campaign import Campaign
 from pipeline.discover.locating import Map, without_best
-from pipeline.inference.fit import Fit
-from pipeline.noise import lag_one
 from pipeline.selection.criteria import CRITERIA
 
 
@@ -34,19 +31,10 @@ class Beside:
 def beside(seen: Map) -> Beside:
     """Of a map's fit, with the function at its best site fitted as freely as its knots allow."""
     found = without_best(seen)
-    if found.degrees >= CRITERIA.few_readings and _without_order(found):
+    # Of more laws, tails say nothing.
+    series = series_of(found, found.residual.flat(found.residual.left))
+    if found.degrees >= CRITERIA.few_readings and without_order(series, CRITERIA.check_level):
         tails = tails_of(found, CRITERIA)
         if tails is not None:
             return Beside(normal=without_tails(found, tails))
     return Beside(bad_readings(found, CRITERIA))
-
-
-def _without_order(found: Fit) -> bool:
-    """Whether what is left has no order along the load paths: of more laws, tails say nothing."""
-    rows, left = found.residual.rows, found.residual.flat(found.residual.left)
-    keys = np.stack([found.residual.program.test[rows[:, 0]], rows[:, 1]], axis=1)
-    series = [left[np.all(keys == key, axis=1)] for key in np.unique(keys, axis=0)]
-    try:
-        return lag_one(series).p_value >= CRITERIA.check_level
-    except ValueError:
-        return True

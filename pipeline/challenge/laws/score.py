@@ -61,7 +61,7 @@ def _goals(every: Sequence[LawOutcome]) -> list[Goal]:
     made: list[tuple[str, str, Share]] = [
         (f"place or its group right, from {LARGE:g} sigmas", "at least 90 %", share(all(it.right) for it in large)),
         (f"place or its group right, 15 to {LARGE:g} sigmas", "at least 75 %", share(all(it.right) for it in small)),
-        ("plans that cannot tell: group right", "100 %", share(all(it.right) for it in alone if it.poor and it.found)),
+        ("plans that cannot tell: group right", "100 %", share(all(it.right) for it in alone if it.poor)),
         ("form among the ties, place right", "at least 90 %", share(f for it in known for f in it.form_among)),
         (f"held out at most {IN_GRAMMAR}, form known", "at least 80 %", share(_held(it) <= IN_GRAMMAR for it in known)),
         (f"held out at most {OUTSIDE}, no form", "at least 60 %", share(_held(it) <= OUTSIDE for it in unknown)),
