@@ -71,7 +71,9 @@ def solve_each(matrices: Array, right: Array) -> tuple[Array, np.ndarray]:
     try:
         solution = np.asarray(np.linalg.solve(matrices, right), dtype=np.float64)
     except np.linalg.LinAlgError:
-        regular = np.array([np.linalg.matrix_rank(m) == len(m) for m in matrices])
+        # A number that is none has no rank, and ends the search for one.
+        regular[:] = np.isfinite(matrices).all(axis=(-2, -1))
+        regular[regular] = [np.linalg.matrix_rank(m) == len(m) for m in matrices[regular]]
         solution = np.zeros_like(right)
         solution[regular] = np.linalg.solve(matrices[regular], right[regular])
     finite = np.isfinite(solution)

@@ -6,6 +6,7 @@ from collections.abc import Callable
 
 from docs.made.lists import rows
 from pipeline.discover import criteria
+from pipeline.discover.sites import SEEN
 from vjm.forms import forms
 from vjm.law_sites import SITE_KINDS
 
@@ -14,6 +15,7 @@ _THRESHOLDS = {
     "left out": criteria.LEFT_OUT,
     "alike": criteria.ALIKE,
     "alike share in percent": 100.0 * criteria.ALIKE_SHARE,
+    "seen": SEEN,
     "few tests": criteria.FEW_TESTS,
     "laws": criteria.LAWS,
     "beyond": criteria.BEYOND,

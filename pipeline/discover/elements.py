@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pipeline.campaign.names import channel_columns
+from pipeline.discover.coordinate_noise import input_roots, unsure
 from pipeline.inference.fit import Fit
 from pipeline.inference.program import Group, Program
 from pipeline.inference.residual import whitening
@@ -44,7 +45,8 @@ class Element:
     """One place where a law could sit.
 
     kind: of the site, or a column of the table. place: of the hinge or end of a bar, None for the whole.
-    coordinate: (R,) what a law there is a function of: turn or shift, load, or predicted reading.
+    coordinate: (R,) what a law there is a function of: turn or shift, load, or predicted reading. unsure: (R,) its
+    standard deviation by the noise of the readings.
     influence: (N,) whitened change of the residuals' readings by one unit of what the law says, of the tests that may
     be fitted. reference: (N,) the same of the readings at which sensors were zeroed, which are taken off; zeroed: (R,)
     row of these readings, -1 for the unloaded state, in which gauges are zeroed.
@@ -53,6 +55,7 @@ class Element:
     kind: str
     place: Place | None
     coordinate: Array
+    unsure: Array
     influence: Array
     reference: Array
     zeroed: np.ndarray
@@ -93,15 +96,20 @@ def _of_mechanism(found: Fit, flat: Callable[[Array], Array]) -> Iterator[Elemen
     cases, there = found.residual.program, found.prediction
     mechanisms = [_bench(found, group) for group in cases.groups]
     places = [(kind, place) for kind in SITE_KINDS.values() for place in _places(mechanisms[0], kind)]
-    coordinates = np.zeros((len(cases.test), len(places)))
+    roots = input_roots(found)
+    coordinates, doubts = np.zeros((2, len(cases.test), len(places)))
     influences, unloaded = np.zeros((2, *cases.measured.shape, len(places)))
     for group, mechanism, state in zip(cases.groups, mechanisms, there.states, strict=True):
-        rows, (at, change, before) = cases.rows_of(group), _group(mechanism, places, state)
-        coordinates[rows], influences[rows], unloaded[rows] = (x[group.real] for x in (at, change, before))
+        rows, real = cases.rows_of(group), group.real
+        own = np.zeros((*real.shape, *roots.shape[1:]))
+        own[real] = roots[rows]
+        at, doubt, change, before = (x[real] for x in _group(mechanism, places, state, own))
+        coordinates[rows], doubts[rows], influences[rows], unloaded[rows] = at, doubt, change, before
     zeroed = _zeroed(cases)
     columns, references = flat(influences), flat(_reference(influences, unloaded, cases, zeroed))
     for k, (kind, place) in enumerate(places):
-        yield Element(kind.name, place, coordinates[:, k], columns[:, k], references[:, k], zeroed)
+        here = coordinates[:, k], doubts[:, k]
+        yield Element(kind.name, place, *here, columns[:, k], references[:, k], zeroed)
 
 
 def _bench(found: Fit, group: Group) -> Rig:
@@ -115,24 +123,31 @@ def _bench(found: Fit, group: Group) -> Rig:
 Where = tuple[SiteKind, Place | None]
 
 
-def _group(plain: Rig, places: Sequence[Where], state: Equilibrium) -> tuple[Array, Array, Array]:
-    """Of tests on one rig: the coordinate (T, S, K) of every place, what it does to the readings (T, S, C, K), and to
-    those of gauges in the unloaded state, in which they are zeroed."""
+def _group(
+    plain: Rig, places: Sequence[Where], state: Equilibrium, roots: Array
+) -> tuple[Array, Array, Array, Array]:
+    """Of tests on one rig: the coordinate (T, S, K) of every place and its standard deviation, what it does to the
+    readings (T, S, C, K), and to those of gauges in the unloaded state, in which they are zeroed."""
     series = [each for each in places if each[0].series]
     free = [each for each in places if not each[0].series]
     there = _on(_opened(plain, series), state)
     sizes = [TURN if kind.turns else SHIFT for kind, _ in series]
     asked = [DriveDirection(_name(*each), size) for each, size in zip(series, sizes, strict=True)]
     by_series = by_parameters(there, asked, order=ORDER).readings
-    turns, by_torques = _hinges(there)
-    at = {**dict(zip(free, np.moveaxis(turns, -1, 0), strict=True)), **_through(there, series)}
-    change = dict(zip(free, np.moveaxis(by_torques, -1, 0), strict=True))
+    change = dict(zip(free, np.moveaxis(_by_torques(there), -1, 0), strict=True))
     change |= dict(zip(series, np.moveaxis(by_series, -1, 0), strict=True))
     before = _unloaded_gauges(there, series)
+
+    def at(state: Equilibrium) -> Array:
+        turns = dict(zip(free, np.moveaxis(_turns(state), -1, 0), strict=True))
+        own = {**turns, **_through(state, series)}
+        return np.stack([own[p] for p in places], -1)
+
     # A torque moves the linkage to another unloaded state, which is not where the model zeroes its gauges.
     none = np.zeros(state.readings.shape)
     return (
-        np.stack([at[p] for p in places], -1),
+        at(there),
+        unsure(there, roots, at),
         np.stack([change[p] for p in places], -1),
         np.stack([before.get(p, none) for p in places], -1),
     )
@@ -170,21 +185,27 @@ def _on(mechanism: Rig, state: Equilibrium) -> Equilibrium:
     return replace(state, mechanism=mechanism, drives=drives)
 
 
-def _hinges(state: Equilibrium) -> tuple[Array, Array]:
-    """Turns (T, S, K) of all hinges from where they stand without load, and readings (T, S, C, K) by torques that hold
-    against them."""
-    place, starts = layout(state.mechanism), rest(state.mechanism, state.drives)
-    numbers, turns = [], []
+def _numbers(state: Equilibrium) -> Iterator[tuple[int, int, int]]:
+    """Of all hinges: chain, coordinate in it, and unknown."""
+    place = layout(state.mechanism)
     for c, chain in enumerate(state.mechanism.chains):
         for k in chain.passive:
-            unknown = place.coordinates[c].start + int(np.searchsorted(chain.moving, k))
-            numbers.append(unknown)
-            turns.append(state.unknowns[..., unknown] - starts[c][..., k])
+            yield c, k, place.coordinates[c].start + int(np.searchsorted(chain.moving, k))
+
+
+def _turns(state: Equilibrium) -> Array:
+    """Turns (T, S, K) of all hinges from where they stand without load."""
+    starts = rest(state.mechanism, state.drives)
+    found = [state.unknowns[..., unknown] - starts[c][..., k] for c, k, unknown in _numbers(state)]
+    return np.stack(found, -1) if found else np.zeros((*state.converged.shape, 0))
+
+
+def _by_torques(state: Equilibrium) -> Array:
+    """Change of the readings (T, S, C, K) by torques that hold against all hinges."""
+    numbers = [unknown for _, _, unknown in _numbers(state)]
     if not numbers:
-        batch = state.converged.shape
-        return np.zeros((*batch, 0)), np.zeros((*state.readings.shape, 0))
-    change = by_forces(state, np.array(numbers, dtype=int))
-    return np.stack(turns, -1), read_change(state, change)
+        return np.zeros((*state.readings.shape, 0))
+    return read_change(state, by_forces(state, np.array(numbers, dtype=int)))
 
 
 def _through(state: Equilibrium, series: Sequence[Where]) -> dict[Where, Array]:
@@ -234,19 +255,21 @@ def _reference(readings: Array, unloaded: Array, cases: Program, zeroed: np.ndar
 def _of_columns(found: Fit, flat: Callable[[Array], Array]) -> Iterator[Element]:
     """Errors of readings over what is predicted of them."""
     cases, there = found.residual.program, found.prediction
-    names, zeroed = channel_columns(cases.campaign.gauges), _zeroed(cases)
+    names, zeroed, roots = channel_columns(cases.campaign.gauges), _zeroed(cases), input_roots(found)
     for channel, name in enumerate(names):
         readings = np.zeros(cases.measured.shape)
         readings[:, channel] = np.where(cases.predicted[:, channel], 1.0, 0.0)
         coordinate = there.values[:, channel].copy()
+        doubt = np.linalg.norm(np.einsum("rk,rkj->rj", there.by_inputs[:, channel], roots), axis=-1)
         ruled = cases.channels == channel
         for which in range(ruled.shape[1]):
             mine = ruled[:, which] & (cases.input_sigma[:, which] > 0.0)
             readings[mine] = -there.by_inputs[mine][..., which]
             coordinate[mine] = cases.measured[mine, channel] + there.shift[mine, which]
+            doubt[mine] = np.linalg.norm(roots[mine, which], axis=-1)
         if not np.any(readings):
             continue
         # What is wrong with a reading without load is its zero: nothing is taken off.
         before = _reference(readings[..., None], np.zeros((*readings.shape, 1)), cases, zeroed)
         own, reference = flat(readings[..., None])[:, 0], flat(before)[:, 0]
-        yield Element(f"column {name}", None, coordinate, own, reference, zeroed)
+        yield Element(f"column {name}", None, coordinate, doubt, own, reference, zeroed)

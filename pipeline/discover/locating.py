@@ -123,7 +123,7 @@ def _mapped(found: Fit, effects: Mapping[str, Effect], every: Sequence[Element],
 
     best: dict[str, Located] = {}
     for site in sites(every):
-        if not largest[site.kind] > 0.0:
+        if not largest[site.kind] > 0.0 or not site.moved:
             continue
         total = np.sum([of(each, site.sign(each)) for each in site.elements], axis=0)
         it = Located(site, rest.evidence(Columns(total, largest[site.kind])))

@@ -170,7 +170,15 @@ def _step(seen: Map, cases: Program, number: int, say: Say) -> Law | Added | Non
     if _is_column(group[0]):
         return Law(seen, group, gains, ())
     say(f"the law at {group[0].site.name}")
-    return Law(seen, group, gains, _ways(seen, group[0], cases, f"law{number}", say))
+    for it in group:
+        if _is_column(it):
+            break
+        first = formed(it.site, seen.rest, it.evidence.site.largest)
+        if any(form.left < _unexplained(seen) for form in first):
+            others = tuple(other for other in group if other is not it)
+            return Law(seen, (it, *others), gains, _ways(seen, first, cases, f"law{number}", say))
+    # A free function may fall with the load that a place bears, as no compliance does: that is no law.
+    return None
 
 
 def _gained(rest: Rest, columns: Array, root: Array, explained: Array) -> tuple[Array, bool]:
@@ -194,13 +202,15 @@ def _is_column(it: Located) -> bool:
     return it.site.kind.startswith("column")
 
 
-def _ways(seen: Map, it: Located, cases: Program, name: str, say: Say) -> tuple[Through, ...]:
+def _unexplained(seen: Map) -> float:
+    """Chi-square from which a law leaves as much as the model without it: none is there."""
+    return seen.found.chi_square - criteria.PROPOSED
+
+
+def _ways(seen: Map, first: list[Formed], cases: Program, name: str, say: Say) -> tuple[Through, ...]:
     """Forms through the mechanism: the best that explains anything there of those where influences are known, then all
     near ones about where that stands."""
-    base = seen.found.model
-    first = formed(it.site, seen.rest, it.evidence.site.largest)
-    # One that leaves as much as the model without it is no law there.
-    before = seen.found.chi_square - criteria.PROPOSED
+    base, before = seen.found.model, _unexplained(seen)
     done: dict[str, Through] = {}
     for each in first[: criteria.FORMS]:
         say(f"{each.form.title} through the mechanism")

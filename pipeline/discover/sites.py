@@ -5,8 +5,13 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 
+import numpy as np
+
 from pipeline.discover.elements import Element
 
+SEEN = 2.0
+"""Root mean square of a coordinate over that of its standard deviations, from which it is seen: three quarters of its
+mean square are more than noise then."""
 TAGS = ("base", "tip", "1", "2")
 
 
@@ -31,6 +36,13 @@ class Site:
     def parts(self) -> int:
         """How many places share the function."""
         return len(self.elements)
+
+    @property
+    def moved(self) -> bool:
+        """Whether the tests move its coordinate by more than the noise of readings leaves unknown."""
+        signal = sum(float(np.sum(each.coordinate**2)) for each in self.elements)
+        noise = sum(float(np.sum(each.unsure**2)) for each in self.elements)
+        return signal > SEEN**2 * noise
 
     def sign(self, element: Element) -> float:
         """Of the element's coordinate in the function, and of what the function says there."""

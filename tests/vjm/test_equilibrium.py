@@ -150,8 +150,12 @@ def test_too_few_iterations_are_reported() -> None:
 
 
 def test_a_singular_member_does_not_spoil_the_batch() -> None:
+    none = np.full((2, 2), np.nan)
+    for bad in (np.zeros((2, 2)), none, np.array([[0.0, np.inf], [0.0, 0.0]])):
+        solution, regular = solve_each(np.stack([bad, 2 * np.eye(2), np.zeros((2, 2))]), np.ones((3, 2, 1)))
+        assert regular.tolist() == [False, True, False]
+        np.testing.assert_array_equal(solution[1, :, 0], [0.5, 0.5])
     solution, regular = solve_each(np.stack([np.zeros((2, 2)), 2 * np.eye(2)]), np.ones((2, 2, 1)))
-    assert regular.tolist() == [False, True]
     np.testing.assert_array_equal(solution[..., 0], [[0, 0], [0.5, 0.5]])
 
 

@@ -1,4 +1,10 @@
-"""Friction that begins to slip little by little: many sliders, their reaches spread evenly."""
+"""Friction that begins to slip little by little: many springs alike, each in series with a slider, whose limits are
+spread evenly from zero on (W. D. Iwan, A distributed-element model for hysteresis and its steady-state dynamic
+response, Journal of Applied Mechanics 33 (1966) 893-900).
+
+The first loading is y = T (2 x/r - (x/r)²) up to the travel r at which all slip, which the sliders follow as a polygon
+of SLIDERS sides.
+"""
 
 from __future__ import annotations
 
@@ -19,7 +25,7 @@ class Iwan(Form):
 
     name = "iwan"
     title = "friction that begins little by little"
-    equation = "y = T (s1 + ... + s12) / 12, reaches spread evenly up to r"
+    equation = "y = T (w1 s1 + ... + w12 s12), wi ~ ri, reaches spread evenly up to r"
     places = ("parallel",)
     amplitudes = (Quantity("limit", 1, 0, "when all slips", positive=True),)
     shapes = (Quantity("reach", 0, 1, "travel at which all slips", positive=True),)
@@ -30,11 +36,17 @@ class Iwan(Form):
         """(12,) of the sliders."""
         return np.asarray(shapes[0] * (np.arange(SLIDERS) + 0.5) / SLIDERS)
 
+    @property
+    def shares(self) -> Array:
+        """(12,) of the limit: springs alike have limits as their reaches."""
+        each = np.arange(SLIDERS) + 0.5
+        return np.asarray(each / each.sum())
+
     def columns(self, x: Array, first: np.ndarray, shapes: Array) -> Array:
-        return np.asarray(followed(x, first, self.reaches(shapes)).mean(axis=1, keepdims=True))
+        return np.asarray(followed(x, first, self.reaches(shapes)) @ self.shares[:, None])
 
     def law(self, amplitudes: Array, shapes: Array, series: bool) -> Law:
-        return Sliders(0.0, np.full(SLIDERS, amplitudes[0] / SLIDERS), self.reaches(shapes))
+        return Sliders(0.0, amplitudes[0] * self.shares, self.reaches(shapes))
 
     def starts(self, largest: float) -> Sequence[Array]:
         return [np.array([share * largest]) for share in (0.05, 0.3, 1.0)]

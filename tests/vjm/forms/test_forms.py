@@ -134,3 +134,22 @@ def test_a_compliance_that_would_fall_goes_on_straight() -> None:
     step = 1e-4
     work = [law.respond(y[:, None] + d, law.initial_memory).energy for d in (-step, step)]
     assert (work[1] - work[0]) / (2.0 * step) == pytest.approx(loads, rel=1e-6)
+
+
+def test_friction_of_iwan_is_a_parabola_and_masing_comes_back() -> None:
+    """W. D. Iwan, J. Appl. Mech. 33 (1966) 893-900: limits spread evenly from zero on springs alike make
+    y = T (2 x/r - (x/r)²), and a way back of twice that over half of it (G. Masing, 1926)."""
+    reach, limit = 0.3, 7.0
+    there = np.linspace(0.0, 1.2, 121)
+    back = there[-1] - np.linspace(0.0, 2.0, 201)
+    x = reach * np.concatenate([there, back[1:]])
+    y = limit * forms()["iwan"].columns(x, np.array([0, x.size]), np.array([reach]))[:, 0]
+
+    def first(share: Array) -> Array:
+        share = np.minimum(share, 1.0)
+        return np.asarray(limit * (2.0 * share - share**2))
+
+    # A polygon of twelve sides leaves half of (1/12)² of the parabola, and its last corner is half a side early.
+    assert np.abs(y[:121] - first(there)).max() < limit / 144.0
+    assert np.abs(y[121:] - (limit - 2.0 * first((there[-1] - back[1:]) / 2.0))).max() < 2.0 * limit / 144.0
+    assert y[-1] == pytest.approx(-limit)
