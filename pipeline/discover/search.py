@@ -16,7 +16,7 @@ from pipeline.adequacy.bad_readings import BadReading
 from pipeline.discover import criteria
 from pipeline.discover.bodies import Body, started
 from pipeline.discover.elements import elements
-from pipeline.discover.evidence import Rest
+from pipeline.discover.evidence import Evidence, Rest
 from pipeline.discover.forming import Formed, columns_of, formed
 from pipeline.discover.locating import Located, Map, mapped
 from pipeline.discover.settling import Beside, beside
@@ -162,11 +162,9 @@ def _step(seen: Map, cases: Program, number: int, say: Say) -> Law | Added | Non
         return Added(seen, body) if _gained(seen.rest, body.columns, root, explained)[1] else None
     if seen.best < criteria.PROPOSED:
         return None
-    best = seen.sites[0].evidence
-    gains, enough = _gained(seen.rest, best.site.values, best.size * best.prior.root, best.explained)
-    if not enough:
+    group, gains = _proposed(seen)
+    if not group:
         return None
-    group = _coarsest_first(seen.group(max(criteria.ALIKE, criteria.ALIKE_SHARE * seen.best)))
     if _is_column(group[0]):
         return Law(seen, group, gains, ())
     say(f"the law at {group[0].site.name}")
@@ -181,6 +179,22 @@ def _step(seen: Map, cases: Program, number: int, say: Say) -> Law | Added | Non
     return None
 
 
+def _proposed(seen: Map) -> tuple[tuple[Located, ...], Array]:
+    """The sites that are not told apart from the best, those first at which a function stands without the test that
+    speaks for it most, and the gains of the first; none where there is no such site."""
+    group = seen.group(max(criteria.ALIKE, criteria.ALIKE_SHARE * seen.best))
+    told = {it.site.name: _gained_at(seen, it.evidence) for it in group}
+    enough = _coarsest_first(tuple(it for it in group if told[it.site.name][1]))
+    if not enough:
+        return (), np.zeros(0)
+    others = _coarsest_first(tuple(it for it in group if not told[it.site.name][1]))
+    return (*enough, *others), told[enough[0].site.name][0]
+
+
+def _gained_at(seen: Map, it: Evidence) -> tuple[Array, bool]:
+    return _gained(seen.rest, it.site.values, it.size * it.prior.root, it.explained)
+
+
 def _gained(rest: Rest, columns: Array, root: Array, explained: Array) -> tuple[Array, bool]:
     """Gains of parts that were left out, and whether they are enough without the best of them."""
     few = rest.seen_in(explained) < criteria.FEW_TESTS
@@ -191,6 +205,8 @@ def _gained(rest: Rest, columns: Array, root: Array, explained: Array) -> tuple[
 def _coarsest_first(group: tuple[Located, ...]) -> tuple[Located, ...]:
     """The sites of a group, those of more parts of the best one's kind before those of fewer; columns of the table come
     after places of the linkage, at which there are laws to go on with."""
+    if not group:
+        return ()
     first = next((it for it in group if not _is_column(it)), group[0])
     kind = first.site.kind
     return tuple(

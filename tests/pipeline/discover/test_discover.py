@@ -8,10 +8,12 @@ import pytest
 
 from pipeline.diagnose.diagnosis import Diagnosis, diagnose
 from pipeline.diagnose.words import answered
-from pipeline.discover import beyond_catalogue
+from pipeline.discover import beyond_catalogue, search
 from pipeline.discover.beyond_catalogue import with_laws
 from pipeline.discover.effect_file import effect_text, name_of, write_effect
+from pipeline.discover.evidence import Array, Evidence
 from pipeline.discover.forming import formed
+from pipeline.discover.locating import Located
 from pipeline.discover.recording import recorded
 from pipeline.discover.search import Discovery, discover
 from pipeline.discover.words import sentences
@@ -191,3 +193,30 @@ def test_a_law_takes_the_name_from_a_set_that_it_beats(unknown: Diagnosis) -> No
     assert again.verdict == "unknown" and "hinge_torque" in again.ruling.because
     assert [law.site for law in again.laws] == ["hinge_torque"]
     assert not set(again.certain) & {"joint_torsional_stiffness", "base_compliance"}
+
+
+def test_a_place_that_one_test_alone_speaks_for_does_not_hide_the_next(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """Sites within what is not told apart: those at which a function stands without its best test come first."""
+    seen = map_of("joint_friction.torque_Nmm", 600.0)
+    one, two = (next(it for it in seen.sites if it.site.name == name) for name in ("base_x", "along"))
+    near = replace(seen, sites=(_valued(one, 19.0), _valued(two, 17.0)))
+    for good, first in (("along", "along"), ("base_x", "base_x"), ("", None)):
+
+        def gained(_: object, it: Evidence, good: str = good) -> tuple[Array, bool]:
+            here = next(each.site.name for each in near.sites if each.evidence is it)
+            return np.full(3, float(len(here))), here == good
+
+        monkeypatch.setattr(search, "_gained_at", gained)
+        group, gains = search._proposed(near)
+        assert [it.site.name for it in group] == ([] if first is None else [first, _other(first)])
+        assert gains.tolist() == ([] if first is None else [float(len(first))] * 3)
+
+
+def _valued(it: Located, value: float) -> Located:
+    return replace(it, evidence=replace(it.evidence, value=value))
+
+
+def _other(name: str) -> str:
+    return {"along": "base_x", "base_x": "along"}[name]
