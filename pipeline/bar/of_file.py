@@ -200,7 +200,11 @@ def described(case: FileCase) -> dict[str, float | str]:
 def sentences(placed: Placed, tie: str) -> list[str]:
     """What a reader has to know."""
     brought = placed.brought
-    said = [f"Meshed: {brought.told['meshed']}."]
+    finest = placed.bars[-1]
+    said = [
+        f"Meshed: {brought.told['meshed']}.",
+        f"Solved by: {finest.solved_by}, {finest.mesh.dofs} unknowns on the finest mesh.",
+    ]
     said += [
         f"Length {placed.frame.length:.6g} mm from base point to tip point, {placed.frame.said}.",
         *brought.told["remarks"],
