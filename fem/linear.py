@@ -67,10 +67,14 @@ class LinearModel:
         motion[free] = (factor or self.factor(free))(-coupling)
         return motion
 
+    @property
+    def has_coarse(self) -> bool:
+        """Whether its cells have the coarse space that multigrid needs."""
+        return {m.space.mesh.kind for m in self.linkage.members} <= set(CORNERS_AND_EDGES)
+
     def factor(self, free: Ints) -> Factor:
         """The stiffness of the unknowns `free`, ready to solve; SolveError if they are not held."""
-        kinds = {m.space.mesh.kind for m in self.linkage.members}
-        coarse = (lambda: prolongation(self.reduction, free)) if kinds <= set(CORNERS_AND_EDGES) else None
+        coarse = (lambda: prolongation(self.reduction, free)) if self.has_coarse else None
         factor = self.solver(submatrix(self.reduced, free), coarse)
         factor.require_held()
         return factor

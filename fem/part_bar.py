@@ -10,10 +10,11 @@ from fem.anisotropic import Regional
 from fem.axial import AxialStiffness, axial_stiffness
 from fem.distributed import distributed_stiffness
 from fem.linear import LinearModel
-from fem.linkage import single_bar
+from fem.linkage import Linkage, single_bar
 from fem.material import Isotropic
 from fem.part_space import part_space
 from fem.slices.solver import ChainSolver
+from fem.solvers import automatic_name
 from fem.space import Space
 from meshes.facets import facet_normals
 from meshes.layers import as_sweep
@@ -40,17 +41,29 @@ class PartBar:
         return part_space(self.mesh)
 
     def model(self, tie: str) -> LinearModel:
-        """The bar clamped at its base with rigid ends, "rigid" or "half"; kept for the first of these."""
-        return (
-            self._rigid if tie == "rigid" else LinearModel(single_bar(self._half, self.length), self.material)
-        )
+        """The bar clamped at its base with rigid ends, "rigid" or "half", or "pinned" at both; kept for the first."""
+        if tie == "rigid":
+            return self._rigid
+        if tie == "pinned":
+            return self._model(single_bar(self.space, self.length, pinned=True))
+        return LinearModel(single_bar(self._half, self.length), self.material)
 
     @cached_property
     def _rigid(self) -> LinearModel:
-        linkage = single_bar(self.space, self.length)
+        return self._model(single_bar(self.space, self.length))
+
+    def _model(self, linkage: Linkage) -> LinearModel:
         if self.swept and isinstance(self.material, Isotropic):
             return LinearModel(linkage, self.material, ChainSolver(linkage, self.material))
         return LinearModel(linkage, self.material)
+
+    @property
+    def solved_by(self) -> str:
+        """The linear solver of its rigid ends, in words: "slice chain, quarter section", "pardiso", "SuperLU", .."""
+        model = self._rigid
+        if isinstance(model.solver, ChainSolver):
+            return model.solver.chains[0].name
+        return automatic_name(model.reduction.size, model.has_coarse)
 
     @property
     def swept(self) -> bool:

@@ -22,6 +22,7 @@ __all__ = [
     "Solver",
     "SuperLUFactor",
     "automatic",
+    "automatic_name",
     "checked",
     "direct",
     "has_pardiso",
@@ -56,6 +57,11 @@ def multigrid(matrix: sp.spmatrix, coarse: Coarse | None = None) -> Factor:
 
 def automatic(matrix: sp.spmatrix, coarse: Coarse | None = None) -> Factor:
     """Direct up to a size that depends on which direct solver is installed, multigrid above where it can be had."""
+    chosen = automatic_name(matrix.shape[0], coarse is not None)
+    return multigrid(matrix, coarse) if chosen == "multigrid" else direct(matrix)
+
+
+def automatic_name(unknowns: int, has_coarse: bool) -> str:
+    """The solver that `automatic` takes: "multigrid", "pardiso" or "SuperLU"."""
     engine = "pardiso" if has_pardiso() else "SuperLU"
-    large = matrix.shape[0] > LARGE[engine]
-    return multigrid(matrix, coarse) if large and coarse is not None else direct(matrix)
+    return "multigrid" if unknowns > LARGE[engine] and has_coarse else engine

@@ -7,7 +7,7 @@ import gmsh
 import numpy as np
 
 from meshes.brought.child import Arrays
-from meshes.brought.found import packed
+from meshes.brought.found import packed, packed_prism
 from meshes.brought.of_gmsh import raw_of_model, region_name
 from meshes.brought.prism import swept
 from meshes.brought.units import scale_of
@@ -26,17 +26,18 @@ SAME_VOLUME = 1e-6
 def work(asked: dict[str, Any]) -> tuple[dict[str, Any], Arrays]:
     """In the child: mesh the file at `asked["path"]` on two nested meshes.
 
-    Keys of asked: path, unit, size (mm or None), base and tip (tables of ends or None), tetrahedra (whether a prism is
-    not to be swept). ValueError says what is wrong.
+    Keys of asked: path, unit, size (mm or None), base and tip (tables of ends or None), y (of the bar, or None),
+    tetrahedra (whether a prism is not to be swept). ValueError says what is wrong.
     """
     with session("brought"):
         gmsh.option.setNumber("General.Verbosity", 0)
         solids = read_solids(Path(asked["path"]), asked["unit"])
         size = asked["size"] or default_size(solids)
         complete = asked["base"] is not None and asked["tip"] is not None
-        raws = swept(solids, asked, size) if complete and not asked.get("tetrahedra") else None
-        meshed = "a prism, swept" if raws else "curved tetrahedra"
-        if raws is None:
+        prism = swept(solids, asked, size) if complete and not asked.get("tetrahedra") else None
+        if prism is not None:
+            told, arrays = packed_prism(prism.drawn, prism.base, prism.tip)
+        else:
             gmsh.model.mesh.clear()
             _mesh(size)
             raws = [raw_of_model(with_faces=True)]
@@ -45,8 +46,8 @@ def work(asked: dict[str, Any]) -> tuple[dict[str, Any], Arrays]:
                 gmsh.model.mesh.refine()
                 gmsh.model.mesh.setOrder(2)
                 raws.append(raw_of_model())
-        told, arrays = packed(raws, asked)
-    return {**told, "size_mm": size, "meshed": meshed}, arrays
+            told, arrays = packed(raws, asked)
+    return {**told, "size_mm": size, "meshed": "a prism, swept" if prism else "curved tetrahedra"}, arrays
 
 
 def read_solids(path: Path, unit: str | None) -> list[tuple[int, int]]:

@@ -2,11 +2,13 @@
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any
 
 import numpy as np
 
 from meshes.brought.child import Arrays
+from meshes.brought.drawn import Drawn
 from meshes.brought.ends import End, Outside, end_of, listing
 from meshes.brought.raised import raised
 from meshes.brought.raw import Raw
@@ -25,12 +27,31 @@ class EndPoint:
 
 @dataclass(frozen=True, eq=False)
 class Brought:
-    """A part in the file's frame, mm: nested meshes, coarse to fine, with the facets "base" and "tip"."""
+    """A part in the file's frame, mm, from the `told` and `arrays` of the child."""
 
-    meshes: tuple[PartMesh, ...]
-    base: EndPoint
-    tip: EndPoint
     told: Mapping[str, Any]
+    arrays: Arrays
+
+    @cached_property
+    def meshes(self) -> tuple[PartMesh, ...]:
+        """Nested, coarse to fine, with the facets "base" and "tip"."""
+        return _meshes(self.told, self.arrays) if self.drawn is None else self.drawn.meshes
+
+    @cached_property
+    def drawn(self) -> Drawn | None:
+        """The prism that the part is; None where it is none, or came as a mesh."""
+        return Drawn.unpacked(self.told, self.arrays) if self.told["kinds"] == [] else None
+
+    @property
+    def base(self) -> EndPoint:
+        return self._end("base")
+
+    @property
+    def tip(self) -> EndPoint:
+        return self._end("tip")
+
+    def _end(self, which: str) -> EndPoint:
+        return EndPoint(self.arrays[f"at {which}"], self.arrays.get(f"axis {which}"), self.told[which])
 
 
 def packed(raws: Sequence[Raw], asked: Mapping[str, Any]) -> tuple[dict[str, Any], Arrays]:
@@ -52,17 +73,24 @@ def packed(raws: Sequence[Raw], asked: Mapping[str, Any]) -> tuple[dict[str, Any
             arrays |= {f"{level} {which} {kind}": own for kind, own in ends[which].facets.items()}
         if shared := np.intersect1d(_nodes(ends["base"].facets), _nodes(ends["tip"].facets)).size:
             raise ValueError(f"base and tip have {shared} nodes in common, allowed are two separate ends")
+    told, of_ends = _packed_ends(ends)
+    told |= {"regions": list(raws[-1].regions), "kinds": kinds, "remarks": list(whole[-1].remarks)}
+    return told, arrays | of_ends
+
+
+def packed_prism(drawn: Drawn, base: End, tip: End) -> tuple[dict[str, Any], Arrays]:
+    """A prism by its section, so that a mesh of the whole is made where it is needed, and only there."""
+    told, arrays = _packed_ends({"base": base, "tip": tip})
+    return told | {"regions": [drawn.region], "kinds": [], "remarks": []}, arrays | drawn.packed()
+
+
+def _packed_ends(ends: Mapping[str, End]) -> tuple[dict[str, Any], Arrays]:
+    arrays: Arrays = {}
     for which, end in ends.items():
         arrays[f"at {which}"] = end.at
         if end.axis is not None:
             arrays[f"axis {which}"] = end.axis
-    told = {
-        "regions": list(raws[-1].regions),
-        "kinds": kinds,
-        "remarks": list(whole[-1].remarks),
-        **{which: end.said for which, end in ends.items()},
-    }
-    return told, arrays
+    return {which: end.said for which, end in ends.items()}, arrays
 
 
 def outside_of(raw: Raw) -> Outside:
@@ -101,8 +129,7 @@ def _of_faces(faces: Sequence[Ints], facets: Mapping[str, Ints]) -> Iterator[dic
             yield {"triangle6": own[there]}
 
 
-def unpacked(told: Mapping[str, Any], arrays: Arrays) -> Brought:
-    """What the child has packed."""
+def _meshes(told: Mapping[str, Any], arrays: Arrays) -> tuple[PartMesh, ...]:
     meshes = []
     for level, kinds in enumerate(told["kinds"]):
         facets = {
@@ -116,10 +143,7 @@ def unpacked(told: Mapping[str, Any], arrays: Arrays) -> Brought:
         meshes.append(
             PartMesh.of(arrays[f"{level} points"], blocks, arrays[f"{level} region_of"], regions, facets)
         )
-    base, tip = (
-        EndPoint(arrays[f"at {which}"], arrays.get(f"axis {which}"), told[which]) for which in ("base", "tip")
-    )
-    return Brought(tuple(meshes), base, tip, told)
+    return tuple(meshes)
 
 
 def _nodes(facets: Mapping[str, Ints]) -> Ints:

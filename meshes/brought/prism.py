@@ -1,19 +1,21 @@
-"""A CAD solid that is a prism between its two ends: its section meshed with quadrilaterals and swept to hexahedra."""
+"""A CAD solid that is a prism between its two ends: its section meshed with quadrilaterals, to be swept."""
 
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
 from math import ceil, log2
 from typing import Any
 
 import gmsh
 import numpy as np
 
+from meshes.brought.drawn import Drawn
 from meshes.brought.ends import End, Outside, end_of
+from meshes.brought.face_mesh import AROUND, quadrilaterals
+from meshes.brought.frame import bar_frame
 from meshes.brought.of_gmsh import region_name
-from meshes.brought.raw import Raw
-from meshes.extrusion import solid, stepped_thickness
+from meshes.extrusion import stepped_thickness
 from meshes.facets import Plane
-from meshes.plane import PlaneMesh
-from meshes.solid import Floats, Ints
+from meshes.solid import Ints
 
 # Sine between a side's normal and the plane across the bar.
 ALONG = 1e-6
@@ -21,38 +23,44 @@ ALONG = 1e-6
 FIRST, LAYERS = 0.5, 2
 
 
-def swept(solids: Sequence[tuple[int, int]], asked: Mapping[str, Any], size: float) -> list[Raw] | None:
-    """Two nested meshes of hexahedra, or None where the part is no prism between two plane ends that are one face each.
+@dataclass(frozen=True, eq=False)
+class Swept:
+    """The prism and its ends."""
 
-    The open model's mesh is used up. ValueError for ends that are not there.
+    drawn: Drawn
+    base: End
+    tip: End
+
+
+def swept(solids: Sequence[tuple[int, int]], asked: Mapping[str, Any], size: float) -> Swept | None:
+    """Two nested levels of hexahedra, or None where the part is no prism between two plane ends that are one face each.
+
+    The open model's mesh is used up, and the model too where it is a prism. ValueError for ends that are not there.
     """
     if len(solids) != 1 or any("plane" not in asked[which] for which in ("base", "tip")):
         return None
     gmsh.option.setNumber("Mesh.MeshSizeMax", size)
-    gmsh.option.setNumber("Mesh.MeshSizeFromCurvature", 12)
+    gmsh.option.setNumber("Mesh.MeshSizeFromCurvature", AROUND)
     gmsh.option.setNumber("Mesh.ElementOrder", 2)
     gmsh.model.mesh.generate(2)
     outside, faces = _surface()
     ends = [end_of(outside, asked[which], which) for which in ("base", "tip")]
-    tags = [_face_of(end, faces) for end in ends]
-    if None in tags or tags[0] == tags[1] or not _is_prism(ends, [t for t in tags if t is not None]):
+    tags = [tag for end in ends if (tag := _face_of(end, faces)) is not None]
+    if len(tags) < 2 or tags[0] == tags[1] or not _is_prism(ends, tags):
         return None
-    along = ends[1].at - ends[0].at
-    length = float(np.linalg.norm(along))
-    if not length > 0.0:
-        return None
-    turn = _across(along / length)
-    flats = _quadrilaterals(int(tags[0] or 0), ends[0].at, turn, size)
-    kinds = max(1, ceil(log2(max(length / (2 * LAYERS * FIRST * size), 1.0) + 1.0)))
-    raws = []
-    for level, flat in enumerate(flats):
-        thickness = stepped_thickness(length, [LAYERS * 2**level] * kinds)
-        mesh = solid(flat, "hexahedron27", thickness.tolist()).mesh
-        points = ends[0].at + mesh.points @ turn
-        name = region_name(solids[0])
-        region = np.zeros(len(mesh.cells), dtype=np.int64)
-        raws.append(Raw(points, (("hexahedron27", mesh.cells),), region, (name,), {}))
-    return raws
+    base, tip = (_by_face(end, tag) for end, tag in zip(ends, tags, strict=True))
+    frame = bar_frame(base.at, tip.at, (None, None), asked.get("y"))
+    region = region_name(solids[0])
+    flats = quadrilaterals(tags[0], base.at, frame.turn, size)
+    kinds = max(1, ceil(log2(max(frame.length / (2 * LAYERS * FIRST * size), 1.0) + 1.0)))
+    thickness = [stepped_thickness(frame.length, [LAYERS * 2**level] * kinds) for level in range(len(flats))]
+    return Swept(Drawn(tuple(flats), tuple(thickness), base.at, frame.turn, region), base, tip)
+
+
+def _by_face(end: End, tag: int) -> End:
+    """The end with centroid and area of its CAD face, which its facets come near only."""
+    at = np.array(gmsh.model.occ.getCenterOfMass(2, tag))
+    return replace(end, at=at, area=float(gmsh.model.occ.getMass(2, tag)))
 
 
 def _surface() -> tuple[Outside, dict[int, Ints]]:
@@ -92,49 +100,3 @@ def _is_prism(ends: Sequence[End], tags: Sequence[int]) -> bool:
             if np.abs(normals @ x).max() > ALONG:
                 return False
     return True
-
-
-def _across(x: Floats) -> Floats:
-    """(3, 3) rows x, y, z of a frame along x."""
-    y = np.cross(np.eye(3)[int(np.argmin(np.abs(x)))], x)
-    y /= np.linalg.norm(y)
-    return np.stack((x, y, np.cross(x, y)))
-
-
-def _quadrilaterals(tag: int, origin: Floats, turn: Floats, size: float) -> list[PlaneMesh]:
-    """Two nested meshes of the face, y and z of the frame: each triangle of a coarser one is three quadrilaterals."""
-    option = gmsh.option.setNumber
-    gmsh.model.mesh.clear()
-    for entity in gmsh.model.getEntities(2):
-        gmsh.model.setVisibility([entity], int(entity[1] == tag))
-    option("Mesh.MeshOnlyVisible", 1)
-    option("Mesh.RecombineAll", 1)
-    option("Mesh.SubdivisionAlgorithm", 1)
-    option("Mesh.SecondOrderIncomplete", 0)
-    option("Mesh.ElementOrder", 1)
-    # Halved by the subdivision; the first mesh is as coarse as the section allows, the second counts.
-    option("Mesh.MeshSizeMax", 2.0 * size)
-    gmsh.model.mesh.generate(2)
-    flats = []
-    for level in range(2):
-        if level:
-            gmsh.model.mesh.refine()
-        gmsh.model.mesh.setOrder(2)
-        flats.append(_plane_mesh(tag, origin, turn))
-        gmsh.model.mesh.setOrder(1)
-    return flats
-
-
-def _plane_mesh(tag: int, origin: Floats, turn: Floats) -> PlaneMesh:
-    tags, coordinates, _ = gmsh.model.mesh.getNodes(2, tag, includeBoundary=True)
-    kinds, _, nodes = gmsh.model.mesh.getElements(2, tag)
-    if list(kinds) != [10]:
-        raise ValueError("the section of this prism could not be meshed with quadrilaterals alone")
-    unique, first = np.unique(tags.astype(np.int64), return_index=True)
-    cells = np.searchsorted(unique, nodes[0].astype(np.int64)).reshape(-1, 9)
-    places = (np.asarray(coordinates, dtype=float).reshape(-1, 3)[first] - origin) @ turn[1:].T
-    corners = places[cells[:, :3]]
-    twice = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-    # Drawn along x the first plane has to look back, so that the cells are right side out.
-    other = [0, 3, 2, 1, 7, 6, 5, 4, 8]
-    return PlaneMesh(places, np.where((twice > 0.0)[:, None], cells, cells[:, other]))

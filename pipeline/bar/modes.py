@@ -7,8 +7,6 @@ from pathlib import Path
 import numpy as np
 
 from fem.buckling import Mode, buckling
-from fem.linear import LinearModel
-from fem.linkage import single_bar
 from fem.part_bar import FASTEST, POWER, SLOWEST, PartBar
 from meshes.files import replacing
 from meshes.part import CORNERS, PartMesh, boundary
@@ -34,9 +32,7 @@ def buckled(bars: tuple[PartBar, ...], folder: Path, stage: Stage) -> list[Buckl
 
 
 def _modes(bar: PartBar, supports: str) -> tuple[Mode, ...]:
-    model = bar.model("rigid")
-    if supports == "pinned":
-        model = LinearModel(single_bar(bar.space, bar.length, pinned=True), bar.material)
+    model = bar.model("pinned" if supports == "pinned" else "rigid")
     return buckling(model, HELD[supports], MODES)
 
 

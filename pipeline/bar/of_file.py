@@ -16,7 +16,7 @@ from fem.part_bar import POWER, SWEPT_POWER, Limit, PartBar, limit
 from fem.part_space import shape_quality
 from meshes.brought.child import in_child
 from meshes.brought.formats import module_of
-from meshes.brought.found import Brought, unpacked
+from meshes.brought.found import Brought
 from meshes.brought.frame import BarFrame, bar_frame
 from meshes.solid import Floats
 from pipeline.bar.modes import buckled
@@ -126,9 +126,10 @@ def place(case: FileCase, path: Path) -> Placed:
         "tetrahedra": case.mesh.tetrahedra,
         "base": None if bar.base is None else bar.base.model_dump(),
         "tip": None if bar.tip is None else bar.tip.model_dump(),
+        "y": bar.y,
     }
     told, arrays = in_child(module_of(path), asked, case.mesh.seconds)
-    brought = unpacked(told, arrays)
+    brought = Brought(told, arrays)
     base, tip = brought.base, brought.tip
     frame = bar_frame(base.at, tip.at, (base.axis, tip.axis), bar.y)
     bores = (base.axis is not None, tip.axis is not None)
@@ -199,7 +200,11 @@ def described(case: FileCase) -> dict[str, float | str]:
 def sentences(placed: Placed, tie: str) -> list[str]:
     """What a reader has to know."""
     brought = placed.brought
-    said = [f"Meshed: {brought.told['meshed']}."]
+    finest = placed.bars[-1]
+    said = [
+        f"Meshed: {brought.told['meshed']}.",
+        f"Solved by: {finest.solved_by}, {finest.mesh.dofs} unknowns on the finest mesh.",
+    ]
     said += [
         f"Length {placed.frame.length:.6g} mm from base point to tip point, {placed.frame.said}.",
         *brought.told["remarks"],

@@ -14,7 +14,7 @@ from fem.material import Isotropic
 from fem.part_bar import PartBar
 from meshes.brought.child import in_child
 from meshes.brought.formats import module_of
-from meshes.brought.found import Brought, unpacked
+from meshes.brought.found import Brought
 from meshes.brought.frame import BarFrame, bar_frame
 from meshes.gmsh_session import session
 from meshes.solid import Floats
@@ -119,7 +119,7 @@ def brought(
         "tip": tip,
         "tetrahedra": tetrahedra,
     }
-    return unpacked(*in_child(module_of(path), asked, seconds))
+    return Brought(*in_child(module_of(path), asked, seconds))
 
 
 def framed(it: Brought) -> BarFrame:
