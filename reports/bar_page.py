@@ -50,6 +50,7 @@ def sections(folder: Path, record: Json) -> list[Section]:
     return [
         Section("bar", "The bar and its stiffness", [*stiff, Tables(small)]),
         buckling(folder, record),
+        *stressed(record),
         reading(record),
     ]
 
@@ -116,13 +117,59 @@ def geometric(record: Json) -> Table:
 
 def buckling(folder: Path, record: Json) -> Section:
     """Critical loads, and the modes to turn where their shapes are there."""
-    blocks: list[Block] = [tables_bar.buckling(record)]
+    limit = (record.get("stress") or {}).get("yield_MPa")
+    blocks: list[Block] = [tables_bar.buckling({**record, "yield_MPa": limit})]
     names: Sequence[str] = shapes.supports_of(record)
     found = [s for name in names if (s := shapes.read(folder, record, name)) is not None]
     if found:
         caption = "The modes to turn and zoom: drag, scroll, choose above. Displacements enlarged."
         blocks.append(Figure("shapes", caption, turntable.figure(found)))
     return Section("buckling", "Buckling of the bar", blocks)
+
+
+UNIT_LOADS = {"F": ("N", "MPa per kN", 1e3), "M": ("N·mm", "MPa per N·m", 1e3)}
+"""Of forces and moments: unit, unit of the stress in the table, and how many units that is for."""
+
+
+def stressed(record: Json) -> list[Section]:
+    """Von Mises' stress under unit loads and what first yields; nothing for a record without it."""
+    it = record.get("stress")
+    if not it:
+        return []
+    limit = it["yield_MPa"] is not None
+    columns = [Column("load", numeric=False), Column("unit", numeric=False)]
+    for where in ("body", "ends"):
+        columns += [Column(where), Column("at x, y, z", "mm", numeric=False), Column("to last mesh", "%")]
+        columns += [Column("first yield")] if limit else []
+    rows = []
+    for load in it["loads"]:
+        of, unit, factor = UNIT_LOADS[load["load"][0]]
+        row = [load["load"], unit + (f"; yield in {of}" if limit else "")]
+        for where in ("body", "ends"):
+            peak = load[where]
+            row += [
+                number(peak["stress"] * factor, 4),
+                ", ".join(f"{x:.3g}" for x in peak["at_mm"]),
+                percent(peak["change"]),
+            ]
+            row += [number(peak["first_yield"], 4)] if limit else []
+        rows.append(row)
+    reach = ", ".join(f"{name} {far:.3g} mm" for name, far in it["ends_reach_mm"].items())
+    notes = [
+        f"Body: farther from the tied surfaces than half their largest extent ({reach}); ends: nearer. At the ends the "
+        "stress is that of a rigid seat: at its edges it grows with every finer mesh.",
+        "Linear elastic, the bar straight, base held, one unit load at the tip at a time; mean of the cells around "
+        "each node. To last mesh: change of the peak from the mesh before.",
+    ]
+    if limit:
+        notes.append(
+            f"First yield: the load, of either sign, at which that point reaches {it['yield_MPa']:g} MPa."
+        )
+    return [
+        Section(
+            "stress", "Stress under unit loads", [table("Largest von Mises stress", columns, rows, *notes)]
+        )
+    ]
 
 
 def reading(record: Mapping[str, Any]) -> Section:

@@ -87,6 +87,11 @@ class FileBar(Part):
     tie: Literal["rigid", "half", "distributed"] = "rigid"
     """How an end moves the solid: rigid, the half of a bore that a pull presses, or loads distributed over it."""
 
+    @property
+    def rigid_tie(self) -> Literal["rigid", "half"]:
+        """How ends are tied where they have to be rigid: for K_g, critical loads, stress and the linkage."""
+        return "half" if self.tie == "half" else "rigid"
+
     @field_validator("unit")
     @classmethod
     def known_unit(cls, value: str | None) -> str | None:

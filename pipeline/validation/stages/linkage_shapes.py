@@ -17,6 +17,7 @@ from fem.linear import LinearModel
 from fem.linkage import PLATFORM, Member
 from fem.material import Isotropic
 from fem.prestress import prestress
+from fem.von_mises import von_mises
 from meshes.files import replacing
 from meshes.solid import Floats, SolidMesh
 from pipeline.progress import Stage
@@ -99,9 +100,3 @@ def nodal_stress(mesh: SolidMesh, material: Isotropic, u: Floats) -> Floats:
     strain = 0.5 * (gradient + np.swapaxes(gradient, 1, 2))
     volumetric = np.einsum("naa->n", strain)[:, None, None]
     return 2.0 * material.shear_modulus * strain + material.lame * volumetric * IDENTITY
-
-
-def von_mises(stress: Floats) -> Floats:
-    """Equivalent stress (n,) of stresses (n, 3, 3)."""
-    deviator = stress - np.einsum("naa->n", stress)[:, None, None] / 3.0 * IDENTITY
-    return np.sqrt(1.5 * np.einsum("nab,nab->n", deviator, deviator))
