@@ -5,7 +5,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from reports import page, shapes, tables_bar, tables_record, turntable
+from reports import page, part_drawing, shapes, tables_bar, tables_record, turntable
 from reports.blocks import Block, Bullets, Code, Column, Figure, Section, Table, Tables, Text, table
 from reports.errors import ReportError
 from reports.files import write_bytes
@@ -38,13 +38,15 @@ def draw(folder: Path) -> Path:
 
 def sections(folder: Path, record: Json) -> list[Section]:
     """All of the page."""
-    stiff: list[Block] = [stiffness(record), geometric(record)]
+    drawing = part_drawing.draw(folder, record)
+    stiff: list[Block] = [Figure("part", "The bar to scale.", None, *drawing)] if drawing else []
+    stiff += [stiffness(record), geometric(record)]
     if record["said"]:
         stiff.append(Bullets(record["said"]))
     facts = {"length_mm": record["length_mm"], **record["ends"]}
     small: list[Table] = [
         tables_bar.given("The bar", {**facts, "ties of the ends": record["tie"]}),
-        tables_bar.given("Material", record["material"]),
+        tables_bar.given("Material", {k: v for k, v in record["material"].items() if v != ""}),
         tables_bar.values("Mesh", mesh(record["mesh"]), digits=3),
     ]
     return [

@@ -52,6 +52,13 @@ def bar_of_file(case: FileCase, folder: Path, out: Path, progress: Progress, typ
     path = case.path(folder)
     with progress.stage("read and mesh"):
         placed = said_of(path, lambda: place(case, path))
+    return bar_of_placed(case, path, placed, out, progress, typed)
+
+
+def bar_of_placed(
+    case: FileCase, path: Path, placed: Placed, out: Path, progress: Progress, typed: str
+) -> BarRecord:
+    """The same of a part that has been read from `path`."""
     tie, bars = case.bar.tie, placed.bars
     quality = said_of(path, lambda: checked_quality(placed))
     with progress.stage("stiffness"):
@@ -67,7 +74,7 @@ def bar_of_file(case: FileCase, folder: Path, out: Path, progress: Progress, typ
             for other in bars[0].ties
             if other != tie
         }
-        by_tie = {t: bars[0].axial(t).geometric for t in ("rigid", "half") if t in bars[0].ties}
+        by_tie = {t: bars[0].axial(t).geometric for t in bars[0].ties if t != "distributed"}
     with progress.stage("stress"):
         stress = stresses_of(case, bars)
     with progress.stage("buckling") as stage:

@@ -8,7 +8,7 @@ from typing import Annotated, Any, Literal
 from pydantic import Field, ValidationInfo, field_validator, model_validator
 
 from meshes.brought.units import UNITS
-from pipeline.validation.case_tables import Length, Material, Number, Part
+from pipeline.validation.case_tables import Angle, Length, LinkageSize, Material, Number, Part
 
 Vector = tuple[Number, Number, Number]
 Modulus = Annotated[Number, Field(gt=0.0)]
@@ -119,6 +119,13 @@ class FileLinkage(Part):
 
     width_mm: Length
     """Distance of the two bars."""
+    angles_deg: tuple[Angle, ...] = Field((0.0,), min_length=1)
+    """Angles q of the bars that `run` computes, each once."""
+
+    @field_validator("angles_deg")
+    @classmethod
+    def each_once(cls, value: tuple[float, ...]) -> tuple[float, ...]:
+        return LinkageSize.each_once(value)
 
 
 class FileMesh(Part):
