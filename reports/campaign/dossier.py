@@ -15,8 +15,8 @@ FAR = 2.0
 NOTE = (
     "ASME V&V 20-2009: E = S \u2212 D, predicted less measured; u_val\u00b2 = u_num\u00b2 + u_input\u00b2 + u_D\u00b2. "
     "Standard uncertainties of one reading, root mean squares, in the unit of the column. u_num: of the computation of "
-    "K_b by mesh and by tie of its ends, as far as the fit leaves it; u_input: of parameters and of all else that is written about the rig; u_D: of "
-    "the readings and of what was prescribed."
+    "K_b by mesh and by tie of its ends, as far as the fit leaves it; u_input: of parameters and of all else that is "
+    "written about the rig; u_D: of the readings and of what was prescribed."
 )
 READ = (
     "rms E / u_val: about 1 where the error is what its uncertainty says; a smaller error of the model does not "
