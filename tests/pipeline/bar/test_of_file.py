@@ -114,7 +114,7 @@ def test_a_file_with_options(tmp_path: Path) -> None:
 def test_from_cad_to_a_diagnosis_with_nothing_typed_between(
     pipeline_command: Callable[..., Done], tmp_path: Path
 ) -> None:
-    """STEP, bar, init --from, simulate, diagnose: the record hands on all that the next step needs."""
+    """STEP, bar, init --from, simulate, diagnose, add, predict: the record hands on all that the next step needs."""
 
     def rod() -> None:
         import gmsh
@@ -150,6 +150,12 @@ def test_from_cad_to_a_diagnosis_with_nothing_typed_between(
     answer = json.loads((tmp_path / "answer.json").read_text())
     assert answer["verdict"] in ("identified", "ambiguous")
     assert "joint_friction" in {e for each in [answer["effects"], *answer["alternatives"]] for e in each}
+    done("add", "hidden", *answer["effects"], "--quiet")
+    done("predict", "hidden", "--json", "predicted.json", "--quiet")
+    predicted = json.loads((tmp_path / "predicted.json").read_text())
+    assert predicted["held_out"]["of"] > 100
+    assert predicted["held_out"]["inside"] > 0.85 * predicted["held_out"]["of"]
+    assert predicted["comparison"] and predicted["budget"]
     record = json.loads((tmp_path / "rod" / "bar.json").read_text())
     assert record["stiffness"][0][0] == pytest.approx(7e4 * 160 / 250, rel=0.01)
     text = (tmp_path / "hidden" / "campaign.toml").read_text()
