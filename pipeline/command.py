@@ -4,6 +4,7 @@ import os
 import sys
 from pathlib import Path
 
+from pipeline.bar.file_case import file_case, names_a_file
 from pipeline.errors import InputError
 from pipeline.progress import Progress
 from pipeline.system import require
@@ -14,10 +15,14 @@ from pipeline.validation.detail import COARSE, DEFAULT, FINE
 KEPT = Path("reports/validation")
 OWN = Path("results")
 WORKSHOP = Path(".parastiff")
+RESULT, BAR = "result.json", "bar.json"
 
 
 def validate(name: str, coarse: bool, fine: bool, out: Path | None, quiet: bool, typed: str) -> None:
     """The whole validation of a case, and its report; `typed` is the command line."""
+    if names_a_file(Path(name)):
+        validate_file(Path(name), coarse, fine, out, quiet, typed)
+        return
     detail = COARSE if coarse else FINE if fine else DEFAULT
     case = load_case(name, max(detail.study))
     require("solid")
@@ -39,13 +44,58 @@ def validate(name: str, coarse: bool, fine: bool, out: Path | None, quiet: bool,
         print(f"warning: {said}", file=sys.stderr)
 
 
+def validate_file(path: Path, coarse: bool, fine: bool, out: Path | None, quiet: bool, typed: str) -> None:
+    """The same for a case whose bar is a file."""
+    case = file_case(path)
+    require("solid")
+    from pipeline.bar.run_file import detail_of, run_file
+
+    detail, progress = detail_of(coarse, fine, path), Progress(quiet)
+    folder = out or OWN / f"{case.name}-{detail.name}"
+    usable(folder, f"--out {folder}")
+    result = run_file(case, path, detail, folder, progress, typed)
+    result.bar.write(folder / BAR)
+    result.write(folder / RESULT)
+    page = draw_part(folder, progress)
+    print("\n".join([*result.story, f"report: {page}"]), flush=True)
+    for said in result.warnings:
+        print(f"warning: {said}", file=sys.stderr)
+
+
+def is_part(path: Path) -> bool:
+    """Whether a saved result is that of a bar that came as a file."""
+    try:
+        return '"kind": "part"' in path.read_text(encoding="utf-8")[:200]
+    except (OSError, ValueError):
+        return False
+
+
 def redraw(folder: Path, quiet: bool) -> None:
     """Draw a saved result again."""
+    if is_part(folder / RESULT):
+        from pipeline.bar.part_result import PartResult
+
+        PartResult.read(folder / RESULT, "saved result")
+        require("solid")
+        print(f"report: {draw_part(folder, Progress(quiet))}")
+        return
     from pipeline.validation.result import read_result
 
-    read_result(folder / "result.json")
+    read_result(folder / RESULT)
     require("solid")
     print(f"report: {draw(folder, Progress(quiet))}")
+
+
+def draw_part(folder: Path, progress: Progress) -> Path:
+    """Draw the page of a run of a bar that came as a file; returns it."""
+    from reports.errors import ReportError
+    from reports.part_page import draw as draw_result
+
+    with progress.stage("report"):
+        try:
+            return draw_result(folder)
+        except ReportError as error:
+            raise InputError(str(error)) from error
 
 
 def draw(folder: Path, progress: Progress) -> Path:

@@ -5,7 +5,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from reports import page, shapes, tables_bar, tables_record, turntable
+from reports import page, part_drawing, shapes, tables_bar, tables_record, turntable
 from reports.blocks import Block, Bullets, Code, Column, Figure, Section, Table, Tables, Text, table
 from reports.errors import ReportError
 from reports.files import write_bytes
@@ -38,18 +38,21 @@ def draw(folder: Path) -> Path:
 
 def sections(folder: Path, record: Json) -> list[Section]:
     """All of the page."""
-    stiff: list[Block] = [stiffness(record), geometric(record)]
+    drawing = part_drawing.draw(folder, record)
+    stiff: list[Block] = [Figure("part", "The bar to scale.", None, *drawing)] if drawing else []
+    stiff += [stiffness(record), geometric(record)]
     if record["said"]:
         stiff.append(Bullets(record["said"]))
     facts = {"length_mm": record["length_mm"], **record["ends"]}
     small: list[Table] = [
         tables_bar.given("The bar", {**facts, "ties of the ends": record["tie"]}),
-        tables_bar.given("Material", record["material"]),
+        tables_bar.given("Material", {k: v for k, v in record["material"].items() if v != ""}),
         tables_bar.values("Mesh", mesh(record["mesh"]), digits=3),
     ]
     return [
         Section("bar", "The bar and its stiffness", [*stiff, Tables(small)]),
         buckling(folder, record),
+        *stressed(record),
         reading(record),
     ]
 
@@ -116,13 +119,59 @@ def geometric(record: Json) -> Table:
 
 def buckling(folder: Path, record: Json) -> Section:
     """Critical loads, and the modes to turn where their shapes are there."""
-    blocks: list[Block] = [tables_bar.buckling(record)]
+    limit = (record.get("stress") or {}).get("yield_MPa")
+    blocks: list[Block] = [tables_bar.buckling({**record, "yield_MPa": limit})]
     names: Sequence[str] = shapes.supports_of(record)
     found = [s for name in names if (s := shapes.read(folder, record, name)) is not None]
     if found:
         caption = "The modes to turn and zoom: drag, scroll, choose above. Displacements enlarged."
         blocks.append(Figure("shapes", caption, turntable.figure(found)))
     return Section("buckling", "Buckling of the bar", blocks)
+
+
+UNIT_LOADS = {"F": ("N", "MPa per kN", 1e3), "M": ("N·mm", "MPa per N·m", 1e3)}
+"""Of forces and moments: unit, unit of the stress in the table, and how many units that is for."""
+
+
+def stressed(record: Json) -> list[Section]:
+    """Von Mises' stress under unit loads and what first yields; nothing for a record without it."""
+    it = record.get("stress")
+    if not it:
+        return []
+    limit = it["yield_MPa"] is not None
+    columns = [Column("load", numeric=False), Column("unit", numeric=False)]
+    for where in ("body", "ends"):
+        columns += [Column(where), Column("at x, y, z", "mm", numeric=False), Column("to last mesh", "%")]
+        columns += [Column("first yield")] if limit else []
+    rows = []
+    for load in it["loads"]:
+        of, unit, factor = UNIT_LOADS[load["load"][0]]
+        row = [load["load"], unit + (f"; yield in {of}" if limit else "")]
+        for where in ("body", "ends"):
+            peak = load[where]
+            row += [
+                number(peak["stress"] * factor, 4),
+                ", ".join(f"{x:.3g}" for x in peak["at_mm"]),
+                percent(peak["change"]),
+            ]
+            row += [number(peak["first_yield"], 4)] if limit else []
+        rows.append(row)
+    reach = ", ".join(f"{name} {far:.3g} mm" for name, far in it["ends_reach_mm"].items())
+    notes = [
+        f"Body: farther from the tied surfaces than half their largest extent ({reach}); ends: nearer. At the ends the "
+        "stress is that of a rigid seat: at its edges it grows with every finer mesh.",
+        "Linear elastic, the bar straight, base held, one unit load at the tip at a time; mean of the cells around "
+        "each node. To last mesh: change of the peak from the mesh before.",
+    ]
+    if limit:
+        notes.append(
+            f"First yield: the load, of either sign, at which that point reaches {it['yield_MPa']:g} MPa."
+        )
+    return [
+        Section(
+            "stress", "Stress under unit loads", [table("Largest von Mises stress", columns, rows, *notes)]
+        )
+    ]
 
 
 def reading(record: Mapping[str, Any]) -> Section:

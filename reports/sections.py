@@ -54,7 +54,12 @@ def build(result: Json, drawings: Mapping[str, Drawing], shapes: Any, stressed: 
 
 def _named(part: Section, paper: bool) -> Section:
     """Figures and equations of the paper are named where the case is the paper's."""
-    return part if paper else replace(part, title=part.title.partition(" (")[0])
+    return part if paper else without_paper(part)
+
+
+def without_paper(part: Section) -> Section:
+    """The section without the figure or equation of the paper in its title."""
+    return replace(part, title=part.title.partition(" (")[0])
 
 
 def findings(result: Json, drawings: Mapping[str, Drawing]) -> Section:

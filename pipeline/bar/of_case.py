@@ -6,15 +6,20 @@ import hashlib
 import shutil
 from pathlib import Path
 
+from fem.linear import LinearModel
+from fem.linkage import single_bar
+from fem.space import Space
 from meshes.files import replacing
 from pipeline.bar.record import BarRecord, MeshRecord
+from pipeline.bar.stress import marked, stress_sentences, stresses
+from pipeline.bar.stress_record import Stresses
 from pipeline.provenance import commit, versions
 from pipeline.validation.case import SHIPPED, Case
 from pipeline.validation.detail import Detail
 from pipeline.validation.result import Bar, Buckling
 from pipeline.validation.run import Run, buckled_bar
 from pipeline.validation.stages.bar import identify
-from pipeline.validation.stages.specimen import specimen
+from pipeline.validation.stages.specimen import Specimen, specimen
 from pipeline.validation.workshop import Workshop
 
 SECOND_ROUTE = "tip face free, loads distributed over it"
@@ -31,14 +36,39 @@ def bar_of_case(
     s, fit = specimen(case, detail, workshop)
     found = identify(case, s, fit)
     loads, shapes = buckled_bar(Run(case, detail, workshop), s, found)
+    stress = workshop.reuse(
+        "bar stress",
+        [*s.inputs, case.material.yield_MPa],
+        Stresses,
+        lambda _: stresses(
+            _models(s), {} if case.material.yield_MPa is None else {0: case.material.yield_MPa}, []
+        ),
+    )
     for path in shapes:
         with replacing(out / "modes" / path.name) as part:
             shutil.copyfile(path, part)
-    return _record(case, source, found, loads, dict(workshop.progress.seconds), typed)
+    return _record(case, source, found, loads, stress, dict(workshop.progress.seconds), typed)
+
+
+def _models(s: Specimen) -> list[LinearModel]:
+    """The bar on the mesh beside the working one and on the working one, coarse to fine."""
+    levels = sorted((s.detail.companion, s.detail.working))
+    return [
+        s.model
+        if level == s.detail.working
+        else LinearModel(single_bar(Space.of(s.mesh(level)), s.bar.length), s.material)
+        for level in levels
+    ]
 
 
 def _record(
-    case: Case, source: str, found: Bar, loads: list[Buckling], seconds: dict[str, float], typed: str
+    case: Case,
+    source: str,
+    found: Bar,
+    loads: list[Buckling],
+    stress: Stresses,
+    seconds: dict[str, float],
+    typed: str,
 ) -> BarRecord:
     if found.axial is None:
         raise AssertionError("a bar that was identified has its K_g")
@@ -58,7 +88,8 @@ def _record(
         modelling={SECOND_ROUTE: found.second_route.stiffness},
         geometric=found.axial.solid,
         geometric_numerical_band=found.axial.band,
-        buckling=loads,
+        buckling=marked(loads, stress),
+        stress=stress,
         mesh=MeshRecord(
             kind=found.cell_kind,
             cells=found.cells,
@@ -66,7 +97,7 @@ def _record(
             study_dofs=found.convergence.dofs,
             quality=found.quality,
         ),
-        said=[found.second_route.explanation],
+        said=[found.second_route.explanation, *stress_sentences(stress)],
         seconds=seconds,
         versions=versions(),
         commit=commit(),

@@ -21,6 +21,8 @@ from meshes.brought.frame import BarFrame, bar_frame
 from meshes.solid import Floats
 from pipeline.bar.modes import buckled
 from pipeline.bar.record import BarRecord, MeshRecord, named_entries, relative_spread
+from pipeline.bar.stress import marked, stress_sentences, stresses
+from pipeline.bar.stress_record import Stresses
 from pipeline.bar.tables import FileCase, OrthotropicMaterial
 from pipeline.errors import InputError
 from pipeline.progress import Progress
@@ -50,10 +52,17 @@ def bar_of_file(case: FileCase, folder: Path, out: Path, progress: Progress, typ
     path = case.path(folder)
     with progress.stage("read and mesh"):
         placed = said_of(path, lambda: place(case, path))
+    return bar_of_placed(case, path, placed, out, progress, typed)
+
+
+def bar_of_placed(
+    case: FileCase, path: Path, placed: Placed, out: Path, progress: Progress, typed: str
+) -> BarRecord:
+    """The same of a part that has been read from `path`."""
     tie, bars = case.bar.tie, placed.bars
     quality = said_of(path, lambda: checked_quality(placed))
     with progress.stage("stiffness"):
-        axial = [bar.axial("half" if tie == "half" else "rigid") for bar in bars]
+        axial = [bar.axial(case.bar.rigid_tie) for bar in bars]
         elastic = [
             a.elastic if tie != "distributed" else b.stiffness(tie) for a, b in zip(axial, bars, strict=True)
         ]
@@ -65,10 +74,11 @@ def bar_of_file(case: FileCase, folder: Path, out: Path, progress: Progress, typ
             for other in bars[0].ties
             if other != tie
         }
-        by_tie = {t: bars[0].axial(t).geometric for t in ("rigid", "half") if t in bars[0].ties}
+        by_tie = {t: bars[0].axial(t).geometric for t in bars[0].ties if t != "distributed"}
+    with progress.stage("stress"):
+        stress = stresses_of(case, bars)
     with progress.stage("buckling") as stage:
-        loads = buckled(bars, out / "modes", stage)
-    entries, bent = named_entries(found.value), named_entries(geometric.value)
+        loads = marked(buckled(bars, out / "modes", stage), stress)
     return BarRecord(
         name=case.name,
         title=case.title or case.name,
@@ -79,15 +89,14 @@ def bar_of_file(case: FileCase, folder: Path, out: Path, progress: Progress, typ
         material=described(case),
         stiffness=rows(found.value),
         extrapolated=rows(found.value),
-        numerical_band={n: float(found.error[ij] / abs(found.value[ij])) for n, ij in entries.items()},
+        numerical_band=relative_error(found),
         modelling_band=relative_spread(found.value, others),
         modelling={name: rows(matrix) for name, matrix in others.items()},
         geometric=rows(geometric.value),
-        geometric_numerical_band={
-            n: float(geometric.error[ij] / abs(geometric.value[ij])) for n, ij in bent.items()
-        },
+        geometric_numerical_band=relative_error(geometric),
         geometric_modelling_band=relative_spread(by_tie["rigid"], by_tie) if len(by_tie) > 1 else {},
         buckling=loads,
+        stress=stress,
         mesh=MeshRecord(
             kind=bars[-1].mesh.kind,
             cells=bars[-1].mesh.count,
@@ -95,7 +104,7 @@ def bar_of_file(case: FileCase, folder: Path, out: Path, progress: Progress, typ
             study_dofs=[bar.mesh.dofs for bar in bars],
             quality=quality,
         ),
-        said=sentences(placed, tie),
+        said=[*sentences(placed, tie), *stress_sentences(stress)],
         seconds=dict(progress.seconds),
         versions=versions(),
         commit=commit(),
@@ -166,6 +175,22 @@ def law_of(table: Any) -> Isotropic | Orthotropic:
     )  # fmt: skip
 
 
+def stresses_of(case: FileCase, bars: tuple[PartBar, ...]) -> Stresses | None:
+    """Stress under unit loads with rigid ends; None where every material is orthotropic, for which von Mises' criterion
+    does not hold."""
+    regions = bars[0].mesh.regions
+    tables = {
+        number: case.material if case.material is not None else case.materials[name]
+        for number, name in enumerate(regions)
+    }
+    other = [number for number, table in tables.items() if isinstance(table, OrthotropicMaterial)]
+    if len(other) == len(tables):
+        return None
+    limits = {number: getattr(table, "yield_MPa", None) for number, table in tables.items()}
+    known = {number: limit for number, limit in limits.items() if limit is not None}
+    return stresses([bar.model(case.bar.rigid_tie) for bar in bars], known, other)
+
+
 def checked_quality(placed: Placed) -> dict[str, float]:
     """Of the finest mesh; ValueError where a cell is inside out."""
     worst = [shape_quality(bar.mesh) for bar in placed.bars]
@@ -183,6 +208,12 @@ def limited(matrices: list[Floats], power: float) -> Limit:
     if len(matrices) == 1:
         return Limit(matrices[0], np.zeros((6, 6)))
     return limit(matrices[-2], matrices[-1], power)
+
+
+def relative_error(found: Limit) -> dict[str, float]:
+    """Error over value of the entries that are not negligible, by name."""
+    value = found.value
+    return {name: float(found.error[ij] / abs(value[ij])) for name, ij in named_entries(value).items()}
 
 
 def described(case: FileCase) -> dict[str, float | str]:

@@ -9,6 +9,7 @@ import numpy as np
 from pydantic import Field
 
 from meshes.solid import Floats
+from pipeline.bar.stress_record import Stresses
 from pipeline.record import Record
 from pipeline.validation.result import Buckling, Matrix
 
@@ -59,6 +60,8 @@ class BarRecord(Record):
     geometric_numerical_band: dict[str, float]
     geometric_modelling_band: dict[str, float] = Field(default_factory=dict)
     buckling: list[Buckling]
+    stress: Stresses | None = None
+    """Under unit loads; None of a bar whose materials are all orthotropic."""
     mesh: MeshRecord
     said: list[str]
     """What a reader has to know, a sentence each."""

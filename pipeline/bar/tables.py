@@ -8,7 +8,7 @@ from typing import Annotated, Any, Literal
 from pydantic import Field, ValidationInfo, field_validator, model_validator
 
 from meshes.brought.units import UNITS
-from pipeline.validation.case_tables import Length, Material, Number, Part
+from pipeline.validation.case_tables import Angle, Length, LinkageSize, Material, Number, Part
 
 Vector = tuple[Number, Number, Number]
 Modulus = Annotated[Number, Field(gt=0.0)]
@@ -87,6 +87,11 @@ class FileBar(Part):
     tie: Literal["rigid", "half", "distributed"] = "rigid"
     """How an end moves the solid: rigid, the half of a bore that a pull presses, or loads distributed over it."""
 
+    @property
+    def rigid_tie(self) -> Literal["rigid", "half"]:
+        """How ends are tied where they have to be rigid: for K_g, critical loads, stress and the linkage."""
+        return "half" if self.tie == "half" else "rigid"
+
     @field_validator("unit")
     @classmethod
     def known_unit(cls, value: str | None) -> str | None:
@@ -114,6 +119,13 @@ class FileLinkage(Part):
 
     width_mm: Length
     """Distance of the two bars."""
+    angles_deg: tuple[Angle, ...] = Field((0.0,), min_length=1)
+    """Angles q of the bars that `run` computes, each once."""
+
+    @field_validator("angles_deg")
+    @classmethod
+    def each_once(cls, value: tuple[float, ...]) -> tuple[float, ...]:
+        return LinkageSize.each_once(value)
 
 
 class FileMesh(Part):

@@ -57,6 +57,11 @@ class BarFrom:
         return {**usual, **own}
 
     @property
+    def bands(self) -> dict[str, float]:
+        """Both bands of EA, EIy, EIz, GJ together, as the root of the sum of their squares."""
+        return {key: hypot(self.numerical.get(key, 0.0), self.modelling.get(key, 0.0)) for key in OF}
+
+    @property
     def said(self) -> str:
         """The bands in words."""
         parts = [
@@ -76,7 +81,9 @@ def bar_from(path: Path) -> BarFrom:
     except ValueError as error:
         raise InputError(f"{path}: is no JSON, {ALLOWED}") from error
     try:
-        found = _of_bar(path, raw) if raw.get("kind") == "bar" else _of_run(path, raw)
+        # A run of a bar that came as a file has the record of that bar inside.
+        own = raw["bar"] if raw.get("kind") == "part" else raw
+        found = _of_bar(path, own) if own.get("kind") == "bar" else _of_run(path, own)
     except (KeyError, TypeError, ValueError, AttributeError, IndexError) as error:
         raise InputError(f"{path}: is no result of run or bar, {ALLOWED}") from error
     if why := not_a_stiffness(found.stiffness.tolist()):

@@ -99,6 +99,12 @@ class Rig(ABC):
         return ""
 
     @property
+    def computed_bands(self) -> dict[str, float]:
+        """Of tolerances by key, the part (relative, one standard deviation) that meshes and models of a computation put
+        in; empty where nothing was computed."""
+        return {}
+
+    @property
     def point(self) -> Vector | None:
         """Where the unloaded platform stands in a test, mm, where that is said by a point."""
         return None

@@ -1,8 +1,9 @@
-"""From a campaign with its model, or a result of `run`, to what is exported."""
+"""From a campaign with its model, a result of `run` or the record of `bar`, to what is exported."""
 
 from __future__ import annotations
 
 import hashlib
+import json
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
@@ -11,6 +12,8 @@ from pathlib import Path
 import numpy as np
 from numpy.linalg import LinAlgError
 
+from pipeline.bar.part_result import PartResult
+from pipeline.bar.record import BarRecord
 from pipeline.campaign import Campaign, Rig, read
 from pipeline.campaign.reading import DESCRIPTION
 from pipeline.errors import InputError
@@ -29,10 +32,10 @@ from vjm.mechanisms.bar import Bar
 from vjm.mechanisms.parallelogram import Parallelogram
 from vjm.stiffness import rank, unloaded_stiffness
 
-RESULT = "result.json"
+RESULT, RECORD = "result.json", "bar.json"
 BAR_FRAME = "bar frame: x along the bar from base hinge to tip, y along the hinges, origin at the base hinge"
 BASE_FRAME = "base frame: x along the bars at q = 0, y along the hinges, z along the width, origin amid the base hinges"
-ALLOWED = "allowed are a campaign's folder and the result.json of run"
+ALLOWED = "allowed are a campaign's folder, the result.json of run and the bar.json of bar"
 SAME = 1e-9
 """Relative difference below which two matrices are one: far above rounding, far below any effect."""
 
@@ -120,18 +123,47 @@ def _found(asked: Sources) -> _Found:
     path = asked.path
     if path.is_dir() and (path / DESCRIPTION).exists():
         return _of_campaign(read(path), asked)
-    file = path / RESULT if path.is_dir() else path
+    file = (
+        next((p for p in (path / RESULT, path / RECORD) if p.is_file()), path / RESULT)
+        if path.is_dir()
+        else path
+    )
     if not file.is_file():
-        what = f"has neither {DESCRIPTION} nor {RESULT}" if path.is_dir() else "is missing"
+        what = f"has neither {DESCRIPTION} nor {RESULT} nor {RECORD}" if path.is_dir() else "is missing"
         raise InputError(f"{path} {what}, {ALLOWED}")
     if file.suffix != ".json":
         raise InputError(f"{path} is no result of run, {ALLOWED}")
     if asked.model is not None or asked.effects_from:
         raise InputError(f"--model and --effects-from belong to a campaign, {path} is a result of run")
-    result = read_result(file)
+    mechanism, angles = _computed(file)
+    return _Found(Model(), lambda _: mechanism, angles, {file.name: _digest(file)})
+
+
+def _computed(file: Path) -> tuple[Bar | Parallelogram, tuple[float, ...]]:
+    """The mechanism of a result of `run` or of the record of `bar`, and the angles that were computed.
+
+    A record without a width is that of a single bar.
+    """
+    kind = _kind(file)
+    if kind == "bar":
+        record = BarRecord.read(file, "record of bar")
+        k_b = _symmetric(record.stiffness)
+        if record.width_mm is None:
+            return Bar(record.length_mm, k_b), ()
+        return Parallelogram(record.length_mm, record.width_mm, k_b), (0.0,)
+    result = PartResult.read(file, "saved result") if kind == "part" else read_result(file)
     linkage = Parallelogram(result.length_mm, result.width_mm, _symmetric(result.bar.stiffness))
-    angles = tuple(each.q_deg for each in result.parallelogram)
-    return _Found(Model(), lambda _: linkage, angles, {file.name: _digest(file)})
+    return linkage, tuple(each.q_deg for each in result.parallelogram)
+
+
+def _kind(file: Path) -> str | None:
+    """What a file says that it is; None where it says nothing or cannot be read."""
+    try:
+        raw = json.loads(file.read_bytes())
+    except (OSError, ValueError):
+        return None
+    found = raw.get("kind") if isinstance(raw, dict) else None
+    return found if isinstance(found, str) else None
 
 
 def _of_campaign(campaign: Campaign, asked: Sources) -> _Found:

@@ -18,7 +18,9 @@ def register(app: typer.Typer, guarded: Callable[[Callable[[], object]], None]) 
     def export(
         source: Annotated[
             Path,
-            typer.Argument(metavar="CAMPAIGN|RESULT", help="A campaign's folder, or result.json of run."),
+            typer.Argument(
+                metavar="CAMPAIGN|RESULT", help="A campaign's folder, result.json of run, bar.json of bar."
+            ),
         ],
         out: Annotated[Path, typer.Argument(metavar="OUT", help="File to write.")],
         to: Annotated[str, typer.Option("--to", metavar="FORMAT", help=f"One of {', '.join(names())}.")],

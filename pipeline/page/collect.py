@@ -18,7 +18,8 @@ from pipeline.inference.program import Program, program
 from pipeline.inference.sigmas import completed
 from pipeline.inference.suitable import Known, check_suitable
 from pipeline.page.curves import rig_of, tests_of
-from pipeline.page.record import CandidatePage, EffectPage, Isolability, Page, RivalPage, Sigma
+from pipeline.page.dossier import dossier
+from pipeline.page.record import CandidatePage, Dossier, EffectPage, Isolability, Page, RivalPage, Sigma
 from pipeline.page.stages import Stages, stages
 from pipeline.page.words import SOURCES, assumptions, following, reading, tolerances_of, why
 from pipeline.parameter_names import path_of
@@ -56,6 +57,7 @@ def collect(it: Subject, commands: tuple[str, ...] = (), say: Say = lambda _: No
     check_suitable([term.effect for term in model.terms], whole)
     cases = program(whole)
     found = stages(model, cases, say)
+    record, failed = _dossier(it, model, cases, say)
     answer = it.answer or _plain_answer(it, model, found)
     known = it.known.effects
     catalogue = [effect_of(name, known) for name in model.names]
@@ -86,28 +88,41 @@ def collect(it: Subject, commands: tuple[str, ...] = (), say: Say = lambda _: No
         rivals=it.rivals,
         zeros=answer.zeros,
         laws=answer.laws,
-        not_done=answer.not_done,
+        not_done=(*answer.not_done, *failed),
+        dossier=record,
         following=tuple(following(whole, answer, it.answer is not None)),
         tolerances=tuple(tolerances_of(whole)),
         isolability=it.isolability,
         next_test=answer.next_test,
-        catalogue=tuple(
-            EffectPage(
-                name=e.name,
-                title=e.title,
-                equation=e.equation,
-                signature=e.signature,
-                limits=e.limits,
-                source=e.source,
-            )
-            for e in catalogue
-        ),
+        catalogue=_catalogue(catalogue),
         sigmas=_sigmas(it.given or it.campaign, cases),
         assumptions=(*assumptions(whole, model.names, known), *reading(whole.rig.axes)),
         sources=(*SOURCES, *dict.fromkeys(f"{e.name}: {e.source}." for e in catalogue)),
         commands=commands,
         versions=versions(),
         commit=commit(),
+    )
+
+
+def _dossier(it: Subject, model: Model, cases: Program, say: Say) -> tuple[Dossier | None, tuple[str, ...]]:
+    """Where it was looked for what is missing, the model's predictions beside the readings; and why not, if not."""
+    if it.answer is None or not cases.predicted.any():
+        return None, ()
+    say("predicted against measured")
+    return dossier(it.campaign, model)
+
+
+def _catalogue(effects: list[Effect]) -> tuple[EffectPage, ...]:
+    return tuple(
+        EffectPage(
+            name=e.name,
+            title=e.title,
+            equation=e.equation,
+            signature=e.signature,
+            limits=e.limits,
+            source=e.source,
+        )
+        for e in effects
     )
 
 

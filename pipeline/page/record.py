@@ -19,6 +19,7 @@ from pipeline.answer import (
     UnknownZero,
 )
 from pipeline.law_record import LawFound
+from pipeline.predict.record import Budget, ColumnComparison
 from pipeline.record import Record
 from pipeline.value import Value
 
@@ -159,6 +160,24 @@ class Sigma(Record):
     given: bool
 
 
+class Dossier(Record):
+    """Predicted against measured in the terms of ASME V&V 20-2009, and what limits each parameter.
+
+    held_out: whether of tests that were not fitted; else of the fitted ones, as there are no others. inside, readings:
+    of the 95 % intervals. noise_factor: by which noise and parameters are widened. computed: where K_b is from, with
+    its bands; empty where it is not computed. data: sha256 of every file.
+    """
+
+    held_out: bool
+    comparison: tuple[ColumnComparison, ...]
+    inside: int
+    readings: int
+    budget: tuple[Budget, ...]
+    noise_factor: float
+    computed: str
+    data: dict[str, str]
+
+
 class Page(Record):
     """A campaign, a model and what is known about both.
 
@@ -168,7 +187,7 @@ class Page(Record):
     here, in words. certain: effects that are there whatever the verdict. rivals: the sets of an ambiguous verdict, the
     simplest first, as far as they were fitted; alternatives: all of them but the first. laws: discovered in what is
     left. not_done: optional parts that failed, and why. following: what to do next.
-    tolerances: of what is written about the rig.
+    tolerances: of what is written about the rig. dossier: of the model, where it was looked for what is missing.
     """
 
     campaign: str
@@ -200,6 +219,7 @@ class Page(Record):
     not_done: tuple[str, ...] = ()
     following: tuple[Following, ...] = ()
     tolerances: tuple[TolerancePage, ...] = ()
+    dossier: Dossier | None = None
     isolability: Isolability | None
     next_test: dict[str, Any] | None
     catalogue: tuple[EffectPage, ...]

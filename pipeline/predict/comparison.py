@@ -1,9 +1,12 @@
 """Predicted beside measured in the terms of ASME V&V 20-2009: comparison error E and validation uncertainty, by column.
 
-E = S - D, prediction less reading; u_val² = u_num² + u_input² + u_D². u_input: of the fitted parameters and of what is
-written about the rig. u_D: of the readings and of what was prescribed. u_num, of the numerical solution, is not
-estimated here and left out: the equilibria are solved to rounding, and the error of a K_b that comes from a mesh is a
-tolerance of the rig.
+E = S - D, prediction less reading; u_val² = u_num² + u_input² + u_D². u_D: of the readings and of what was prescribed.
+u_num: of the computation of K_b, by its meshes and by how its ends were tied, where the rig takes it `bar_from` a
+result; equilibria are solved to rounding. u_input: of the rest of what is written about the rig, and of the parameters.
+
+The two are one in a fit: what is written enters the prediction by A u_0, u_0 ~ N(0, 1) what each number is off by, in
+its tolerance, and A what is left of that after the fit. Of the variance of a number the share (band / tolerance)² is
+numerical, so that u_num² = sum of (A band / tolerance)².
 
 Area metric: where the law of each reading is F, F(D) is uniform if the predictions are right; the area is that between
 the empirical distribution of F(D) and the uniform one, pooled over load steps (S. Ferson, W. L. Oberkampf, L. Ginzburg,
@@ -33,6 +36,7 @@ def comparison(it: Predicted, some: Mask) -> tuple[ColumnComparison, ...]:
 
 def _columns(it: Predicted, some: Mask) -> Iterator[ColumnComparison]:
     bands = it.bands
+    num = np.minimum(numerical(it), bands.model)
     for k, name in enumerate(channel_columns(it.cases.campaign.gauges)):
         own = some[:, k]
         if not own.any():
@@ -46,11 +50,26 @@ def _columns(it: Predicted, some: Mask) -> Iterator[ColumnComparison]:
             readings=int(own.sum()),
             error=float(np.mean(error)),
             error_rms=_rms(error),
-            u_input=_rms(model),
+            u_num=_rms(num[own, k]),
+            u_input=_rms(np.sqrt(np.maximum(model**2 - num[own, k] ** 2, 0.0))),
             u_data=_rms(data),
             u_val=_rms(whole),
             area=area(ndtr(-error[seen] / whole[seen])) if seen.any() else None,
         )
+
+
+def numerical(it: Predicted) -> Array:
+    """(R, C) standard uncertainty of the predictions by the computation of the bar, in the units of the columns."""
+    posterior, campaign = it.tangent.posterior, it.cases.campaign
+    shares = np.zeros(len(posterior.numbers))
+    for k, each in enumerate(posterior.numbers):
+        key = each.tolerance.keys[each.parameter.name]
+        band, whole = campaign.rig.computed_bands.get(key, 0.0), campaign.tolerance.get(key, 0.0)
+        if band > 0.0 and whole > 0.0:
+            shares[k] = min(band / whole, 1.0)
+    slopes = np.concatenate([it.tangent.found.by_free * posterior.sizes, it.tangent.by_nominal], axis=-1)
+    left = slopes @ posterior.covariance[:, posterior.count :]
+    return np.asarray(np.sqrt(np.sum((left * shares) ** 2, axis=-1)))
 
 
 def area(levels: Array) -> float:

@@ -104,12 +104,14 @@ class ColumnComparison(Record):
     """Mean of predicted less measured: the comparison error E."""
     error_rms: float
     """Root mean square of the same."""
+    u_num: float = 0.0
+    """Of the computation of the bar, by mesh and by tie of its ends; 0 where K_b is not from a computation."""
     u_input: float
-    """Of the parameters and of what is written about the rig."""
+    """Of the parameters and of what else is written about the rig."""
     u_data: float
     """Of the readings, and of what was prescribed."""
     u_val: float
-    """Root of the sum of the squares of the two; equilibria are solved to rounding, so that u_num is left out."""
+    """Root of the sum of the squares of the three."""
     area: float | None
     """Area between the distribution of the readings in their predicted laws and the uniform one, 0 to 0.5; None
     where nothing is uncertain."""

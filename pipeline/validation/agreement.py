@@ -63,6 +63,9 @@ def compared(
     law = 150.0 * float(np.abs(x[before]).max(initial=0.0)) * cos(radians(path.q_deg)) / length
     one_bar = solid.loads[0] / (2.0 * cos(radians(path.q_deg)))
     shear = 100.0 * one_bar / (bar.GAy if solid.planes[0] == "xy" else bar.GAz)
+    sheared = f"and shear takes P/GA = {shear:.2f} % off the frame's load"
+    if not shear:
+        sheared = "and both take all of it for soft or stiff ends"
     mesh = 100.0 * (solid.loads[0] / path.critical - 1.0)
     return [
         f"LIN leaves the solid at the critical load, having no geometric stiffness: {largest(lin[before])} % off up "
@@ -72,8 +75,8 @@ def compared(
         f"the K_b of the working mesh, on which the solid's critical load lies {mesh:+.2f} % from that of the path's "
         f"mesh, and {frame[-1] - mesh:+.2f} % is left to that law, beam theory and the shape of the bow.",
         f"The refined springs end {vjm[-1] - frame[-1]:+.2f} % from the frame of the same K_b"
-        f"{segments(path, studies)}: K_b alone cannot tell shear from stiff ends, and shear takes P/GA = {shear:.2f} % "
-        f"off the frame's load; at the corner they are up to {largest(vjm[corner])} % off the solid, for they are "
+        f"{segments(path, studies)}: K_b alone cannot tell shear from stiff ends, {sheared}; at the corner they are up "
+        f"to {largest(vjm[corner])} % off the solid, for they are "
         f"perfect and turn sharply where {BOW} rounds its path.",
     ]
 

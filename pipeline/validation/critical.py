@@ -8,8 +8,8 @@ from fem.euler import bending_of, critical_compression
 from meshes.solid import Floats
 from pipeline.validation.result import Buckling, Critical
 from pipeline.validation.stages.linkage import SolidBuckling
-from pipeline.validation.stages.specimen import Specimen
 from pipeline.validation.stages.springs import PLACES, SpringLinkage, SpringSet
+from pipeline.validation.stages.subject import SolidBar
 from vjm.closed_forms import middle_hinge_only
 
 # What bends sideways in each way of holding the platform: supports of each bar and its plane.
@@ -33,7 +33,7 @@ WHY_PLACE = {
 
 
 def critical_records(
-    s: Specimen,
+    s: SolidBar,
     stiffness: Floats,
     springs: SpringSet,
     solids: Sequence[SolidBuckling],
@@ -87,7 +87,7 @@ def solid_records(solid: SolidBuckling, bars: Sequence[Buckling]) -> list[Critic
     return records
 
 
-def formula_records(s: Specimen, stiffness: Floats, solid: SolidBuckling) -> list[Critical]:
+def formula_records(s: SolidBar, stiffness: Floats, solid: SolidBuckling) -> list[Critical]:
     """Both bars by Euler's formulas with the EI, shear and end softness identified from K_b.
 
     Off q = 0 a platform that is free to turn moves the tips of the two bars unequally out of plane: they are no

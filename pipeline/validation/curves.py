@@ -6,13 +6,12 @@ import numpy as np
 
 from fem.convergence import SAFETY
 from meshes.solid import Floats
-from pipeline.validation.case import Case
 from pipeline.validation.critical import bar_mode
 from pipeline.validation.result import Buckling, Curve, Validity
 from pipeline.validation.stages.frame import FrameLinkage, section_of_bar
 from pipeline.validation.stages.linkage import BOW, SolidBuckling, SolidPath
-from pipeline.validation.stages.specimen import Specimen
 from pipeline.validation.stages.springs import PLACES, SpringLinkage, SpringSet, linear_slope
+from pipeline.validation.stages.subject import Sized, SolidBar
 
 DEVIATIONS = (0.01, 0.05)
 NAME_OF = {
@@ -25,8 +24,8 @@ FRAME = "Frame: two-node beams with the solid's K_b and its section's shear, swa
 
 
 def curve_records(
-    case: Case,
-    s: Specimen,
+    case: Sized,
+    s: SolidBar,
     stiffness: Floats,
     every: SpringSet,
     paths: Sequence[SolidPath],

@@ -17,7 +17,7 @@ from reports.blocks import (
     Tables,
     Text,
 )
-from reports.campaign import curve, doubt, first_picture, matrix, plots, tables, words
+from reports.campaign import curve, dossier, doubt, first_picture, matrix, plots, tables, words
 from reports.campaign.names import BEFORE, channel_label, measured, test_label, worst
 from reports.formats import number
 from reports.laws import law_picture
@@ -45,6 +45,8 @@ def build(page: Json, pictures: Pictures) -> list[Section]:
         parts.append(Section("laws", "Laws found", list(found_laws(page))))
     if doubt.known(page):
         parts.append(Section("doubt", "The rig and the readings", list(doubt.blocks(page))))
+    if page.get("dossier"):
+        parts.append(Section("dossier", "Validation dossier", list(dossier.blocks(page["dossier"]))))
     return [*parts, record(page)]
 
 

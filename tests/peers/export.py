@@ -5,13 +5,15 @@ The swing of a linkage costs no energy: z is held there, and the other five dire
 
 from __future__ import annotations
 
+from functools import partial
 from pathlib import Path
 
 import numpy as np
 
 from pipeline.export.content import Export
-from tests.pipeline.export.sources import SOFT, UNEQUAL, campaign, written
+from tests.pipeline.export.sources import SOFT, UNEQUAL, brought, campaign, written
 
+BROUGHT = "bar from a file"
 CASES = {
     "bar": ({}, None),
     "other bar": (UNEQUAL, None),
@@ -19,6 +21,8 @@ CASES = {
     "linkage at 30": ({}, 30.0),
     "unequal linkage": (UNEQUAL, 30.0),
     "soft and bowed linkage": (SOFT, -20.0),
+    BROUGHT: ({}, None),
+    f"linkage of a {BROUGHT}": ({}, 30.0),
 }
 """Effects of the model and the angle, by name; the 6x6 of the bars couples all directions."""
 LIMIT = 1e-6
@@ -27,7 +31,8 @@ LIMIT = 1e-6
 def source(case: str, to: str, folder: Path) -> tuple[Export, Path]:
     """What is exported and the file of a format."""
     effects, q = CASES[case]
-    it, files = written(campaign(folder / "bench", effects=effects), to, folder / "exported", q)
+    source = brought if BROUGHT in case else partial(campaign, effects=effects)
+    it, files = written(source(folder / "bench"), to, folder / "exported", q)
     return it, files[0]
 
 

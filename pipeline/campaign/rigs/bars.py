@@ -63,6 +63,10 @@ class RigOfBars(Rig):
         return usual if self.computed is None else self.computed.tolerance(usual)
 
     @property
+    def computed_bands(self) -> dict[str, float]:
+        return {} if self.computed is None else self.computed.bands
+
+    @property
     def files(self) -> tuple[Path, ...]:
         return () if self.computed is None else (self.computed.path,)
 

@@ -14,7 +14,8 @@ from pipeline.predict.study.trial import Trial
 from pipeline.progress import Progress
 
 OUT = Path("reports/predict")
-STORE = OUT / "trials.jsonl"
+STORES = {False: "trials.jsonl", True: "tolerances.jsonl"}
+NAMES = {False: "predict", True: "tolerances"}
 
 
 def main(
@@ -22,27 +23,35 @@ def main(
         int, typer.Option(min=1, help="Campaigns with hidden effects, from the first one on.")
     ] = 100,
     workers: Annotated[int, typer.Option(min=1, help="Processes.")] = 2,
-    store: Annotated[Path, typer.Option(help="Where finished campaigns are kept.")] = STORE,
+    tolerances: Annotated[
+        bool, typer.Option("--tolerances", help="Benches that are off what is written, within tolerances.")
+    ] = False,
+    store: Annotated[
+        Path | None,
+        typer.Option(help="Where finished campaigns are kept; default in the folder of the page."),
+    ] = None,
     out: Annotated[Path, typer.Option(help="Folder of the page.")] = OUT,
 ) -> None:
     """Count how many held-out readings lie inside their intervals. Stopped and started again, it goes on."""
     found: list[Trial] = []
     try:
         with Progress().stage("predict") as stage:
-            for it in run(cases, store, workers):
+            for it in run(cases, store or out / STORES[tolerances], workers, tolerances):
                 found.append(it)
                 stage.say(f"{len(found)} of {cases} campaigns")
     finally:
         # A study that is stopped leaves the page of what it has.
         if any(it.named and it.true for it in found):
-            written(found, out)
-    print(f"{out / 'predict.md'}: {len(found)} campaigns")
+            written(found, out, tolerances)
+    print(f"{out / NAMES[tolerances]}.md: {len(found)} campaigns")
 
 
-def written(found: list[Trial], out: Path) -> None:
+def written(found: list[Trial], out: Path, tolerances: bool = False) -> None:
     """The page and its record, in a folder."""
     it = study(found)
-    for name, text in (("predict.json", it.model_dump_json(indent=1) + "\n"), ("predict.md", page(it))):
+    name_of = NAMES[tolerances]
+    texts = {"json": it.model_dump_json(indent=1) + "\n", "md": page(it, tolerances)}
+    for name, text in ((f"{name_of}.{ending}", text) for ending, text in texts.items()):
         with replacing(out / name) as part:
             part.write_text(text, encoding="utf-8")
 

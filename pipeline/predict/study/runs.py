@@ -10,13 +10,14 @@ from pipeline.extrapolation.study import numbers
 from pipeline.predict.study.trial import Trial, trial
 from pipeline.provenance import commit
 
-Task = tuple[int, str]
+Task = tuple[int, str, bool]
 
 
-def run(cases: int, store: Path, workers: int) -> Iterator[Trial]:
-    """The trials of the first so many cases of the challenge that hide effects, those in the store first."""
+def run(cases: int, store: Path, workers: int, tolerances: bool = False) -> Iterator[Trial]:
+    """The trials of the first so many cases of the challenge that hide effects, those in the store first; tolerances
+    as in `measured`."""
     here = commit()
-    wanted: Mapping[Hashable, Task] = {number: (number, here) for number in numbers(cases)}
+    wanted: Mapping[Hashable, Task] = {number: (number, here, tolerances) for number in numbers(cases)}
     return trials.run(wanted, _one, Trial, lambda it: it.number, store, workers)
 
 

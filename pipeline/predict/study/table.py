@@ -6,6 +6,7 @@ from collections.abc import Iterable, Sequence
 from statistics import median
 
 from pipeline.coverage.table import Share
+from pipeline.predict.study.off import DECLARED
 from pipeline.predict.study.trial import Counts, Trial
 from pipeline.record import Record
 
@@ -106,8 +107,9 @@ def _share(count: int, of: int) -> Share:
     return Share(count=count, of=of)
 
 
-def page(it: Study) -> str:
-    """The study in Markdown; the source fits 120 columns."""
+def page(it: Study, tolerances: bool = False) -> str:
+    """The study in Markdown; the source fits 120 columns. tolerances: of benches that are off what is written."""
+    title, option = (", of benches off what is written", " --tolerances") if tolerances else ("", "")
     every, true = (
         (("held-out tests", it.held), ("1.5 times the loads", it.far)),
         (
@@ -118,13 +120,14 @@ def page(it: Study) -> str:
     columns = list(it.held.columns)
     return "\n".join(
         [
-            "# How often the intervals of `predict` hold a reading",
+            f"# How often the intervals of `predict` hold a reading{title}",
             "",
             "Campaigns of the challenge that hide one effect of the catalogue or two, on finite elements, with noise.",
             "Each is diagnosed; where one set with an effect is identified, its fitted model predicts readings that it",
             "was not fitted to, at what was prescribed as it was read, and the share of them inside their 95 %",
             "intervals is counted: the tests that were held out, at angles between the fitted ones and 0.9 times their",
             "loads, and the fitted tests done once more at 1.5 times their loads and travels.",
+            *(DECLARED if tolerances else ()),
             f"Wanted: {100 * LOW:.0f} to {100 * HIGH:.0f} % of all readings together, no case under "
             f"{100 * LEAST:.0f} %.",
             "",
@@ -141,7 +144,7 @@ def page(it: Study) -> str:
             f"Histories whose intervals are by samples: in {it.sampled} cases. Rows without a stable state: {it.lost}.",
             f"No answer: {'; '.join(f'case {k}: {why}' for k, why in it.failed.items()) or 'none'}.",
             f"A case took {it.seconds:.0f} s of one processor in the median. Code: {', '.join(it.commits)}.",
-            f"Again: `python -m pipeline.predict.study --cases {it.cases + len(it.failed)}`.",
+            f"Again: `python -m pipeline.predict.study{option} --cases {it.cases + len(it.failed)}`.",
             "",
         ]
     )

@@ -18,6 +18,7 @@ from pipeline.extrapolation.bench import beyond
 from pipeline.inference.model import Model
 from pipeline.predict.asked import Asked
 from pipeline.predict.predicting import Fitted, Predicted, fitted_as, predicted
+from pipeline.predict.study.off import Off, drawn_off
 from pipeline.record import Record
 from pipeline.virtual.bench import read_out, true_readings
 from pipeline.virtual.plan import GAUGES
@@ -80,30 +81,33 @@ class Measured:
     far: tuple[Test, ...]
 
 
-def measured(number: int) -> Measured:
-    """The case of that number. RuntimeError where its bench bears no share of 1.5 times the loads."""
+def measured(number: int, tolerances: bool = False) -> Measured:
+    """The case of that number; tolerances: its bench drawn off what is written (`pipeline.predict.study.off`), and
+    default tolerances written. RuntimeError where it bears no share of 1.5 times the loads."""
     last = RuntimeError("no share of the loads")
     for share in SHARES:
         it = case(number, share)
         plan = it.bench.plan
         far = tuple(beyond(test) for test in plan if not test.holdout)
+        there = drawn_off(it.bench.rig, number) if tolerances else Off(it.bench.rig, 0.0)
         try:
-            found = true_readings(it.bench.rig, (*plan, *far), it.hidden, GAUGES)
+            found = true_readings(there.rig, there.plan((*plan, *far)), it.hidden, GAUGES)
         except RuntimeError as error:
             last = error
             continue
         every = read_out(
             f"case {number}", it.bench.rig, (*plan, *far), it.bench.noise, it.seed, found, GAUGES
         )
-        campaign = replace(every, tests=every.tests[: len(plan)])
+        known = it.bench.rig.usual_tolerance if tolerances else every.tolerance
+        campaign = replace(every, tests=every.tests[: len(plan)], tolerance=known)
         return Measured(
             it, share, campaign, tuple(replace(t, role="holdout") for t in every.tests[len(plan) :])
         )
     raise RuntimeError(f"case {number} at {SHARES[-1]:g} of its loads: {last}")
 
 
-def trial(number: int, commit: str) -> Trial:
-    """The case of that number."""
+def trial(number: int, commit: str, tolerances: bool = False) -> Trial:
+    """The case of that number; tolerances as in `measured`."""
     began = process_time()
     whole = case(number)
     out = Trial(
@@ -116,7 +120,7 @@ def trial(number: int, commit: str) -> Trial:
         commit=commit,
     )
     try:
-        it = measured(number)
+        it = measured(number, tolerances)
         out = judged(it, out)
     except (RuntimeError, ArithmeticError, ValueError) as error:
         out = out.model_copy(update={"failed": f"{type(error).__name__}: {error}"})

@@ -16,6 +16,7 @@ from pipeline.validation.result import Refinement
 from pipeline.validation.stages.linkage import HELD_SETS, SolidPath, solid_path
 from pipeline.validation.stages.refinement import solid_end, solid_steps
 from pipeline.validation.stages.specimen import Specimen
+from pipeline.validation.stages.subject import Sized, SolidBar
 from pipeline.validation.workshop import Workshop
 
 MOST = 6
@@ -26,10 +27,19 @@ Parts = tuple[Bar, Isotropic, float, Detail, Path]
 
 def solid_paths(case: Case, s: Specimen, stage: Stage) -> list[SolidPath]:
     """Every path that the detail asks for, in the order of angles and ways of holding."""
-    angles = case.linkage.angles_deg[: s.detail.path_angles]
-    pairs = [(q, held) for q in angles for held in HELD_SETS[: s.detail.path_sets]]
     s.mesh(s.detail.path)
-    return _each(stage, _path, [(case, _parts(s), q, held) for q, held in pairs])
+    return _each(stage, _path, [(case, _parts(s), *pair) for pair in _pairs(case, s.detail)])
+
+
+def each_path(case: Sized, s: SolidBar, stage: Stage) -> list[SolidPath]:
+    """The same of a bar that goes to another process as it is."""
+    return _each(stage, solid_path, [(case, s, *pair) for pair in _pairs(case, s.detail)])
+
+
+def _pairs(case: Sized, detail: Detail) -> list[tuple[float, tuple[str, ...]]]:
+    """Angles and ways of holding that the detail asks for."""
+    angles = case.linkage.angles_deg[: detail.path_angles]
+    return [(q, held) for q in angles for held in HELD_SETS[: detail.path_sets]]
 
 
 def solid_study(case: Case, s: Specimen, stage: Stage) -> Refinement:

@@ -12,12 +12,11 @@ from fem.frame.linkages import ELEMENTS
 from fem.frame.rig import Rig
 from fem.frame.section import Plane, Section, section_of
 from meshes.solid import Floats
-from pipeline.validation.case import Case
 from pipeline.validation.stages.linkage import LENGTH_TO_BOW
-from pipeline.validation.stages.specimen import Specimen
+from pipeline.validation.stages.subject import Sized, SolidBar
 
 
-def section_of_bar(s: Specimen, stiffness: Floats) -> Section:
+def section_of_bar(s: SolidBar, stiffness: Floats) -> Section:
     """The beam of a bar: its K_b, and the shear stiffness of its section between the lugs."""
     body = s.segments[len(s.segments) // 2]
     return identified_section(stiffness, s.bar.length, body.GAy, body.GAz)
@@ -52,7 +51,7 @@ class FrameLinkage:
     """The frame of a case with bars of this section, whose K_b (6, 6) is `stiffness`, at an angle, held in a way; its
     bars are bowed in this `plane`."""
 
-    case: Case
+    case: Sized
     section: Section
     stiffness: Floats
     q_deg: float

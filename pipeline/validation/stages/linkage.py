@@ -13,10 +13,9 @@ from fem.linkage import parallelogram
 from fem.path import follow, with_imperfection
 from fem.space import Space
 from pipeline.progress import Stage
-from pipeline.validation.case import Case
 from pipeline.validation.entries import rows
 from pipeline.validation.result import Matrix
-from pipeline.validation.stages.specimen import Specimen
+from pipeline.validation.stages.subject import Sized, SolidBar
 
 HELD_SETS: tuple[tuple[str, ...], ...] = (
     ("y", "z", "rx", "ry", "rz"),
@@ -69,13 +68,13 @@ class SolidStiffness(BaseModel):
     matrix: Matrix
 
 
-def solid_linkage(case: Case, s: Specimen, space: Space, q_deg: float) -> LinearModel:
+def solid_linkage(case: Sized, s: SolidBar, space: Space, q_deg: float) -> LinearModel:
     """The parallelogram of two solid bars at an angle."""
     size = case.linkage
     return LinearModel(parallelogram(space, size.length_mm, size.width_mm, radians(q_deg)), s.material)
 
 
-def solid_stiffness(case: Case, s: Specimen) -> list[SolidStiffness]:
+def solid_stiffness(case: Sized, s: SolidBar) -> list[SolidStiffness]:
     """K_p of the solid linkage at every angle, base frame."""
     found = []
     for q in case.linkage.angles_deg:
@@ -84,7 +83,7 @@ def solid_stiffness(case: Case, s: Specimen) -> list[SolidStiffness]:
     return found
 
 
-def solid_buckling(case: Case, s: Specimen, stage: Stage) -> list[SolidBuckling]:
+def solid_buckling(case: Sized, s: SolidBar, stage: Stage) -> list[SolidBuckling]:
     """Lowest critical loads of the solid linkage, pushed along -x, for every angle and way of holding it."""
     found = []
     for q in case.linkage.angles_deg:
@@ -128,7 +127,7 @@ class Bowed:
         return self.critical / self.tangent
 
 
-def bowed_linkage(case: Case, s: Specimen, q: float, held: tuple[str, ...]) -> Bowed:
+def bowed_linkage(case: Sized, s: SolidBar, q: float, held: tuple[str, ...]) -> Bowed:
     """Both bars with the bow, in the shape of the lowest mode."""
     straight = solid_linkage(case, s, s.path_space, q)
     first: Mode = buckling(straight, held, 1)[0]
@@ -137,7 +136,7 @@ def bowed_linkage(case: Case, s: Specimen, q: float, held: tuple[str, ...]) -> B
     return Bowed(model, held, first.load, slope(model, held), first.plane)
 
 
-def solid_path(case: Case, s: Specimen, q: float, held: tuple[str, ...]) -> SolidPath:
+def solid_path(case: Sized, s: SolidBar, q: float, held: tuple[str, ...]) -> SolidPath:
     """Compression, through the first critical load, and tension."""
     bowed = bowed_linkage(case, s, q, held)
     path = follow(bowed.model, held, list(-bowed.travel * np.array(s.detail.travel)))

@@ -17,12 +17,12 @@ from fem.linear import LinearModel
 from fem.linkage import PLATFORM, Member
 from fem.material import Isotropic
 from fem.prestress import prestress
+from fem.von_mises import blocks_of, von_mises
 from meshes.files import replacing
-from meshes.solid import Floats, SolidMesh
+from meshes.solid import Floats, Ints, SolidMesh
 from pipeline.progress import Stage
-from pipeline.validation.case import Case
 from pipeline.validation.stages.linkage import SolidBuckling, solid_linkage
-from pipeline.validation.stages.specimen import Specimen
+from pipeline.validation.stages.subject import Sized, SolidBar
 
 LENGTH_TO_BEND = 100
 """Length of the bars over the largest displacement of the mode."""
@@ -34,7 +34,7 @@ def shape_name(q_deg: float, held: list[str]) -> str:
 
 
 def linkage_shapes(
-    case: Case, s: Specimen, loads: list[SolidBuckling], folder: Path, stage: Stage
+    case: Sized, s: SolidBar, loads: list[SolidBuckling], folder: Path, stage: Stage
 ) -> list[str]:
     """Write the bent linkage for every critical load, on the mesh of load paths; returns the names."""
     names = []
@@ -61,11 +61,12 @@ def write_shape(model: LinearModel, fields: tuple[Floats, ...], path: Path) -> N
     """Both bars in the base frame, with point data displacement (mm) and stress (von Mises, MPa), as a VTU file."""
     import meshio
 
-    points, cells, moved, stressed, first = [], [], [], [], 0
+    points, moved, stressed, first = [], [], [], 0
+    cells: list[tuple[str, Ints]] = []
     for member, field in zip(model.linkage.members, fields, strict=True):
         mesh, u = member.space.mesh, field.reshape(-1, 3)
         points.append(in_base_frame(member, mesh.points))
-        cells.append(mesh.cells + first)
+        cells += [(kind, own + first) for kind, own in blocks_of(mesh)]
         moved.append(u @ member.turn.T)
         stressed.append(von_mises(nodal_stress(mesh, model.isotropic, u)))
         first += len(mesh.points)
@@ -73,11 +74,7 @@ def write_shape(model: LinearModel, fields: tuple[Floats, ...], path: Path) -> N
         "displacement": np.concatenate(moved).astype(np.float32),
         "stress": np.concatenate(stressed).astype(np.float32),
     }
-    whole = meshio.Mesh(
-        np.concatenate(points),
-        [(model.linkage.members[0].space.mesh.kind, np.concatenate(cells))],
-        point_data=data,
-    )
+    whole = meshio.Mesh(np.concatenate(points), cells, point_data=data)
     with replacing(path) as part:
         meshio.write(part, whole, file_format="vtu")
 
@@ -92,16 +89,10 @@ def nodal_stress(mesh: SolidMesh, material: Isotropic, u: Floats) -> Floats:
     import meshio
     import pyvista
 
-    grid = pyvista.from_meshio(meshio.Mesh(mesh.points, [(mesh.kind, mesh.cells)]))
+    grid = pyvista.from_meshio(meshio.Mesh(mesh.points, list(blocks_of(mesh))))
     grid.point_data["u"] = u
     # Row by row: derivatives of one displacement by x, y, z.
     gradient = np.asarray(grid.compute_derivative(scalars="u", gradient="g")["g"]).reshape(-1, 3, 3)
     strain = 0.5 * (gradient + np.swapaxes(gradient, 1, 2))
     volumetric = np.einsum("naa->n", strain)[:, None, None]
     return 2.0 * material.shear_modulus * strain + material.lame * volumetric * IDENTITY
-
-
-def von_mises(stress: Floats) -> Floats:
-    """Equivalent stress (n,) of stresses (n, 3, 3)."""
-    deviator = stress - np.einsum("naa->n", stress)[:, None, None] / 3.0 * IDENTITY
-    return np.sqrt(1.5 * np.einsum("nab,nab->n", deviator, deviator))

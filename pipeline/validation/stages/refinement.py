@@ -9,12 +9,11 @@ from fem.convergence import SAFETY, extrapolate
 from fem.frame.linkages import ELEMENTS
 from fem.path import follow
 from meshes.solid import Floats
-from pipeline.validation.case import Case
 from pipeline.validation.result import Buckling, Refinement
 from pipeline.validation.stages.frame import FrameLinkage, section_of_bar
 from pipeline.validation.stages.linkage import HELD_SETS, SolidBuckling, SolidPath, bowed_linkage
-from pipeline.validation.stages.specimen import Specimen
 from pipeline.validation.stages.springs import SpringLinkage
+from pipeline.validation.stages.subject import Sized, SolidBar
 from vjm.critical import critical_load
 from vjm.refined import SEGMENTS, Refined
 
@@ -26,7 +25,7 @@ STEPPED_TO = 1.4
 GUIDED = HELD_SETS[1]
 
 
-def solid_end(case: Case, s: Specimen, steps: int) -> float:
+def solid_end(case: Sized, s: SolidBar, steps: int) -> float:
     """The solid's load past the critical one, reached in so many steps, N; RuntimeError if it does not arrive."""
     bowed = bowed_linkage(case, s, case.linkage.angles_deg[0], GUIDED)
     values = bowed.travel * STEPPED_TO * np.arange(1, steps + 1) / steps
@@ -36,7 +35,7 @@ def solid_end(case: Case, s: Specimen, steps: int) -> float:
     return float(path.points[-1].wrench[0])
 
 
-def solid_steps(case: Case, steps: Sequence[int], ends: Sequence[float]) -> Refinement:
+def solid_steps(case: Sized, steps: Sequence[int], ends: Sequence[float]) -> Refinement:
     """The study of these numbers of steps and the loads that were reached."""
     return stepped("solid FE", case.linkage.angles_deg[0], steps, ends)
 
@@ -93,10 +92,12 @@ def frame_elements(frame: FrameLinkage, path: SolidPath) -> Refinement | None:
     )
 
 
-def spring_segments(case: Case, stiffness: Floats, solid: SolidBuckling) -> Refinement:
-    """The refined springs' critical load for more and more segments."""
+def spring_segments(case: Sized, stiffness: Floats, solid: SolidBuckling) -> Refinement | None:
+    """The refined springs' critical load for more and more segments; None where some of them have none."""
     lumped = SpringLinkage(case, stiffness, solid.q_deg, "tip").mechanism
     loads = [float(-critical_load(replace(lumped, bar=Refined(n)), solid.held).load) for n in SEGMENT_COUNTS]
+    if not np.isfinite(loads).all():
+        return None
     found = extrapolate([1 / n for n in SEGMENT_COUNTS], loads)
     return Refinement(
         model="VJM, distributed",
@@ -113,10 +114,10 @@ def spring_segments(case: Case, stiffness: Floats, solid: SolidBuckling) -> Refi
 
 
 def solid_meshes(
-    s: Specimen, path: SolidPath, solid: SolidBuckling, bar: Buckling | None
+    s: SolidBar, path: SolidPath, solid: SolidBuckling, bar: Buckling | None
 ) -> Refinement | None:
     """The solid's critical load on the mesh of its path and on the working mesh; None where the two are one."""
-    if s.detail.path == s.detail.working or bar is None or bar.limit_N is None:
+    if s.path_space.dofs == s.space.dofs or bar is None or bar.limit_N is None:
         return None
     limit = solid.loads[0] * bar.limit_N / bar.load_N
     return Refinement(
@@ -134,8 +135,8 @@ def solid_meshes(
 
 
 def refinements(
-    case: Case,
-    s: Specimen,
+    case: Sized,
+    s: SolidBar,
     stiffness: Floats,
     loads: Sequence[SolidBuckling],
     paths: Sequence[tuple[SolidPath, Buckling | None]],

@@ -9,7 +9,7 @@ from typing import Literal
 import numpy as np
 
 from meshes.solid import Floats
-from pipeline.validation.case import Case
+from pipeline.validation.stages.subject import Sized
 from vjm.branch import buckled_path
 from vjm.closed_forms import in_plane_critical, out_of_plane_cantilever
 from vjm.critical import CriticalLoad, critical_load, drive
@@ -25,7 +25,7 @@ PLACES: tuple[Place, ...] = (*LUMPED, "distributed")
 class SpringLinkage:
     """The parallelogram of a case: springs of the bars lumped at one place, or distributed with geometric stiffness."""
 
-    case: Case
+    case: Sized
     stiffness: Floats
     q_deg: float
     place: Place = "tip"
@@ -90,7 +90,7 @@ class SpringLinkage:
 SpringSet = dict[tuple[float, Place], SpringLinkage]
 
 
-def spring_set(case: Case, stiffness: Floats) -> SpringSet:
+def spring_set(case: Sized, stiffness: Floats) -> SpringSet:
     """Springs at every place, for every angle of the case; what they search for they keep."""
     return {
         (q, place): SpringLinkage(case, stiffness, q, place)

@@ -26,6 +26,7 @@ title = "A short bar"
 [material]
 E_MPa = 70000.0
 nu = 0.33
+yield_MPa = 250.0
 [linkage]
 length_mm = 60.0
 width_mm = 40.0
@@ -57,6 +58,9 @@ def test_record_page_and_figures(pipeline_command: Callable[..., Done], tmp_path
     ]
     assert free["load_N"] == pytest.approx(euler, rel=0.05) and free["plane"] == "xy"
     assert record["geometric"][1][1] == pytest.approx(1.2 / 60.0, rel=0.1)
+    axial = record["stress"]["loads"][0]["body"]
+    assert axial["first_yield"] == pytest.approx(250.0 * 60.0, rel=0.06)
+    assert any(b["beyond_yield"] for b in record["buckling"]) and "Stress under unit loads" in page
     assert set(record["data"]) == {"short.toml"}
 
 

@@ -19,7 +19,7 @@ CASE = """schema = 1
 name = "link"
 title = "A link of two materials"
 [materials]
-LEFT = { E_MPa = 210000.0, nu = 0.3 }
+LEFT = { E_MPa = 210000.0, nu = 0.3, yield_MPa = 600.0 }
 RIGHT = { E1_MPa = 7e4, E2_MPa = 7e4, E3_MPa = 7e4, nu12 = 0.33, nu13 = 0.33, nu23 = 0.33, G12_MPa = 26315.789473684, \
 G13_MPa = 26315.789473684, G23_MPa = 26315.789473684 }
 [bar]
@@ -58,7 +58,19 @@ def test_a_case_with_a_file(pipeline_command: Callable[..., Done], tmp_path: Pat
     # Between Euler's loads of either material all along.
     euler = [np.pi**2 * E * 10 * 6**3 / 12 / 120**2 for E in (70e3, 210e3)]
     assert euler[0] < free["load_N"] < euler[1] and free["plane"] == "xy"
-    assert pipeline_command("run", "link.toml", cwd=tmp_path).err.count("which the command bar takes") == 1
+    # The left half alone has a criterion and a limit: at the latest where the mean stress F / 60 mm² is 600 MPa, and
+    # before that where the other material holds it at x = 30.
+    axial = record["stress"]["loads"][0]
+    assert axial["load"] == "Fx" and 0.6 * 600 * 60 < axial["body"]["first_yield"] < 600 * 60
+    assert axial["body"]["first_yield"] == pytest.approx(600 / axial["body"]["stress"], rel=1e-9)
+    assert all(
+        each[where]["at_mm"][0] <= 30.0 for each in record["stress"]["loads"] for where in ("body", "ends")
+    )
+    for b in record["buckling"]:
+        assert b["beyond_yield"] is (b["load_N"] > axial["body"]["first_yield"])
+    assert {b["beyond_yield"] for b in record["buckling"]} == {True, False}
+    assert "brings the first fibre" in said
+    assert "Stress under unit loads" in (folder / "index.html").read_text()
 
 
 @pytest.mark.parametrize(
@@ -104,7 +116,7 @@ def test_a_file_with_options(tmp_path: Path) -> None:
 def test_from_cad_to_a_diagnosis_with_nothing_typed_between(
     pipeline_command: Callable[..., Done], tmp_path: Path
 ) -> None:
-    """STEP, bar, init --from, simulate, diagnose: the record hands on all that the next step needs."""
+    """STEP, bar, init --from, simulate, diagnose, add, predict: the record hands on all that the next step needs."""
 
     def rod() -> None:
         import gmsh
@@ -140,6 +152,12 @@ def test_from_cad_to_a_diagnosis_with_nothing_typed_between(
     answer = json.loads((tmp_path / "answer.json").read_text())
     assert answer["verdict"] in ("identified", "ambiguous")
     assert "joint_friction" in {e for each in [answer["effects"], *answer["alternatives"]] for e in each}
+    done("add", "hidden", *answer["effects"], "--quiet")
+    done("predict", "hidden", "--json", "predicted.json", "--quiet")
+    predicted = json.loads((tmp_path / "predicted.json").read_text())
+    assert predicted["held_out"]["of"] > 100
+    assert predicted["held_out"]["inside"] > 0.85 * predicted["held_out"]["of"]
+    assert predicted["comparison"] and predicted["budget"]
     record = json.loads((tmp_path / "rod" / "bar.json").read_text())
     assert record["stiffness"][0][0] == pytest.approx(7e4 * 160 / 250, rel=0.01)
     text = (tmp_path / "hidden" / "campaign.toml").read_text()

@@ -6,6 +6,7 @@ from pathlib import Path
 
 import numpy as np
 
+from pipeline.bar.record import BarRecord, MeshRecord
 from pipeline.export.content import Export
 from pipeline.export.formats import module_of
 from pipeline.export.source import Sources, exported
@@ -60,6 +61,37 @@ def campaign(
     if effects:
         (folder / "model.toml").write_text(model_text(effects))
     return folder
+
+
+def brought(folder: Path, wide: bool = True) -> Path:
+    """The record of a bar that came as a file, with a 6x6 that couples all directions; wide: of a linkage."""
+    folder.mkdir(parents=True)
+    k_b = coupled()
+    record = BarRecord(
+        name="brought",
+        title="Brought",
+        length_mm=LENGTH,
+        width_mm=WIDTH if wide else None,
+        ends={"base": "a bore", "tip": "a bore"},
+        tie="rigid",
+        material={"E_MPa": 7e4, "nu": 0.33},
+        stiffness=k_b.tolist(),
+        extrapolated=k_b.tolist(),
+        numerical_band={"K11": 0.001},
+        modelling_band={"K11": 0.01},
+        modelling={},
+        geometric=np.zeros((6, 6)).tolist(),
+        geometric_numerical_band={},
+        buckling=[],
+        mesh=MeshRecord(kind="tetra10", cells=1, dofs=30, study_dofs=[30], quality={}),
+        said=[],
+        seconds={},
+        versions={},
+        commit="",
+        command="",
+    )
+    record.write(folder / "bar.json")
+    return folder / "bar.json"
 
 
 def model_text(effects: dict[str, dict[str, float]]) -> str:

@@ -83,7 +83,7 @@ def bad(tmp_path: Path) -> dict[str, tuple[list[object], str]]:
         ),
         "empty folder": (
             [tmp_path / "none", "--to", "json", out],
-            "has neither campaign.toml nor result.json",
+            "has neither campaign.toml nor result.json nor bar.json",
         ),
         "another json": ([text, "--to", "json", out], "is not a saved result"),
         "another file": ([bench / "measurements.csv", "--to", "json", out], "is no result of run"),

@@ -12,9 +12,20 @@ from scipy.io import loadmat
 from scipy.spatial.transform import Rotation
 
 from pipeline.validation.result import Result
-from tests.pipeline.export.sources import ANGLES, KEPT, LENGTH, UNEQUAL, WIDTH, campaign, coupled, written
+from tests.pipeline.export.sources import (
+    ANGLES,
+    KEPT,
+    LENGTH,
+    UNEQUAL,
+    WIDTH,
+    brought,
+    campaign,
+    coupled,
+    written,
+)
 from vjm.frames import rotate_stiffness, rotation_y
-from vjm.stiffness import closed_form
+from vjm.mechanisms.parallelogram import Parallelogram
+from vjm.stiffness import closed_form, unloaded_stiffness
 
 
 def expected(path: Path) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
@@ -134,3 +145,17 @@ def test_the_bars_stand_where_the_model_has_them(tmp_path: Path) -> None:
     np.testing.assert_allclose(off.linkage.tips, at.linkage.tips, atol=1e-10)
     wanted = at.linkage.whole.matrix
     assert np.abs(off.linkage.whole.matrix - wanted).max() < 1e-10 * np.abs(wanted).max()
+
+
+@pytest.mark.parametrize("to", ["json", "npz", "mat", "urdf", "mjcf", "exudyn"])
+def test_every_format_takes_a_brought_bar(to: str, tmp_path: Path) -> None:
+    """With a width it is a linkage, whose bar and K_p are there; without one it is a bar. A folder does as well."""
+    linked, files = written(brought(tmp_path / "linked").parent, to, tmp_path / "a")
+    alone, more = written(brought(tmp_path / "alone", wide=False), to, tmp_path / "b")
+    assert files and more and all(path.stat().st_size for path in (*files, *more))
+    for it in (linked, alone):
+        np.testing.assert_array_equal(it.bars[0].matrix, coupled())
+    assert [each.q_deg for each in linked.linkages] == [0.0] and not alone.linkages
+    mechanism = Parallelogram(LENGTH, WIDTH, coupled())
+    k_p = unloaded_stiffness(mechanism)
+    np.testing.assert_allclose(linked.linkages[0].whole.matrix, k_p, atol=1e-9 * np.abs(k_p).max())

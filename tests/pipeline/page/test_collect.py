@@ -6,6 +6,7 @@ from collections import defaultdict
 from collections.abc import Callable
 from functools import cache
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -25,7 +26,9 @@ from pipeline.page.command import report_campaign, write_page
 from pipeline.page.isolability import isolability, isolability_anew
 from pipeline.page.record import Page
 from pipeline.page.words import why
-from reports.blocks import Details, Table
+from reports import markdown
+from reports.blocks import Details, Section, Table
+from reports.campaign import dossier
 from reports.campaign.sections import build
 from tests.conftest import Done
 from tests.pipeline.bench import bench
@@ -84,6 +87,12 @@ def test_the_page_survives_json_and_says_what_was_held_out() -> None:
     assert page().headline.startswith("within_noise: ")
 
 
+def render(page: dict[str, Any]) -> str:
+    """The dossier of a page as Markdown."""
+    parts = list(dossier.blocks(page["dossier"]))
+    return markdown.render("page", [Section("dossier", "Validation dossier", parts)])
+
+
 def test_an_answer_brings_its_model_and_its_words() -> None:
     answer, model = softened()
     tried = (
@@ -96,6 +105,11 @@ def test_an_answer_brings_its_model_and_its_words() -> None:
     assert found.proposed == EFFECTS and found.headline == answer.sentences[0]
     assert found.candidates[0].chosen and found.candidates[0].why == "chosen"
     assert "explains too little: 9.00 sigma" in found.candidates[1].why
+    it = found.dossier
+    assert it is not None and not found.not_done and it.comparison and it.readings > 0
+    assert [each.parameter for each in it.budget] == list(found.parameters)
+    text = render(found.model_dump(mode="json"))
+    assert "Validation dossier" in text and "u_num" in text and "what limits each parameter" in text
 
 
 def test_a_saved_answer_is_shown_with_the_matrix_that_the_diagnosis_had() -> None:

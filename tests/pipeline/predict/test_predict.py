@@ -9,15 +9,16 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from pipeline.campaign import write
+from pipeline.campaign import Campaign, ParallelogramRig, write
+from pipeline.campaign.bar_from import BarFrom
 from pipeline.errors import InputError
 from pipeline.inference.model import Model
 from pipeline.inference.model_file import ModelFile, write_model
 from pipeline.predict.asked import Asked, own_rows, read_table
 from pipeline.predict.command import Asking, predict_readings
-from pipeline.predict.comparison import area
+from pipeline.predict.comparison import area, numerical
 from pipeline.predict.files import compensation_table
-from pipeline.predict.predicting import fitted_to, predicted
+from pipeline.predict.predicting import fitted_as, fitted_to, predicted
 from pipeline.predict.recording import recorded
 from pipeline.predict.words import about
 from pipeline.simulate import bench_rig
@@ -208,3 +209,39 @@ def test_the_area_metric_is_that_of_known_distributions() -> None:
     assert area(np.full(5, 0.5)) == pytest.approx(0.25)
     assert area(np.zeros(4)) == pytest.approx(0.5)
     assert area((np.arange(100) + 0.5) / 100) == pytest.approx(0.0025, rel=1e-6)
+
+
+def computed(share: float) -> Campaign:
+    """The bench with a bar from a computation whose bands are this share of the tolerance of EIz, 0.02."""
+    bands = {"EIz": 0.6 * 0.02 * share}, {"EIz": 0.8 * 0.02 * share}
+    campaign = bench()
+    rig = campaign.rig
+    assert isinstance(rig, ParallelogramRig)
+    bar = BarFrom(Path("bar.json"), rig.stiffness, None, rig.length, rig.width, *bands)
+    return replace(campaign, rig=replace(rig, computed=bar))
+
+
+def test_what_the_computation_of_a_bar_puts_in_is_u_num() -> None:
+    """Of the variance that the prior of EIz puts into a prediction the share (band / tolerance)²; the rest of it is
+    u_input, and u_val is what it was."""
+    plain = predicted(fitted(), own_rows(bench()))
+    assert not numerical(plain).any()
+    whole, half = (
+        predicted(fitted_as(fitted().fit, computed(share)), own_rows(computed(share))) for share in (1.0, 0.5)
+    )
+    posterior = whole.tangent.posterior
+    place = posterior.count + [each.name for each in posterior.numbers].index("EIz")
+    # A second way: what a shift of the prior's mean by one deviation does to the estimate, by the normal equations.
+    shift = np.linalg.solve(posterior.precision, np.eye(len(posterior.precision))[place])
+    slopes = np.concatenate(
+        [whole.tangent.found.by_free * posterior.sizes, whole.tangent.by_nominal], axis=-1
+    )
+    np.testing.assert_allclose(numerical(whole), np.abs(slopes @ shift), rtol=1e-9, atol=1e-15)
+    np.testing.assert_allclose(numerical(half), 0.5 * numerical(whole), rtol=1e-9)
+    assert numerical(whole).max() > 0.0
+    before = {each.column: each for each in recorded(plain).comparison}
+    for each in recorded(whole).comparison:
+        assert each.u_num**2 + each.u_input**2 == pytest.approx(before[each.column].u_input ** 2, rel=1e-9)
+        assert each.u_val == pytest.approx(before[each.column].u_val, rel=1e-9)
+        assert each.u_num <= before[each.column].u_input
+    assert any(each.u_num > 0.01 * each.u_val for each in recorded(whole).comparison)

@@ -2,12 +2,20 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
+import numpy as np
 import pytest
 
-from pipeline.predict.study.__main__ import OUT, STORE
+from fem.beam import uniform_stiffness
+from pipeline.campaign import ParallelogramRig
+from pipeline.challenge.benches import drawn_rig
+from pipeline.predict.study.__main__ import NAMES, OUT, STORES
+from pipeline.predict.study.off import drawn_off, scaled
 from pipeline.predict.study.table import HIGH, LEAST, LOW, Study, page, study
 from pipeline.predict.study.trial import Counts, Trial, trial
 from pipeline.trials import kept
+from pipeline.virtual.plan import bench_plan
 from tests.conftest import ROOT
 
 NUMBER = 10
@@ -51,7 +59,7 @@ def test_a_study_that_names_nothing_has_no_page() -> None:
 def test_the_kept_study_is_that_of_its_trials_and_as_wanted() -> None:
     """93 to 97 % of all readings together, at the fitted loads and at 1.5 times them, no case under 85 %."""
     found = Study.model_validate_json((ROOT / OUT / "predict.json").read_text(encoding="utf-8"))
-    assert found == study(kept(ROOT / STORE, Trial))
+    assert found == study(kept(ROOT / OUT / STORES[False], Trial))
     assert (ROOT / OUT / "predict.md").read_text(encoding="utf-8") == page(found)
     assert found.named >= 20
     for part in (found.held, found.far):
@@ -59,9 +67,54 @@ def test_the_kept_study_is_that_of_its_trials_and_as_wanted() -> None:
         assert part.least >= LEAST and not part.below
 
 
+def test_the_kept_study_with_tolerances_is_that_of_its_trials() -> None:
+    found = Study.model_validate_json((ROOT / OUT / f"{NAMES[True]}.json").read_text(encoding="utf-8"))
+    assert found == study(kept(ROOT / OUT / STORES[True], Trial))
+    text = (ROOT / OUT / f"{NAMES[True]}.md").read_text(encoding="utf-8")
+    assert text == page(found, tolerances=True) and "drawn from them" in text and "--tolerances" in text
+    assert max(map(len, text.splitlines())) <= 120
+
+
+def test_a_bench_is_off_by_what_its_tolerances_say_and_nothing_else() -> None:
+    """Over many cases: no bias, one standard deviation; the same number is the same bench; a 6x6 is scaled as the
+    uniform bar that it is the 6x6 of."""
+    rig = drawn_rig(np.random.default_rng(1))
+    assert rig.bar is not None
+    off = [drawn_off(rig, number) for number in range(400)]
+    usual = rig.usual_tolerance
+    for key, values, written in (
+        ("EA", [it.rig.bar.EA / rig.bar.EA for it in off], 1.0),
+        ("EIy", [it.rig.bar.EIy / rig.bar.EIy for it in off], 1.0),
+        ("length_mm", [it.rig.length for it in off], rig.length),
+        ("width_mm", [it.rig.width for it in off], rig.width),
+        ("q_mrad", [1e3 * it.angle for it in off], 0.0),
+    ):
+        assert np.std(values) == pytest.approx(usual[key], rel=0.15), key
+        assert abs(np.mean(values) - written) < 4.0 * usual[key] / np.sqrt(len(off)), key
+    again = drawn_off(rig, 3)
+    assert (again.rig.bar, again.rig.length, again.angle) == (off[3].rig.bar, off[3].rig.length, off[3].angle)
+    (moved,) = off[3].plan(bench_plan(8)[:1])
+    assert np.radians(moved.q_deg - bench_plan(8)[0].q_deg) == pytest.approx(off[3].angle)
+    factors = {"EA": 1.1, "EIy": 0.9, "EIz": 1.3, "GJ": 0.8}
+    b = rig.bar
+    wanted = uniform_stiffness(rig.length, 1.1 * b.EA, 0.9 * b.EIy, 1.3 * b.EIz, 0.8 * b.GJ)
+    np.testing.assert_allclose(scaled(rig.stiffness, factors), wanted, atol=1e-9 * wanted.max())
+    written = replace(rig, bar=None, bar_stiffness=rig.stiffness)
+    as_matrix = drawn_off(written, 3).rig
+    np.testing.assert_allclose(
+        as_matrix.stiffness, scaled(rig.stiffness, _factors(off[3].rig, rig)), rtol=1e-9, atol=1e-6
+    )
+
+
+def _factors(there: ParallelogramRig, written: ParallelogramRig) -> dict[str, float]:
+    """What the stiffnesses of the section are scaled by."""
+    assert there.bar is not None and written.bar is not None
+    return {key: getattr(there.bar, key) / getattr(written.bar, key) for key in ("EA", "EIy", "EIz", "GJ")}
+
+
 @pytest.mark.long
 def test_a_case_of_the_study_comes_out_again() -> None:
-    (before,) = (it for it in kept(ROOT / STORE, Trial) if it.number == NUMBER)
+    (before,) = (it for it in kept(ROOT / OUT / STORES[False], Trial) if it.number == NUMBER)
     again = trial(NUMBER, "now")
     assert (again.verdict, again.sets) == (before.verdict, before.sets)
     assert again.held.of == before.held.of and again.far.of == before.far.of
