@@ -38,6 +38,13 @@ class Criteria:
     scatter_factor: float = criterion(
         1.15, FACTOR, "evidence", "scatter up to so many sigmas, without any order, is put down to the sigmas"
     )
+    negligible: float = criterion(
+        0.1,
+        SIGMA,
+        "evidence",
+        "what is left has no order that counts below this: noise of the sigmas that are given leaves ten times as much "
+        "and a smaller scatter has already taken their place, so that the readings were computed",
+    )
     # When a rival is excluded.
     exclusion: float = criterion(
         5.0,
@@ -168,6 +175,12 @@ class Criteria:
         "doctor",
         "by which what the best single effect leaves falls where a mistake of the table is mended: forces in kgf take "
         "3.7 to 5.4, benches without a mistake 1.3",
+    )
+    doctor_readings: int = criterion(
+        4,
+        COUNT,
+        "doctor",
+        "degrees of freedom from which mistakes are looked for: one or two numbers of an effect meet fewer readings",
     )
     doctor_explains: float = criterion(
         25.0, CHI2, "doctor", "of a reading in a column that is mended, at least: less may be silence"
@@ -336,6 +349,12 @@ class Criteria:
         CHI2,
         "plan",
         "between two models in a further test, beyond which more is of no use; half of it tells them",
+    )
+    fault_share: float = criterion(
+        0.5,
+        SHARE,
+        "sensors",
+        "of the span of what a sensor read, beyond which a drift or a settling of its zero is no fault of it",
     )
     faults_looked_at: int = criterion(
         3, COUNT, "sensors", "faults of sensors that promise most, beside the best set and beside none"
