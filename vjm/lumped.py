@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache
 from typing import Literal
 
 import numpy as np
 
-from vjm.bars import Limb, check_station, compliance_at_tip, spring_joints
-from vjm.chain import Element, Fixed, Mark
+from vjm.bars import Limb, X, Y, Z, check_station, compliance_at_tip, spring_joints
+from vjm.chain import Element, Fixed, Joint, Mark, Role
 from vjm.frames import Array, move_stiffness
 from vjm.link import ByValue, Link
 from vjm.refined import Refined
@@ -26,7 +26,8 @@ class Lumped:
     """All six springs at one place of an otherwise rigid bar (Eq. 1: at the tip).
 
     A bow enters as the compliance that a bowed bar has at its tip, and in no other way. A bar that yields has
-    no such model: it is refined instead.
+    no such model: it is refined instead. With the springs at the tip a point between the ends moves as the axis of a
+    uniform bar that is loaded at its tip only, a cubic; with the springs elsewhere the parts beside them are rigid.
     """
 
     spring_at: SpringAt = "tip"
@@ -35,7 +36,7 @@ class Lumped:
         if link.fibres is not None:
             return Refined().limb(link)
         before = STATION[self.spring_at] * link.length
-        elements: tuple[Element, ...] = (_ahead(before), *spring_joints(), _ahead(link.length - before))
+        elements: tuple[Element, ...] = (_ahead(before), *_SPRINGS, _ahead(link.length - before))
         stretch = np.eye(6)[0]
         # A uniform load is half at either end with w L²/12 each: half at a sixth of the length from the end.
         sixth = np.array([link.length / 6, 0.0, 0.0])
@@ -48,6 +49,8 @@ class Lumped:
             return Refined().reach(link, station)
         check_station(station)
         place = STATION[self.spring_at]
+        if place == 1.0 > station:
+            return _shape(link.length, station)
         if station < place:
             return (_ahead(station * link.length),)
         *front, _ = self.limb(link).elements
@@ -66,6 +69,23 @@ class Lumped:
 def _bowed(key: ByValue) -> Array:
     """(6, 6) compliance at the tip of a bowed bar and its ends."""
     return compliance_at_tip(Refined(_BOWED).limb(key.link))
+
+
+# Named, so that a point between the ends may follow them by its share.
+_SPRINGS = tuple(replace(joint, tie=f"spring{k}") for k, joint in enumerate(spring_joints()))
+
+
+def _shape(length: float, station: float) -> tuple[Element, ...]:
+    """To the axis at a station: y = y_tip (3 s² - 2 s³) + L rz_tip (s³ - s²), z alike with -ry, x in proportion.
+
+    These are the shapes of a uniform beam by its tip's displacement and slope, Hermite's cubics.
+    """
+    shift, slope = station**2 * (3.0 - 2.0 * station), length * station**2 * (station - 1.0)
+    followed = ((X, 0, station), (Y, 1, shift), (Y, 5, slope), (Z, 2, shift), (Z, 4, -slope))
+    joints = (
+        Joint("translation", axis, Role.VIRTUAL, f"spring{spring}", share) for axis, spring, share in followed
+    )
+    return (_ahead(station * length), *joints)
 
 
 def _ahead(distance: float) -> Fixed:

@@ -59,6 +59,8 @@ class Refined:
 
     segments: n. polar_radius: radius of gyration of the section about the bar's axis, mm; a twist phi_x of
     a segment lengthens its fibres by polar_radius² phi_x² / (2 l) (Wagner), 0 leaves that out.
+    A deep strip under a load across its free end buckles sideways 2.1 % late with six segments, an error that falls
+    with the square of their number: twist is uniform in a segment, that of a strip under a moment is not.
     ValueError for fewer than one segment.
     """
 

@@ -138,6 +138,28 @@ class DeadWeight:
 
 
 @dataclass(frozen=True, eq=False)
+class ReadAt:
+    """Displacements are read at a point at r (3,), mm, from the platform point, base frame in the nominal pose, that
+    moves with the platform as one rigid body; the load acts at the platform point all the same."""
+
+    r: Array
+    stage: ClassVar[int] = 2
+
+    def read(self, channels: Array) -> Channels:
+        phi = channels[..., 3:6]
+        arm = np.asarray(exp(phi) @ self.r)
+        values = channels.copy()
+        values[..., :3] += arm
+
+        def slopes() -> Array:
+            slope = _unit(channels)
+            slope[..., :3, 3:6] = -skew(arm) @ rotation_jacobian(phi)
+            return slope
+
+        return Channels(values, slopes)
+
+
+@dataclass(frozen=True, eq=False)
 class CellOffset:
     """A cell whose point lies at r (3,), mm, from the platform point, base frame: it reads m - r x f."""
 

@@ -53,7 +53,7 @@ class Judgement:
 def judge(found: Fit, criteria: Criteria = CRITERIA) -> Judgement:
     """The residual of a fit, of the fitted tests and of those held out."""
     level = criteria.check_level
-    size, order = _size(found, level), _order(found, level)
+    size, order = _size(found, level), _order(found, criteria)
     scatter = 1.0
     if not size.passed and order.passed and found.rms <= criteria.scatter_factor:
         scatter = found.rms
@@ -91,7 +91,11 @@ def _size(found: Fit, level: float) -> Check:
     return Check(SIZE, p, f"what is left is {sigma(found.rms)} sigma", level)
 
 
-def _order(found: Fit, level: float) -> Check:
+def _order(found: Fit, criteria: Criteria) -> Check:
+    level = criteria.check_level
+    if found.rms < criteria.negligible:
+        words = f"what is left, {sigma(found.rms)} sigma, is too little for its order to count"
+        return Check(ORDER, 1.0, words, level)
     try:
         check = lag_one(list(_paths(found).values()))
     except ValueError as error:

@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 from pipeline.campaign import Campaign
 from pipeline.diagnose.faulty import least_with_a_fault
 from pipeline.diagnose.merit import badness, implausibility
-from pipeline.diagnose.picture import picture
+from pipeline.diagnose.picture import Picture, picture
 from pipeline.diagnose.shelf import Names, Shelf
 from pipeline.diagnose.signatures import look
 from pipeline.doctor.mistakes import possible
@@ -60,7 +60,7 @@ def suspicions(shelf: Shelf) -> tuple[Suspicion, ...]:
     plain = {name: it for name, it in shelf.candidates.items() if it.smooth}
     table = Table.of(Shelf(some, shelf.base, plain, shelf.say, criteria, before=shelf))
     if (
-        table.fit.degrees < criteria.few_readings
+        table.fit.degrees < criteria.doctor_readings
         or _near(table.fit, criteria)
         or _near(table.plain.fit, criteria)
     ):
@@ -132,14 +132,32 @@ class Table:
 
     def first_order_of(self, found: Fit) -> float:
         """The same of a fit of a table that is like this one."""
-        known = self.shelf.picture(self.root)
-        if not known.signatures:
-            return found.chi_square
-        here = picture(
-            found, list(known.signatures.values()), self.shelf.at, {}, self.shelf.criteria.plausible
+        here = self._first_order_picture(found)
+        gains = [here.gain([name]).value for name in here.signatures if self._allowed(here, name)]
+        return max(found.chi_square - max(gains, default=0.0), 0.0)
+
+    @cached_property
+    def leaves_bounds(self) -> bool:
+        """Whether an effect would explain most with a number beyond its bounds, to first order: what it does within
+        them only a fit can tell."""
+        here = self._first_order_picture(self.fit)
+        gains = {name: here.gain([name]).value for name in here.signatures}
+        return bool(gains) and not self._allowed(here, max(gains, key=gains.__getitem__))
+
+    def _first_order_picture(self, found: Fit) -> Picture:
+        known = self.shelf.picture(self.root).signatures
+        return picture(found, list(known.values()), self.shelf.at, {}, self.shelf.criteria.plausible)
+
+    def _allowed(self, here: Picture, name: str) -> bool:
+        """Whether the numbers of an effect lie within its bounds, to first order: a stiffness below zero explains a
+        lost sign."""
+        _, sizes = here.alone(name)
+        parameters = self.shelf.candidates[name].parameters
+        low, high = (
+            np.array([(bound - p.null) / p.typical for p, bound in zip(parameters, bounds, strict=True)])
+            for bounds in ([p.low for p in parameters], [p.high for p in parameters])
         )
-        best = max(here.gain([name]).value for name in here.signatures)
-        return max(found.chi_square - best, 0.0)
+        return bool(np.all((sizes >= low) & (sizes <= high)))
 
     @cached_property
     def left(self) -> tuple[float, Names]:
@@ -180,7 +198,7 @@ def _found(table: Table, promising: list[Mistake], fault: float) -> list[Suspici
         return []
     before = min(table.first_order, table.plain.first_order, fault)
     least = min(mended.first_order for _, mended in enough)
-    if before < criteria.doctor_sure * least:
+    if before < criteria.doctor_sure * least or table.leaves_bounds:
         before = min(before, table.left[0])
     out: list[Suspicion] = []
     for mistake, mended in sorted(enough, key=lambda it: it[1].first_order):

@@ -11,22 +11,41 @@ from collections.abc import Iterable, Mapping
 
 import numpy as np
 
+from pipeline.campaign import Campaign
+from pipeline.campaign.names import channel_columns
 from pipeline.diagnose.shelf import Names, Shelf
 from pipeline.inference.suitable import columns_read
+from pipeline.selection.criteria import Criteria
 from vjm.effects.base import Effect
 from vjm.effects.sensor_fault import SensorFault
 
 
-def faults_of(known: Iterable[Effect], columns: tuple[str, ...]) -> dict[str, SensorFault]:
-    """Every fault that sensors of these columns may have, of the kinds that are known."""
+def faults_of(known: Iterable[Effect], campaign: Campaign, criteria: Criteria) -> dict[str, SensorFault]:
+    """Every fault that the sensors of a campaign may have, of the kinds that are known.
+
+    None is larger than a share of what its sensor read: one that is replaces the readings, and would explain a lost
+    sign or a wrong column as well.
+    """
     kinds = [it for it in known if isinstance(it, SensorFault) and not it.column]
-    every = (kind.at(site) for kind in kinds for site in kind.sites(columns))
-    return {it.name: it for it in every}
+    most = _most(campaign, criteria.fault_share)
+    every = (kind.at(site) for kind in kinds for site in kind.sites(columns_read(campaign)))
+    return {it.name: it.limited(most[it.column]) if it.column in most else it for it in every}
+
+
+def _most(campaign: Campaign, share: float) -> dict[str, float]:
+    """By column this share of the span of its readings, where they have any."""
+    readings = np.concatenate([test.data.readings for test in campaign.tests])
+    out = {}
+    for name, values in zip(channel_columns(campaign.gauges), readings.T, strict=True):
+        values = values[np.isfinite(values)]
+        if values.size and (span := float(np.ptp(values))) > 0.0:
+            out[name] = share * span
+    return out
 
 
 def with_promising_faults(shelf: Shelf, known: Iterable[Effect], best: Names) -> Shelf | None:
     """The same with the faults that promise most beside the effects; None where none promises anything."""
-    every = faults_of(known, columns_read(shelf.whole.campaign))
+    every = faults_of(known, shelf.whole.campaign, shelf.criteria)
     every = {name: it for name, it in every.items() if name not in shelf.candidates}
     criteria, chosen = shelf.criteria, []
     for names in dict.fromkeys([best, frozenset[str]()]):
@@ -43,14 +62,16 @@ def with_promising_faults(shelf: Shelf, known: Iterable[Effect], best: Names) ->
 
 def least_with_a_fault(shelf: Shelf, names: Names, known: Iterable[Effect]) -> float:
     """Chi-square that the fault of one sensor leaves beside a set, to first order; of a plausible size."""
-    every = faults_of(known, columns_read(shelf.whole.campaign))
+    every = faults_of(known, shelf.whole.campaign, shelf.criteria)
     beside = {name: shelf.candidates[name] for name in shelf.order(names)}
     there = shelf.with_candidates({**beside, **every}).picture(names)
     falls = [0.0]
     for name in every:
         if name in there.signatures:
             fall, sizes = there.alone(name)
-            if np.abs(sizes).max(initial=0.0) <= shelf.criteria.plausible:
+            most = [max(-p.low, p.high) / p.typical for p in every[name].parameters]
+            within = np.abs(sizes) <= np.minimum(most, shelf.criteria.plausible)
+            if within.all():
                 falls.append(fall)
     return shelf.fit(names).chi_square - max(falls)
 

@@ -84,7 +84,8 @@ def _verdict(it: Diagnosis, answer: Answer) -> Iterator[str]:
         yield f"nothing_tested: {asked}With that zero unknown no reading is left to test a model by."
         return
     rms, before = it.fit.rms, it.shelf.fit(frozenset()).rms
-    fall = f"the error falls from {sigma(before)} to {sigma(rms)} sigma (1 is noise)"
+    way = "the error falls" if rms <= before else "but the error does not fall: it goes"
+    fall = f"{way} from {sigma(before)} to {sigma(rms)} sigma (1 is noise)"
     if it.verdict == "within_noise":
         yield f"within_noise: the model explains the measurements, {sigma(rms)} sigma are left (1 is noise)."
     elif it.verdict == "identified":

@@ -32,8 +32,9 @@ def _first(it: Discovered) -> Iterator[str]:
         )
         return
     names = [law.where for law in it.laws] + [each.effect for each in it.entered]
+    falls = "falls" if (after.fit or 0.0) <= (before.fit or 0.0) else "goes"
     yield (
-        f"What is left sits here: {'; '.join(names)}. The error falls from {sigma(before.fit)} to {sigma(after.fit)} "
+        f"What is left sits here: {'; '.join(names)}. The error {falls} from {sigma(before.fit)} to {sigma(after.fit)} "
         "sigma in the fitted tests"
         + (
             f", from {sigma(before.holdout)} to {sigma(after.holdout)} in those held out."

@@ -177,11 +177,11 @@ def _of_campaign(campaign: Campaign, asked: Sources) -> _Found:
         model = read_model_file(file, known, campaign.rig).model
         digests[file.name] = _digest(file)
     try:
-        _built(campaign.rig, model)
+        _built(campaign.rig.drawn, model)
     except ValueError as error:
         raise InputError(f"{file}: {error}") from error
     angles = dict.fromkeys(test.q_deg for test in campaign.tests)
-    return _Found(model, partial(_built, campaign.rig), tuple(angles), digests)
+    return _Found(model, partial(_built, campaign.rig.drawn), tuple(angles), digests)
 
 
 def _built(rig: Rig, model: Model) -> Bar | Parallelogram:

@@ -12,12 +12,12 @@ from fem.frame import bench
 from fem.frame.errors import Errors
 from fem.frame.history import AFTER_FAILURE
 from fem.frame.newton import REASONS, SINGULAR
-from fem.frame.rig import Gauge as FrameGauge
 from pipeline.campaign import ManipulatorRig, Rig, RigOfBars
 from pipeline.campaign.names import DISPLACEMENT, SUPPORT
 from pipeline.inference.predicted import Prediction, moved_along, no_slides, no_stops, zeroed
 from pipeline.inference.program import INPUTS, Group, Program
 from pipeline.manipulator.frame import frame_stiffness
+from pipeline.virtual import loaded_at
 from pipeline.virtual.bench import frame_rig
 from vjm.reasons import Reason
 
@@ -48,7 +48,7 @@ def by_elements(rig: Rig, program: Program, tangent: Callable[[], Prediction], m
 @by_elements.register
 def _of_bars(rig: RigOfBars, program: Program, tangent: Callable[[], Prediction], moved: Array) -> Prediction:
     campaign = program.campaign
-    trials = []
+    trials, rigs = [], []
     for number, test in enumerate(campaign.tests):
         assert isinstance(test.rig, RigOfBars)
         trials.append(
@@ -57,11 +57,11 @@ def _of_bars(rig: RigOfBars, program: Program, tangent: Callable[[], Prediction]
                 tuple(DISPLACEMENT if by == SUPPORT else by for by in test.control),
                 test.inputs(campaign.gauges) + moved[program.test == number, :6],
                 None,
-                None if test.rig is rig else frame_rig(test.rig),
+                frame_rig(test.rig),
             )
         )
-    sights = [FrameGauge(g.name, g.bar, g.station, g.vector, g.offset) for g in campaign.gauges]
-    found = bench.run(frame_rig(rig), Errors(), trials, sights)
+        rigs.append(test.rig)
+    found = loaded_at.run(rigs, trials, campaign.gauges, Errors())
     values = np.concatenate([np.hstack([r.displacement, r.wrench, r.gauges]) for r in found])
     converged = np.concatenate([r.converged for r in found])
     buckled = np.concatenate([r.negative for r in found]) > 0

@@ -38,6 +38,9 @@ class Criteria:
     scatter_factor: float = criterion(
         1.15, FACTOR, "evidence", "scatter up to so many sigmas, without any order, is put down to the sigmas"
     )
+    negligible: float = criterion(
+        0.1, SIGMA, "evidence", "what is left has no order that counts below this: it was computed"
+    )
     # When a rival is excluded.
     exclusion: float = criterion(
         5.0,
@@ -66,10 +69,7 @@ class Criteria:
         fits=True,
     )
     equal_within: float = criterion(
-        1e-6,
-        SHARE,
-        "exclusion",
-        "1 - rho, rho the correlation, below which two effects are one in all readings",
+        1e-6, SHARE, "exclusion", "1 - rho, rho the correlation, below which two effects are one"
     )
     confusable_within: float = criterion(
         0.1, SHARE, "plan", "1 - rho below which a candidate is listed as one that looks like a named effect"
@@ -169,6 +169,9 @@ class Criteria:
         "by which what the best single effect leaves falls where a mistake of the table is mended: forces in kgf take "
         "3.7 to 5.4, benches without a mistake 1.3",
     )
+    doctor_readings: int = criterion(
+        4, COUNT, "doctor", "degrees of freedom from which mistakes of a table are looked for"
+    )
     doctor_explains: float = criterion(
         25.0, CHI2, "doctor", "of a reading in a column that is mended, at least: less may be silence"
     )
@@ -187,10 +190,7 @@ class Criteria:
     doctor_fitted: int = criterion(4, COUNT, "doctor", "mistakes that are fitted, those that promise most")
     doctor_steps: int = criterion(100, COUNT, "doctor", "load steps in which mistakes are looked for")
     doctor_far: float = criterion(
-        4.0,
-        FACTOR,
-        "doctor",
-        "what a mistake leaves, beyond which another one is to first order no tie of it",
+        4.0, FACTOR, "doctor", "what a mistake leaves, beyond which another one is no tie of it"
     )
     doctor_effects: int = criterion(2, COUNT, "doctor", "single effects that are fitted on either side")
     # How far the search goes.
@@ -336,6 +336,9 @@ class Criteria:
         CHI2,
         "plan",
         "between two models in a further test, beyond which more is of no use; half of it tells them",
+    )
+    fault_share: float = criterion(
+        0.5, SHARE, "sensors", "of the span that a sensor read, beyond which its zero does not move"
     )
     faults_looked_at: int = criterion(
         3, COUNT, "sensors", "faults of sensors that promise most, beside the best set and beside none"

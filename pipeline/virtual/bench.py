@@ -11,13 +11,13 @@ from fem.frame import bench
 from fem.frame.errors import Errors
 from fem.frame.linkages import ELEMENTS
 from fem.frame.placed import Placed
-from fem.frame.rig import Gauge as FrameGauge
 from fem.frame.rig import Rig as FrameRig
 from fem.frame.section import Section, uniform
 from pipeline.campaign import Campaign, Data, Gauge, Noise, Rig, RigOfBars, Test
 from pipeline.campaign.model import Role
 from pipeline.errors import InputError
 from pipeline.parameter_names import parted
+from pipeline.virtual import loaded_at
 from pipeline.virtual.plan import PlannedTest
 from pipeline.virtual.sensors import as_read, of_sensors
 
@@ -57,10 +57,10 @@ def true_readings(
     """What sensors without noise would read in each test, with the placed laws; errors as in `measure`."""
     try:
         errors = Errors.of(as_frame(hidden, rig))
-        trials = [bench.Trial(np.radians(t.q_deg), t.control, t.values, t.temperature) for t in plan]
-        sights = [FrameGauge(g.name, g.bar, g.station, g.vector, g.offset) for g in gauges]
-        found = bench.run(
-            frame_rig(rig), errors, trials, sights, YIELDING if _yields(hidden) else ELEMENTS, placed
+        own = frame_rig(rig)
+        trials = [bench.Trial(np.radians(t.q_deg), t.control, t.values, t.temperature, own) for t in plan]
+        found = loaded_at.run(
+            [rig] * len(plan), trials, gauges, errors, YIELDING if _yields(hidden) else ELEMENTS, placed
         )
     except ValueError as error:
         raise InputError(str(error)) from error
@@ -108,7 +108,7 @@ def frame_rig(rig: RigOfBars) -> FrameRig:
     more = {} if rig.reference_temperature is None else {"reference_temperature": rig.reference_temperature}
     return FrameRig(
         rig.kind,
-        rig.length,
+        rig.length - rig.overhang,
         bar,
         rig.spread or 0.0,
         base,

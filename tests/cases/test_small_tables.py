@@ -291,6 +291,35 @@ def test_a_mistake_of_the_table_is_told_and_no_effect_is_named(name: str, mistak
     assert mistake in found.sentences[0]
 
 
+@pytest.mark.parametrize(
+    ("name", "mistake"),
+    [
+        ("c11/magnitudes", "z_mm has the wrong sign"),
+        ("c11/outlier", "z_mm of test load, step 4, is 10 times too large: its decimal point slipped"),
+    ],
+)
+def test_seven_readings_are_enough_to_ask_about_a_mistake(name: str, mistake: str) -> None:
+    """A bar 18 % softer than said: no drift of 65 N of a cell that read 30 N is named instead."""
+    found = answer(name)
+    assert found.verdict == "unknown" and found.effects == ()
+    assert found.sentences[0].startswith(f"unknown: it looks as if {mistake}")
+
+
+def test_a_machine_without_parallelograms_names_what_its_legs_may_have() -> None:
+    """Readings of a straight line without any noise: what is left of it, a thousandth of a sigma, has no order."""
+    found = answer("c20_tripteron_campaign")
+    assert found.verdict == "ambiguous"
+    assert sets(found) >= {frozenset({"link_compliance"}), frozenset({"actuator_compliance"})}
+
+
+@pytest.mark.long
+def test_soft_drives_of_a_machine_are_among_the_explanations() -> None:
+    """Orthoglide, twelve postures under one load: the machine takes minutes."""
+    found = answer("n_c4")
+    assert found.verdict == "ambiguous"
+    assert any("actuator_compliance" in names for names in sets(found))
+
+
 @pytest.mark.long
 def test_one_bad_reading_is_told_and_the_verdict_is_that_without_it() -> None:
     found = answer("n_i_outlier_f")

@@ -8,6 +8,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from fem.beam import uniform_stiffness
 from tests.vjm.beams import BAR_P
 from tests.vjm.strategies import LENGTH, WIDTH
 from vjm import paper
@@ -142,12 +143,32 @@ def test_derivatives_pass_through_a_history_with_friction() -> None:
     assert abs(expected[8]) > 1e-4
 
 
-def test_a_lumped_bar_is_straight_between_base_and_spring() -> None:
-    linkage = MODELS["lumped"]
+@pytest.mark.parametrize("place", ["base", "middle"])
+def test_a_lumped_bar_is_straight_beside_a_spring_that_is_not_at_its_tip(place: str) -> None:
+    linkage = replace(MODELS["lumped"], spring_at=place)
     state = equilibrium(linkage, targets_of(linkage), HELD)
-    ends = [linkage.gauge(1, s, (0.0, 0.0, 1.0)).reading(state) for s in (0.0, 0.4, 0.8)]
-    np.testing.assert_allclose(ends[0], 0, atol=1e-12)
-    np.testing.assert_allclose(ends[1] - ends[0], ends[2] - ends[1], atol=1e-9)
+    after = [linkage.gauge(1, s, (0.0, 0.0, 1.0)).reading(state) for s in (0.6, 0.8, 1.0)]
+    np.testing.assert_allclose(after[1] - after[0], after[2] - after[1], atol=1e-9)
+
+
+@pytest.mark.parametrize("station", [0.0, 0.13, 0.5, 0.77, 0.999])
+@pytest.mark.parametrize("load", [(0.0, 1e-3, 0.0), (0.0, 0.0, -2e-3), (0.5, 0.0, 0.0)])
+def test_a_point_of_a_lumped_bar_bends_as_a_uniform_beam(
+    station: float, load: tuple[float, float, float]
+) -> None:
+    """F (3 L x² - x³) / (6 EI) under a force, M x² / (2 EI) under a moment at the tip, N x / EA along."""
+    beam = Bar(200.0, uniform_stiffness(200.0, 1e6, 3e7, 5e6, 2e6))
+    x = 200.0 * station
+    moment = np.array([0.0, 0.04, -0.02])
+    state = equilibrium(beam, np.concatenate([load, moment]), ())
+    read = [beam.gauge(station, axis).reading(state) for axis in np.eye(3).tolist()]
+    cubic = (600.0 * x**2 - x**3) / 6.0
+    expected = [
+        load[0] * x / 1e6,
+        (load[1] * cubic + moment[2] * x**2 / 2.0) / 5e6,
+        (load[2] * cubic - moment[1] * x**2 / 2.0) / 3e7,
+    ]
+    np.testing.assert_allclose(read, expected, rtol=1e-6, atol=1e-12)
 
 
 @pytest.mark.parametrize("segments", [1, 2, 3, 8])

@@ -71,6 +71,19 @@ class SensorFault(Effect):
         vars(other)["factor"] = factor
         return other.at(self.site) if self.column else other
 
+    def limited(self, most: float) -> Self:
+        """The fault with no size beyond `most` (> 0), in the unit of its column."""
+        of_column = [p.unit == SIZE.unit for p in type(self).parameters]
+        parameters = tuple(
+            replace(p, low=max(p.low, -most), high=min(p.high, most), typical=min(p.typical, most))
+            if own
+            else p
+            for p, own in zip(self.parameters, of_column, strict=True)
+        )
+        other = copy.copy(self)
+        vars(other).update(parameters=parameters)
+        return other
+
     @property
     def kind(self) -> str:
         """Of fault: its name without the sensor."""

@@ -9,14 +9,15 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import ArrayLike
 
-from vjm.bars import BarModel, Y
+from vjm.bars import BarModel, X, Y
 from vjm.built_leg import Built
-from vjm.chain import Fixed
+from vjm.chain import Fixed, Mark
 from vjm.frames import Array, exp
 from vjm.gauges import Gauge, gauge
 from vjm.laws import Law
 from vjm.leg_chain import build
 from vjm.link import Link
+from vjm.loads import DeadLoads
 from vjm.mechanism import Drive, ElasticChain
 from vjm.parts import Elastic, Frame, Leg, Part, hinge
 from vjm.site_joint import SiteJoint
@@ -48,7 +49,7 @@ class Assembly:
     hinged: whether there is a hinge at the base and at the tip. angle: nominal rotation of the bar, rad.
     hinges: laws of the turn of the hinges at base and tip from where they stand in the unloaded linkage. settled: turns
     (..., 2) of the hinges from their nominal angles there, at nominal rotations (...); none where they stand as drawn.
-    line_load: (3,) N/mm, base frame.
+    line_load: (3,) N/mm, base frame. overhang: mm of the bar beyond its tip, which carries its own weight only.
     """
 
     link: Link
@@ -60,6 +61,7 @@ class Assembly:
     hinges: tuple[tuple[Law, ...], tuple[Law, ...]] = ((), ())
     settled: Callable[[Array], Array] | None = None
     line_load: Array = field(default_factory=lambda: np.zeros(3))
+    overhang: float = 0.0
 
     @cached_property
     def parts(self) -> tuple[Part, ...]:
@@ -76,7 +78,14 @@ class Assembly:
 
     def chain(self) -> ElasticChain:
         """Coordinates: joints of the base body, base hinge, slides, bar, tip hinge; those that there are."""
-        return posed(self._built, (self,))
+        chain = posed(self._built, (self,))
+        if not (self.overhang and np.any(self.line_load)):
+            return chain
+        # What a uniform load does to a rigid piece: its resultant in the middle of it.
+        middle = Mark(len(chain.chain.elements), 0.5 * self.overhang * np.array(X))
+        force = self.overhang * self.line_load[None, :]
+        weight = DeadLoads(chain.chain, np.arange(chain.chain.size), (middle,), force)
+        return replace(chain, loads=(*chain.loads, weight))
 
     def gauge(self, number: int, chain: ElasticChain, place: GaugeAt) -> Gauge:
         """Gauge on the bar, whose chain has this number, or on the platform at its end."""

@@ -40,6 +40,8 @@ class Bar(WithPlaces):
     tip: "free" carries nothing; "guided" shifts but does not turn; "pinned" has a hinge about y to a block,
     the platform, that slides along x only. `held` names the coordinates that this holds.
     bar: another model of the bar than the 6x6 lumped at `spring_at`, such as `vjm.refined.Refined`.
+    overhang: mm that the bar goes on beyond the platform point, as a rigid piece that carries its own weight only: the
+    sag of this piece itself is not part of the model. `vjm.sensors.ReadAt` reads its end.
     hinges, single_hinges, alterations, mount, base_joints, line_load, gravity, sensors, gauge_at, fibre_y, fibre_z,
     polar_radius: as in `vjm.mechanisms.parallelogram`.
     ValueError for a length that is not positive, a stiffness that is not symmetric positive definite or a
@@ -64,6 +66,7 @@ class Bar(WithPlaces):
     fibre_y: float | None = None
     fibre_z: float | None = None
     polar_radius: float = 0.0
+    overhang: float = 0.0
 
     def __post_init__(self) -> None:
         checks.positive("length", self.length)
@@ -133,4 +136,5 @@ class Bar(WithPlaces):
             hinged=self.hinged,
             hinges=(self.hinge_laws[0], self.hinge_laws[1]),
             line_load=self.line_load,
+            overhang=self.overhang,
         )

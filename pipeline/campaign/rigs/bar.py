@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
 from typing import Any, Literal, get_args
 
 import numpy as np
@@ -13,7 +14,11 @@ from pipeline.campaign.rig import Array, Mistakes
 from pipeline.campaign.rigs.bars import RigOfBars, TableOfBars
 from pipeline.campaign.usual_tests import UsualTest
 from pipeline.toml.complaints import shown
+from pipeline.toml.fields import Length, Number
+from vjm.link import Link
+from vjm.mechanisms.assembly import GaugeAt
 from vjm.mechanisms.bar import HELD, Bar, Base, Tip
+from vjm.sensors import ReadAt, Sensor
 
 _D, _F = DISPLACEMENT, FORCE
 FREE = (
@@ -28,7 +33,11 @@ FREE = (
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class BarRig(RigOfBars):
-    """One bar; base, tip: its supports."""
+    """One bar; base, tip: its supports. load_at: mm from the base to where the tests load it, None at its tip.
+
+    A bar that is loaded before its tip is one that ends there, with a piece beyond it that carries nothing and so stays
+    as it is: statics knows no other. Displacements are read at the tip all the same.
+    """
 
     kind = acted_on = "bar"
     runaway = "the pinned bar is a mechanism"
@@ -37,6 +46,20 @@ class BarRig(RigOfBars):
 
     base: Base = "clamped"
     tip: Tip = "free"
+    load_at: float | None = None
+
+    @property
+    def overhang(self) -> float:
+        return 0.0 if self.load_at is None else self.length - self.load_at
+
+    @property
+    def drawn(self) -> BarRig:
+        return replace(self, load_at=None)
+
+    @property
+    def sensors(self) -> tuple[Sensor, ...]:
+        beyond = (ReadAt(np.array([self.overhang, 0.0, 0.0])),) if self.overhang else ()
+        return (*super().sensors, *beyond)
 
     @property
     def supports(self) -> dict[str, str]:
@@ -47,7 +70,20 @@ class BarRig(RigOfBars):
         return self.base, self.tip
 
     def mechanism(self, gauges: tuple[Gauge, ...]) -> Bar:
-        return self.equipped(Bar(self.length, self.stiffness, base=self.base, tip=self.tip), gauges)
+        whole = Link(self.length, self.stiffness)
+        link = whole.lengthened(-self.overhang) if self.overhang else whole
+        bar = Bar(link.length, link.stiffness, base=self.base, tip=self.tip, overhang=self.overhang)
+        return self.equipped(bar, gauges)
+
+    def seen(self, gauge: Gauge) -> GaugeAt:
+        loaded = self.length - self.overhang
+        if gauge.offset is not None:
+            x, y, z = gauge.offset
+            return GaugeAt(gauge.bar, gauge.station, gauge.vector, (x + self.overhang, y, z))
+        along = gauge.station * self.length
+        if along > loaded:
+            return GaugeAt(gauge.bar, 1.0, gauge.vector, (along - loaded, 0.0, 0.0))
+        return GaugeAt(gauge.bar, along / loaded, gauge.vector)
 
     def swing(self, q: float) -> Array | None:
         """A pinned base and a free tip: the bar turns about its base."""
@@ -78,6 +114,7 @@ class BarRig(RigOfBars):
             "length_mm": self.length,
             **self.bar_keys(),
             **supports,
+            "load_at_mm": self.load_at,
             **self.common_keys(),
             **self.fibre_keys(),
         }
@@ -91,6 +128,7 @@ length_mm = "?"
 bar = { EA_N = "?", EIy_Nmm2 = "?", EIz_Nmm2 = "?", GJ_Nmm2 = "?" }
 base = "clamped"             # or "pinned"
 tip = "free"                 # or "pinned", "guided"
+# load_at_mm = 100.0           from the base to where it is loaded, if not at the tip; a test may have its own
 """
 
     kind: Literal["bar"]
@@ -100,9 +138,45 @@ tip = "free"                 # or "pinned", "guided"
     tip: Tip | None = None
     """Support of its tip. guided: it shifts and does not turn. pinned: a hinge about y on a block that slides along x.
     Left out: free."""
+    load_at_mm: Length | tuple[Length, Number, Number] | None = None
+    """Where a free bar is loaded: its distance from the base, or [x, y, z] in the base frame. Displacements are those
+    of the tip, the wrench is that at this point; a test may have its own. Left out: at the tip."""
+
+    def contradictions(self) -> list[str]:
+        return [*super().contradictions(), *self._misplaced()]
+
+    def _misplaced(self) -> Iterator[str]:
+        """Why the bar cannot be loaded there."""
+        if self.load_at_mm is None:
+            return
+        if self.bar is None and self.section is None:
+            yield (
+                "load_at_mm is given with the 6x6 of a whole bar, allowed is a uniform one, given by bar or by section"
+            )
+        if (self.tip or "free") != "free":
+            yield f"load_at_mm is given, allowed with a free tip: this one is {self.tip}"
+        if isinstance(self.load_at_mm, tuple) and any(self.load_at_mm[1:]):
+            yield (
+                f"load_at_mm is {list(self.load_at_mm)}, allowed is a point on the bar, [x, 0, 0]: how far beside it "
+                "the load cell is says [cell] at_mm"
+            )
+        if self.line_weight_N_per_mm:
+            yield (
+                "line_weight_N_per_mm is given with load_at_mm, allowed is one of them: the sag of the piece beyond "
+                'the load is not computed; leave the weight out and zero the dials under it, zero = "first_row"'
+            )
+        if self.loaded_at is not None and self.loaded_at > self.length_mm:
+            yield f"load_at_mm is {self.loaded_at:g}, a bar of {self.length_mm:g} mm allows no more than that"
+
+    @property
+    def loaded_at(self) -> float | None:
+        """mm from the base, None at the tip."""
+        where = self.load_at_mm
+        return where[0] if isinstance(where, tuple) else where
 
     def bars(self) -> BarRig:
-        return BarRig(base=self.base or "clamped", tip=self.tip or "free", **self.made_of())
+        at = None if self.loaded_at == self.length_mm else self.loaded_at
+        return BarRig(base=self.base or "clamped", tip=self.tip or "free", load_at=at, **self.made_of())
 
     @classmethod
     def stand_in(cls, raw: dict[str, Any]) -> BarRig:

@@ -112,9 +112,18 @@ class RigOfBars(Rig):
             return self, []
         return self, [("at_mm", 'at_mm is given, allowed only with kind = "manipulator"')]
 
+    @property
+    def overhang(self) -> float:
+        """mm that a bar goes on beyond where it is loaded."""
+        return 0.0
+
+    def seen(self, gauge: Gauge) -> GaugeAt:
+        """Where a gauge is, on a bar that ends where it is loaded."""
+        return GaugeAt(gauge.bar, gauge.station, gauge.vector, gauge.offset)
+
     def equipped(self, plain: Mechanism, gauges: tuple[Gauge, ...]) -> Mechanism:
         """The mechanism with the weights, sensors, gauges and fibres of the rig."""
-        places = tuple(GaugeAt(g.bar, g.station, g.vector, g.offset) for g in gauges)
+        places = tuple(self.seen(gauge) for gauge in gauges)
         it = replace(plain, sensors=self.sensors, gauge_at=places, fibre_y=self.fibre_y, fibre_z=self.fibre_z)
         if self.computed is not None:
             it = replace(it, polar_radius=self.computed.polar_radius)

@@ -10,7 +10,7 @@ from pipeline.campaign import Campaign
 from pipeline.diagnose.diagnosis import diagnose, fit_cache
 from pipeline.diagnose.faulty import faults_of, has_one_fault
 from pipeline.inference.model import Model
-from pipeline.inference.suitable import columns_read
+from pipeline.selection.criteria import CRITERIA
 from pipeline.simulate import bench_rig
 from pipeline.virtual.bench import measure
 from pipeline.virtual.plan import GAUGES, SENSORS, bench_plan
@@ -121,7 +121,7 @@ def test_a_sensor_that_is_vouched_for_is_not_at_fault() -> None:
 
 
 def test_every_sensor_that_was_read_may_have_every_fault() -> None:
-    every = faults_of(catalogue().values(), columns_read(bench()))
+    every = faults_of(catalogue().values(), bench(), CRITERIA)
     # Four faults of thirteen columns, and cross-talk of every two of a load cell and of a tracker.
     assert len(every) == 4 * 13 + 2 * 6 * 5
     assert all(it.name == name and it.column for name, it in every.items())

@@ -53,6 +53,19 @@ def test_what_mends_a_mistake_undoes_it(words: str) -> None:
     assert [t.q_deg for t in mended.tests] == [t.q_deg for t in right.tests]
 
 
+@pytest.mark.parametrize("power", [10.0, 100.0])
+def test_a_decimal_point_that_slipped_is_put_back(power: float) -> None:
+    right = bench()
+    test = right.tests[0]
+    wrench = test.data.wrench.copy()
+    step = int(np.argmax(np.abs(wrench[:, 0])))
+    wrench[step, 0] *= power
+    wrong = replace(right, tests=(replace(test, data=replace(test.data, wrench=wrench)), *right.tests[1:]))
+    words = f"fx_N of test {test.id}, step {step}, is {power:g} times too large: its decimal point slipped"
+    np.testing.assert_allclose(readings(named(wrong, words).mended(wrong)), readings(right), rtol=1e-12)
+    assert not any(it.kind == "digit" for it in possible(right))
+
+
 def test_angles_in_radians() -> None:
     right = bench()
     wrong = made.angles_in_radians(right)

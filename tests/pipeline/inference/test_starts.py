@@ -199,9 +199,9 @@ def test_the_edge_of_a_ladder_is_looked_at_only_where_an_effect_does_not_show_be
 
 def test_a_smooth_effect_that_is_there_is_fitted_once() -> None:
     tests = cases("modulus_error.scale", 0.95)
-    model = Model().with_effects([EFFECTS["modulus_error"]])
+    model = BENT.with_effects([EFFECTS["modulus_error"]])
     assert best_fit(model, tests, ("modulus_error",)).evaluations == fit(model, tests).evaluations
-    holds(Model(), tests, ("modulus_error",), "modulus_error.scale", 0.95)
+    holds(BENT, tests, ("modulus_error",), "modulus_error.scale", 0.95)
 
 
 class Late(Effect):
