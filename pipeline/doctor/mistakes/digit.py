@@ -16,7 +16,7 @@ APART = 2.5
 """Times the largest of the other readings of its test from which one stands out: the last of a ramp of four steps is
 1.3 times the one before."""
 FAR = 20.0
-"""Sigmas that it has to be at least: the largest of a column of noise stands out by nothing."""
+"""Sigmas that the largest of the others is at least: where they are noise, any knocked reading is ten times that."""
 OTHERS = 3
 """Readings of the column in the test beside it, at least."""
 
@@ -27,8 +27,8 @@ def mistakes(campaign: Campaign) -> Iterator[Mistake]:
     for number, test in enumerate(campaign.tests):
         for channel, name in enumerate(columns_of(campaign)):
             values = test.data.readings[:, channel]
-            found = _slipped(values)
-            if found is None or abs(values[found[0]]) < FAR * sigmas[channel]:
+            found = _slipped(values, FAR * float(sigmas[channel]))
+            if found is None:
                 continue
             row, power = found
             step, right = int(test.data.steps[row]), float(values[row] / power)
@@ -41,8 +41,9 @@ def mistakes(campaign: Campaign) -> Iterator[Mistake]:
             )
 
 
-def _slipped(values: Array) -> tuple[int, float] | None:
-    """Row of the one reading that stands out, and what it is to be divided by; None where there is none."""
+def _slipped(values: Array, least: float) -> tuple[int, float] | None:
+    """Row of the one reading that stands out of others of which the largest is at least so large, and what it is to be
+    divided by; None where there is none."""
     size = np.nan_to_num(np.abs(values))
     if np.count_nonzero(np.isfinite(values)) <= OTHERS:
         return None
@@ -50,7 +51,7 @@ def _slipped(values: Array) -> tuple[int, float] | None:
     rest = np.delete(values, row)
     rest = rest[np.isfinite(rest)]
     most = float(np.max(np.abs(rest)))
-    if not 0.0 < APART * most < size[row]:
+    if most < least or not 0.0 < APART * most < size[row]:
         return None
     near = [k for k in (row - 1, row + 1) if 0 <= k < values.size and np.isfinite(values[k])]
     beside = float(np.mean(values[near])) if near else 0.0

@@ -66,6 +66,17 @@ def test_a_decimal_point_that_slipped_is_put_back(power: float) -> None:
     assert not any(it.kind == "digit" for it in possible(right))
 
 
+def test_a_knocked_reading_of_a_column_of_noise_is_no_slipped_point() -> None:
+    """Ten times what is noise is thirty sigmas, which a knock is as well."""
+    right = bench()
+    test = right.tests[0]
+    wrench, sigma = test.data.wrench.copy(), right.noise.sigmas[10]
+    assert np.abs(wrench[:, 4]).max() < 10.0 * sigma
+    wrench[2, 4] = 40.0 * sigma
+    knocked = replace(right, tests=(replace(test, data=replace(test.data, wrench=wrench)), *right.tests[1:]))
+    assert not any(it.kind == "digit" for it in possible(knocked))
+
+
 def test_angles_in_radians() -> None:
     right = bench()
     wrong = made.angles_in_radians(right)
