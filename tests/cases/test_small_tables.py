@@ -127,7 +127,7 @@ def test_loads_that_somebody_chose_are_exact_and_the_scatter_is_that_about_the_l
 
 
 def test_a_lost_sign_is_asked_about() -> None:
-    assert "runs against the model: is its sign, or that of its load, right?" in compared("c11/magnitudes")
+    assert "it looks as if z_mm has the wrong sign" in compared("c11/magnitudes")
 
 
 def test_without_a_sigma_what_can_be_said_is_said_in_units() -> None:

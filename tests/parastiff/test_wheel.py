@@ -126,7 +126,7 @@ def test_it_has_one_name_and_no_results_of_the_checkout(wheel: Path) -> None:
 def test_its_command_does_what_that_of_the_checkout_does(bench: Path) -> None:
     shown = said(bench, "-m", "parastiff", "compare", "bench")
     assert "next: parastiff diagnose bench" in shown and "python -m pipeline" not in shown
-    assert "289" in shown
+    assert "10.0 sigma" in shown
     assert "joint_friction" in said(bench, "-m", "parastiff", "effects")
     assert "Usage: parastiff" in said(bench, "-m", "parastiff", "--help")
 
