@@ -1,16 +1,14 @@
 """The page of one bar: reads bar.json and the mode shapes beside it, solves nothing."""
 
-import json
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from reports import page, part_drawing, shapes, tables_bar, tables_record, turntable
+from reports import part_drawing, shapes, tables_bar, tables_record, turntable
 from reports.blocks import Block, Bullets, Code, Column, Figure, Section, Table, Tables, Text, table
-from reports.errors import ReportError
-from reports.files import write_bytes
 from reports.formats import entry_unit, number, percent, symbol
 from reports.load import Json
+from reports.record_page import drawn
 
 RECORD = "bar.json"
 READING = (
@@ -25,15 +23,7 @@ READING = (
 
 def draw(folder: Path) -> Path:
     """Write index.html beside bar.json; ReportError if that is missing or not laid out as the record of a bar."""
-    path = Path(folder) / RECORD
-    try:
-        record = json.loads(path.read_text(encoding="utf-8"))
-        html = page.render(record["title"], sections(Path(folder), record))
-    except OSError as error:
-        raise ReportError(f"{path} cannot be read: {error.strerror}") from None
-    except (KeyError, IndexError, TypeError, ValueError) as error:
-        raise ReportError(f"{path} is not laid out as the record of a bar: {error!r}") from error
-    return write_bytes(path.with_name("index.html"), html.encode())
+    return drawn(Path(folder) / RECORD, "the record of a bar", sections)
 
 
 def sections(folder: Path, record: Json) -> list[Section]:

@@ -1,6 +1,5 @@
 """The page of a run of a brought bar: reads result.json and the shapes beside it, solves nothing."""
 
-import json
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -10,15 +9,13 @@ from reports import (
     bar_page,
     linkage_drawing,
     linkage_shapes,
-    page,
     sections,
     tables_linkage,
     tables_record,
 )
 from reports.blocks import Block, Bullets, Code, Details, Section, Tables, Text
-from reports.errors import ReportError
-from reports.files import write_bytes
 from reports.load import Json
+from reports.record_page import drawn
 from reports.sections import Drawing
 
 RESULT = "result.json"
@@ -27,15 +24,7 @@ OF_RESULT = "Every number is from result.json beside this page."
 
 def draw(folder: Path) -> Path:
     """Write index.html beside result.json; ReportError if that is missing or not laid out as such a result."""
-    path = Path(folder) / RESULT
-    try:
-        result = json.loads(path.read_text(encoding="utf-8"))
-        html = page.render(result["title"], built(Path(folder), result))
-    except OSError as error:
-        raise ReportError(f"{path} cannot be read: {error.strerror}") from None
-    except (KeyError, IndexError, TypeError, ValueError) as error:
-        raise ReportError(f"{path} is not laid out as the result of a brought bar: {error!r}") from error
-    return write_bytes(path.with_name("index.html"), html.encode())
+    return drawn(Path(folder) / RESULT, "the result of a brought bar", built)
 
 
 def built(folder: Path, result: Json) -> list[Section]:

@@ -88,15 +88,15 @@ def elements(found: Fit) -> tuple[Element, ...]:
         values[lost] = 0.0
         return found.residual.flat(values)
 
-    return (*_of_mechanism(found, flat), *_of_columns(found, flat))
+    roots = input_roots(found)
+    return (*_of_mechanism(found, flat, roots), *_of_columns(found, flat, roots))
 
 
-def _of_mechanism(found: Fit, flat: Callable[[Array], Array]) -> Iterator[Element]:
-    """Hinges, ends of bars, base."""
+def _of_mechanism(found: Fit, flat: Callable[[Array], Array], roots: Array) -> Iterator[Element]:
+    """Hinges, ends of bars, base. roots: (R, 7, 7) of `input_roots`."""
     cases, there = found.residual.program, found.prediction
     mechanisms = [_bench(found, group) for group in cases.groups]
     places = [(kind, place) for kind in SITE_KINDS.values() for place in _places(mechanisms[0], kind)]
-    roots = input_roots(found)
     coordinates, doubts = np.zeros((2, len(cases.test), len(places)))
     influences, unloaded = np.zeros((2, *cases.measured.shape, len(places)))
     for group, mechanism, state in zip(cases.groups, mechanisms, there.states, strict=True):
@@ -252,10 +252,10 @@ def _reference(readings: Array, unloaded: Array, cases: Program, zeroed: np.ndar
     return out
 
 
-def _of_columns(found: Fit, flat: Callable[[Array], Array]) -> Iterator[Element]:
-    """Errors of readings over what is predicted of them."""
+def _of_columns(found: Fit, flat: Callable[[Array], Array], roots: Array) -> Iterator[Element]:
+    """Errors of readings over what is predicted of them. roots: (R, 7, 7) of `input_roots`."""
     cases, there = found.residual.program, found.prediction
-    names, zeroed, roots = channel_columns(cases.campaign.gauges), _zeroed(cases), input_roots(found)
+    names, zeroed = channel_columns(cases.campaign.gauges), _zeroed(cases)
     for channel, name in enumerate(names):
         readings = np.zeros(cases.measured.shape)
         readings[:, channel] = np.where(cases.predicted[:, channel], 1.0, 0.0)
