@@ -25,7 +25,8 @@ def draw(result: Json) -> bytes:
     first = result["curves"][0]["q_deg"]
     here = [c for c in result["curves"] if c["q_deg"] == first]
     sets = list(dict.fromkeys(tuple(c["held"]) for c in here))
-    figure = Figure(figsize=(4.6 * len(sets), 6.2))
+    # As wide as the page, on which one panel alone would be drawn too large.
+    figure = Figure(figsize=(max(4.6 * len(sets), 9.2), 6.2))
     grid = figure.subplots(2, len(sets), squeeze=False, gridspec_kw={"height_ratios": (1.5, 1.0)})
     for (top, bottom), held in zip(grid.T, sets, strict=True):
         panel(top, bottom, [c for c in here if tuple(c["held"]) == held])
