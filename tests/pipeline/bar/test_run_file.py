@@ -32,7 +32,7 @@ angles_deg = [30.0]
 [bar]
 section = { kind = "rectangle", width_mm = 6.0, height_mm = 10.0 }
 [mesh]
-size_mm = 3.0
+size_mm = 1.5
 """
 ENDS = "base = { plane = [0, 0, 0], normal = [1, 0, 0] }\ntip = { plane = [60, 0, 0], normal = [1, 0, 0] }"
 FILE = (
@@ -40,7 +40,7 @@ FILE = (
     .replace(
         'section = { kind = "rectangle", width_mm = 6.0, height_mm = 10.0 }', f'file = "box.step"\n{ENDS}'
     )
-    .replace("size_mm = 3.0", "size_mm = 5.0")
+    .replace("size_mm = 1.5", "size_mm = 5.0")
 )
 
 
@@ -58,20 +58,21 @@ def test_the_same_linkage_as_by_its_section(pipeline_command: Callable[..., Done
     for mine, its in zip(other["parallelogram"], one["parallelogram"], strict=True):
         assert mine["worst_fea_deviation"] < 1e-6
         filled = np.abs(its["vjm"]) > 1e-9 * np.abs(its["vjm"]).max()
-        np.testing.assert_allclose(np.array(mine["fea"])[filled], np.array(its["fea"])[filled], rtol=0.06)
+        np.testing.assert_allclose(np.array(mine["fea"])[filled], np.array(its["fea"])[filled], rtol=0.03)
     # Without mesh error the two meet far closer than on the meshes of this look.
     limit = np.array(one["bar"]["convergence"]["extrapolated"])
     mine_k = np.array(other["bar"]["stiffness"])
     for name, (i, j) in ENTRIES.items():
-        assert mine_k[i, j] == pytest.approx(limit[i, j], rel=0.02), name
+        assert mine_k[i, j] == pytest.approx(limit[i, j], rel=0.005), name
     keys = ("q_deg", "held", "model", "spring_at", "what")
     theirs = {str([c[k] for k in keys]): c for c in one["critical"]}
     assert len(theirs) == len(other["critical"]) > 15
     for c in other["critical"]:
         same = theirs[str([c[k] for k in keys])]
         assert (c["load_N"] is None) == (same["load_N"] is None)
-        if c["load_N"] is not None:
-            assert c["load_N"] == pytest.approx(same["load_N"], rel=0.06)
+        # By K_b alone shear cannot be told from stiff ends, so that formulas of a file know no shear: another bar.
+        if c["load_N"] is not None and c["model"] != "beam formula":
+            assert c["load_N"] == pytest.approx(same["load_N"], rel=0.04), c
     for curve, its in zip(other["curves"], one["curves"], strict=True):
         assert [curve[k] for k in ("model", "branch", "held", "spring_at")] == [
             its[k] for k in ("model", "branch", "held", "spring_at")
