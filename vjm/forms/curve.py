@@ -7,21 +7,25 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from scipy.optimize import brentq
 
 from vjm.forms.base import Form
 from vjm.frames import Array
 from vjm.laws import Law, Response
 
 NEAR = 1e-14
-"""Of the bracket, to which a load is found."""
+"""Of a load, to which it is found."""
+EQUAL = 2.0 * np.finfo(float).eps
+"""Of a strain, within which two are the same."""
+BETWEEN = 200
+"""Loads that are looked at together for the one from which a curve goes on straight."""
 ROUNDS = 200
 LEAST_SLOPE = 0.05
 """Of the slope without load, at which a curve that would fall goes on straight."""
 SCANNED = 400
-"""Loads at which it is looked whether a curve falls."""
+"""Loads from which one is looked for, and at which it is looked whether a curve falls."""
 FARTHEST = 1e15
 """N or N·mm up to which a load is looked for."""
+_LOADS = np.logspace(-12.0, np.log10(FARTHEST), SCANNED)
 
 
 @dataclass(frozen=True, eq=False)
@@ -90,7 +94,13 @@ class Compliance:
 
     def give(self, force: Array) -> Array:
         """Strain at a force; both (...)."""
-        return self._at(force)[0]
+        # Without load no curve goes on straight yet: most who ask want that strain alone.
+        return self._at(force)[0] if np.any(force) else self._curve(force)[0]
+
+    @cached_property
+    def _unloaded(self) -> float:
+        """Strain without load."""
+        return float(self.give(np.zeros(())))
 
     @cached_property
     def _ends(self) -> tuple[float, float]:
@@ -103,16 +113,18 @@ class Compliance:
 
     def _end(self, sign: float, first: float) -> float:
         """The load of a sign at which the slope is the least one, of a curve that falls somewhere; else infinite."""
-        loads = np.logspace(-12.0, np.log10(FARTHEST), SCANNED)
-        slopes = self._curve(sign * loads)[1]
-        falls = np.flatnonzero(slopes <= 0.0)
-        if not falls.size:
+        slopes = self._curve(sign * _LOADS)[1]
+        if not np.any(slopes <= 0.0):
             return np.inf
-        k = int(np.flatnonzero(slopes <= LEAST_SLOPE * first)[0])
-        low = loads[k - 1] if k else 0.0
-        return float(
-            brentq(lambda x: float(self._curve(sign * np.asarray(x))[1]) - LEAST_SLOPE * first, low, loads[k])
-        )
+        least = LEAST_SLOPE * first
+        k = int(np.argmax(slopes <= least))
+        low, high = (_LOADS[k - 1] if k else 0.0), float(_LOADS[k])
+        # The first place where the slope is no more than that, between ever nearer loads, which are looked at together.
+        while high - low > NEAR * high:
+            between = np.linspace(low, high, BETWEEN)
+            k = max(int(np.argmax(self._curve(sign * between)[1] <= least)), 1)
+            low, high = float(between[k - 1]), float(between[k])
+        return high
 
     def _curve(self, force: Array) -> tuple[Array, Array, Array]:
         """Displacement, slope and integral as the form says."""
@@ -139,36 +151,41 @@ class Compliance:
         energy = u * force - integral
         return Response(energy, force[..., None], tangent[..., None, None], memory)
 
+    @cached_property
+    def _way(self) -> Array:
+        """(2, 1 + SCANNED) how far from the strain without load the curve has come at most up to no load and up to
+        each load of `_LOADS`, of either sign, downwards first."""
+        to = np.append(0.0, _LOADS)
+        return np.stack(
+            [np.maximum.accumulate(sign * (self.give(sign * to) - self._unloaded)) for sign in (-1.0, 1.0)]
+        )
+
     def _force(self, u: Array) -> Array:
-        """By Newton's method inside a bracket that is halved where it leaves it."""
-        unloaded = self.give(np.zeros(()))
-        sign = np.where(u < unloaded, -1.0, 1.0)
-        aim = np.abs(u - unloaded)
-
-        def give(size: Array) -> tuple[Array, Array]:
-            value, slope, _ = self._at(sign * size)
-            return sign * (value - unloaded), slope
-
-        low, high = np.zeros(u.shape), np.ones(u.shape)
-        beyond = give(high)[0] < aim
-        while beyond.any():
-            low = np.where(beyond, high, low)
-            high = np.where(beyond, 4.0 * high, high)
-            beyond = (give(high)[0] < aim) & (high < FARTHEST)
-        here = 0.5 * (low + high)
+        """By Newton's method between two loads of the table, halved where it leaves them; nan where no load of the
+        table is enough."""
+        below = u < self._unloaded
+        sign, aim = np.where(below, -1.0, 1.0), np.abs(u - self._unloaded)
+        k = np.where(below, *(np.searchsorted(way, aim) for way in self._way))
+        reached = k <= SCANNED
+        k = np.clip(k, 1, SCANNED)
+        low, high = np.append(0.0, _LOADS)[k - 1], _LOADS[k - 1]
+        before, after = (self._way[np.where(below, 0, 1), at] for at in (k - 1, k))
+        with np.errstate(divide="ignore", invalid="ignore"):
+            here = low + (high - low) * np.clip(np.nan_to_num((aim - before) / (after - before)), 0.0, 1.0)
         for _ in range(ROUNDS):
-            value, slope = give(here)
-            over = value > aim
-            high, low = np.where(over, here, high), np.where(over, low, here)
+            value, slope, _ = self._at(sign * here)
+            off = sign * (value - u)
+            low, high = np.where(off > 0.0, low, here), np.where(off > 0.0, here, high)
             with np.errstate(divide="ignore", invalid="ignore"):
-                next_ = here - (value - aim) / slope
-            inside = (next_ > low) & (next_ < high)
-            new = np.where(inside, next_, 0.5 * (low + high))
-            done = np.abs(new - here) <= NEAR * np.maximum(high, 1e-300)
+                new = here - off / slope
+            new = np.where((new >= low) & (new <= high), new, 0.5 * (low + high))
+            near = np.abs(new - here) <= NEAR * high
+            # Nearer than that the curve is not told from its strain in double precision.
+            done = near | (np.abs(off) <= EQUAL * (np.abs(value) + abs(self._unloaded)))
             here = new
-            if done.all():
+            if np.all(done | ~reached):
                 break
-        return np.where(high < FARTHEST, sign * here, np.nan)
+        return np.where(reached, sign * here, np.nan)
 
 
 def odd(x: Array, size: tuple[Array, Array, Array]) -> tuple[Array, Array, Array]:
