@@ -34,6 +34,7 @@ from vjm.parts import (
     swinging_elements,
 )
 from vjm.site_joint import SiteJoint
+from vjm.under_load import Bar, under_load
 
 Side = tuple[tuple[Element, ...], np.ndarray]
 """One side of a loop: its elements and the numbers of their coordinates."""
@@ -142,6 +143,7 @@ class _Work:
     inputs: list[tuple[str, np.ndarray, Array]] = field(default_factory=list)
     swinging: list[tuple[Swinging, int, np.ndarray]] = field(default_factory=list)
     members: list[Member] = field(default_factory=list)
+    bars: list[Bar] = field(default_factory=list)
     pending: list[_Branch] = field(default_factory=list)
     loops: list[tuple[Side, Side]] = field(default_factory=list)
 
@@ -229,7 +231,11 @@ class _Work:
         numbers = self._limb(track, limb, name)
         self.members.append(Member(part, before, np.array(track.numbers, dtype=int), name))
         self.blocks.append((numbers, limb.stiffness))
-        self.springs += limb.numbered_from(int(numbers[0]))
+        laws = limb.numbered_from(int(numbers[0]))
+        self.springs += laws
+        # What lengthens it is along its axis; its first part where it has several.
+        axial = int(numbers[np.flatnonzero(limb.stretch)[0]])
+        self.bars.append(Bar(numbers, limb.stiffness, laws, axial))
         self.rest |= {int(k): float(v) for k, v in zip(numbers, limb.rest, strict=True) if v}
         self.inputs += [(name, numbers, rate * limb.stretch) for name, rate in part.link.elongation]
         if np.any(part.line_load):
@@ -334,7 +340,7 @@ class _Work:
             main,
             linear[virtual[:, None], virtual],
             rest,
-            tuple(self.springs),
+            tuple(under_load(spring, self.bars) for spring in self.springs),
             tuple(self.loads),
             drives,
             loops,

@@ -8,6 +8,7 @@ from typing import cast
 from vjm.frames import Array
 from vjm.laws import Law, Response
 from vjm.slides import Giving
+from vjm.under_load import UnderLoad
 
 
 @dataclass(frozen=True, eq=False)
@@ -36,4 +37,7 @@ class MirroredGiving(Mirrored):
 
 def mirrored(law: Law) -> Law:
     """A scalar law seen from the other side."""
+    if isinstance(law, UnderLoad):
+        # It is odd, and where it stands it is told from others by its kind.
+        return law
     return MirroredGiving(law) if isinstance(law, Giving) else Mirrored(law)

@@ -34,6 +34,8 @@ Array = NDArray[np.float64]
 SHIFT, TURN = 0.1, 1e-3
 """mm and rad: typical sizes of displacements put in, for differences; their thousandth part is taken."""
 ORDER = 2
+AXIAL = "along"
+"""Kind of the places whose load is the axial one of the bar."""
 
 
 class NoSites(ValueError):
@@ -49,7 +51,8 @@ class Element:
     standard deviation by the noise of the readings.
     influence: (N,) whitened change of the residuals' readings by one unit of what the law says, of the tests that may
     be fitted. reference: (N,) the same of the readings at which sensors were zeroed, which are taken off; zeroed: (R,)
-    row of these readings, -1 for the unloaded state, in which gauges are zeroed.
+    row of these readings, -1 for the unloaded state, in which gauges are zeroed. axial: (R,) axial load of the bar at
+    its end there, N, None where there is no such end.
     """
 
     kind: str
@@ -59,6 +62,7 @@ class Element:
     influence: Array
     reference: Array
     zeroed: np.ndarray
+    axial: Array | None = None
 
     def moved(self, says: Array, unloaded: Array, rows: np.ndarray) -> Array:
         """(N, n) whitened change of readings where laws there say (R, n), and (n,) in the unloaded state.
@@ -107,9 +111,10 @@ def _of_mechanism(found: Fit, flat: Callable[[Array], Array], roots: Array) -> I
         coordinates[rows], doubts[rows], influences[rows], unloaded[rows] = at, doubt, change, before
     zeroed = _zeroed(cases)
     columns, references = flat(influences), flat(_reference(influences, unloaded, cases, zeroed))
+    axial = {place: coordinates[:, k] for k, (kind, place) in enumerate(places) if kind.name == AXIAL}
     for k, (kind, place) in enumerate(places):
         here = coordinates[:, k], doubts[:, k]
-        yield Element(kind.name, place, *here, columns[:, k], references[:, k], zeroed)
+        yield Element(kind.name, place, *here, columns[:, k], references[:, k], zeroed, axial.get(place))
 
 
 def _bench(found: Fit, group: Group) -> Rig:

@@ -63,11 +63,28 @@ class Formed:
         names = [q.name for q in self.form.quantities]
         return dict(zip(names, [*self.amplitudes.tolist(), *self.shapes.tolist()], strict=True))
 
+    def says(self, x: Array, first: np.ndarray) -> Array:
+        """(R,) along coordinates x (R,) of tests that begin at the rows `first`, under axial loads in proportion."""
+        axial = self.load * np.abs(x) / self.largest
+        return np.asarray(self.form.columns(x, first, self.shapes, axial) @ self.amplitudes)
+
+    @property
+    def load(self) -> float:
+        """The greatest axial load of a bar at its site, N; zero where there is none."""
+        return greatest_load(self.site)
+
+
+def greatest_load(site: Site) -> float:
+    """Of the bars at the ends that a site is at, N; zero where it is at none."""
+    loads = (float(np.max(np.abs(each.axial))) for each in site.elements if each.axial is not None)
+    return max(loads, default=0.0)
+
 
 def formed(site: Site, rest: Rest, largest: float) -> list[Formed]:
     """All forms that a site may follow, the least cost first."""
     place = "series" if SITE_KINDS[site.kind].series else "parallel"
-    some = (form for form in forms().values() if place in form.places)
+    bars = greatest_load(site) > 0.0
+    some = (form for form in forms().values() if place in form.places and (bars or not form.loaded))
     found = [it for form in some if (it := _fitted(form, site, rest, largest)) is not None]
     return sorted(found, key=lambda it: it.cost)
 
@@ -75,8 +92,9 @@ def formed(site: Site, rest: Rest, largest: float) -> list[Formed]:
 def _fitted(form: Form, site: Site, rest: Rest, largest: float) -> Formed | None:
     """A form at its best shapes; None where none is a law."""
     best: Formed | None = None
+    load = greatest_load(site)
     for start in form.starts(largest):
-        for it in _from(form, site, rest, largest, np.asarray(start, dtype=float)):
+        for it in _from(form, site, rest, largest, form.under(np.asarray(start, dtype=float), load)):
             if (best is None or it.left < best.left) and _is_law(it):
                 best = it
     return best
@@ -123,7 +141,7 @@ def columns_of(form: Form, site: Site, rest: Rest, shapes: Array) -> Array:
     total = np.zeros((rest.rows.size, len(form.amplitudes)))
     for each in site.elements:
         sign = site.sign(each)
-        there = form.columns(sign * each.coordinate, rest.first, shapes)
+        there = form.columns(sign * each.coordinate, rest.first, shapes, each.axial)
         total = total + sign * each.moved(there, unloaded, rest.rows)
     return rest.seen(total)
 

@@ -154,10 +154,7 @@ def beyond(way: Through, other: Through, step: Law) -> float:
     for end in ends:
         along = np.linspace(0.0, end, POINTS)
         first = np.array([0, along.size])
-        values = [
-            (it.there.form.columns(along, first, it.there.shapes) @ it.there.amplitudes)[-1]
-            for it in (way, other)
-        ]
+        values = [it.there.says(along, first)[-1] for it in (way, other)]
         off = max(off, abs(float(values[0] - values[1])))
     rest = step.map.rest
     total = np.sum([each.influence for each in step.site.elements], axis=0)
@@ -175,7 +172,7 @@ def _curve(step: Law, chosen: Through | None, coordinate: Array) -> Curve:
         there = chosen.there
         if there.form.memory:
             x = np.concatenate([x[x >= 0.0], x[::-1], x])
-        y = there.form.columns(x, np.array([0, x.size]), there.shapes) @ there.amplitudes
+        y = there.says(x, np.array([0, x.size]))
     own_x, own_y = _by_steps(step)
     units = ("", "") if kind is None else (kind.over, kind.gives)
 

@@ -22,17 +22,18 @@ _SUPERSCRIPTS = str.maketrans("0123456789", "⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 @dataclass(frozen=True)
 class Quantity:
-    """A number of a form, of the unit y^of_y x^of_x. positive: whether it has a meaning above zero alone."""
+    """A number of a form, of the unit y^of_y x^of_x N^of_load. positive: whether it has a meaning above zero alone."""
 
     name: str
     of_y: int
     of_x: int
     meaning: str
     positive: bool = False
+    of_load: int = 0
 
     def unit(self, y: str, x: str) -> str:
         """Its unit where y and x have these."""
-        powers = [(y, self.of_y), (x, self.of_x)]
+        powers = [(y, self.of_y), (x, self.of_x), ("N", self.of_load)]
         above = "·".join(_power(u, n) for u, n in powers if n > 0)
         below = [_power(u, -n) for u, n in powers if n < 0]
         wrapped = [f"({u})" if "·" in u and "(" not in u else u for u in below]
@@ -40,7 +41,7 @@ class Quantity:
 
     def identifier(self, y: str, x: str) -> str:
         """Its name with its unit, as parameters of effects are named."""
-        powers = [(y.replace("·", ""), self.of_y), (x.replace("·", ""), self.of_x)]
+        powers = [(y.replace("·", ""), self.of_y), (x.replace("·", ""), self.of_x), ("N", self.of_load)]
         above = "".join(f"_{u}{n if n > 1 else ''}" for u, n in powers if n > 0)
         below = "".join(f"_per_{u}{-n if n < -1 else ''}" for u, n in powers if n < 0)
         return f"{self.name}{above}{below}"
@@ -57,6 +58,7 @@ class Form(ABC):
     name: as files and answers call it. title: in words. equation: y of x. limits: where it stops to hold.
     places: "parallel", "series" or both. amplitudes, shapes: its numbers; fixed: shapes that are
     no numbers of a fit but say where another one is told. memory: whether the way matters.
+    loaded: whether the axial load of the bar beside it matters, N.
     kinked: whether each load step is on one side of a stop, as of a gap.
     grows: at most linearly far outside ("bounded", "linear"), or as a power ("power").
     """
@@ -70,6 +72,7 @@ class Form(ABC):
     shapes: ClassVar[tuple[Quantity, ...]] = ()
     fixed: ClassVar[tuple[str, ...]] = ()
     memory: ClassVar[bool] = False
+    loaded: ClassVar[bool] = False
     kinked: ClassVar[bool] = False
     grows: ClassVar[str] = "linear"
     and_linear: ClassVar[bool] = False
@@ -83,12 +86,19 @@ class Form(ABC):
         return (*self.amplitudes, *self.shapes)
 
     @abstractmethod
-    def columns(self, x: Array, first: np.ndarray, shapes: Array) -> Array:
-        """(R, n) y of unit amplitudes along x (R,), of tests that begin, relaxed, at the rows `first` (tests + 1)."""
+    def columns(self, x: Array, first: np.ndarray, shapes: Array, axial: Array | None = None) -> Array:
+        """(R, n) y of unit amplitudes along x (R,), of tests that begin, relaxed, at the rows `first` (tests + 1).
+
+        axial: (R,) load of the bar there, N, for forms on which it acts; default none at all.
+        """
 
     @abstractmethod
     def starts(self, largest: float) -> Sequence[Array]:
         """Shapes to begin a fit with, where x goes as far as the largest."""
+
+    def under(self, shapes: Array, load: float) -> Array:
+        """Shapes where the axial load goes as far as `load`, N: those of most forms are the same under any."""
+        return shapes
 
     def bounds(self, largest: float) -> tuple[Array, Array]:
         """Least and greatest shapes that a fit may try."""

@@ -27,7 +27,7 @@ class Coulomb(Form):
     memory = True
     grows = "bounded"
 
-    def columns(self, x: Array, first: np.ndarray, shapes: Array) -> Array:
+    def columns(self, x: Array, first: np.ndarray, shapes: Array, axial: Array | None = None) -> Array:
         return followed(x, first, shapes)
 
     def law(self, amplitudes: Array, shapes: Array, series: bool) -> Law:
@@ -49,7 +49,7 @@ class LinearCoulomb(Coulomb):
     )
     grows = "linear"
 
-    def columns(self, x: Array, first: np.ndarray, shapes: Array) -> Array:
+    def columns(self, x: Array, first: np.ndarray, shapes: Array, axial: Array | None = None) -> Array:
         return np.column_stack([x, followed(x, first, shapes)])
 
     def law(self, amplitudes: Array, shapes: Array, series: bool) -> Law:

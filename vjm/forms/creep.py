@@ -47,7 +47,7 @@ class Creep(Form):
     shapes = (Quantity("steps", 0, 0, "load steps over which it follows", positive=True),)
     memory = True
 
-    def columns(self, x: Array, first: np.ndarray, shapes: Array) -> Array:
+    def columns(self, x: Array, first: np.ndarray, shapes: Array, axial: Array | None = None) -> Array:
         return np.column_stack([x, x - lagged(x, first, kept(shapes[0]))])
 
     def law(self, amplitudes: Array, shapes: Array, series: bool) -> Law:

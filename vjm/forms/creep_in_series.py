@@ -27,7 +27,7 @@ class CreepInSeries(Form):
     )
     memory = True
 
-    def columns(self, x: Array, first: np.ndarray, shapes: Array) -> Array:
+    def columns(self, x: Array, first: np.ndarray, shapes: Array, axial: Array | None = None) -> Array:
         more, keep = float(shapes[0]), kept(shapes[1])
         history, places = by_tests(x, first)
         out, held = np.zeros(history.shape), np.zeros(len(history))

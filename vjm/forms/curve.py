@@ -49,7 +49,7 @@ class CurveForm(Form):
     def points(self, x: Array, shapes: Array) -> Points:
         """At x (...)."""
 
-    def columns(self, x: Array, first: np.ndarray, shapes: Array) -> Array:
+    def columns(self, x: Array, first: np.ndarray, shapes: Array, axial: Array | None = None) -> Array:
         return self.points(x, shapes).value
 
     def law(self, amplitudes: Array, shapes: Array, series: bool) -> Law:

@@ -42,7 +42,7 @@ class Iwan(Form):
         each = np.arange(SLIDERS) + 0.5
         return np.asarray(each / each.sum())
 
-    def columns(self, x: Array, first: np.ndarray, shapes: Array) -> Array:
+    def columns(self, x: Array, first: np.ndarray, shapes: Array, axial: Array | None = None) -> Array:
         return np.asarray(followed(x, first, self.reaches(shapes)) @ self.shares[:, None])
 
     def law(self, amplitudes: Array, shapes: Array, series: bool) -> Law:

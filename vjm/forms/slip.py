@@ -26,7 +26,7 @@ class Slip(Form):
     )
     memory = True
 
-    def columns(self, x: Array, first: np.ndarray, shapes: Array) -> Array:
+    def columns(self, x: Array, first: np.ndarray, shapes: Array, axial: Array | None = None) -> Array:
         return driven(x, first, self._unit(shapes))[:, None]
 
     def _unit(self, shapes: Array, reach: float = 1.0) -> Sliders:

@@ -30,7 +30,7 @@ class TwoLevel(Form):
     memory = True
     grows = "bounded"
 
-    def columns(self, x: Array, first: np.ndarray, shapes: Array) -> Array:
+    def columns(self, x: Array, first: np.ndarray, shapes: Array, axial: Array | None = None) -> Array:
         return followed(x, first, shapes)
 
     def law(self, amplitudes: Array, shapes: Array, series: bool) -> Law:

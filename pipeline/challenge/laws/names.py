@@ -17,7 +17,7 @@ FORMS: Mapping[str, tuple[str, ...]] = {
     "Progressive": ("progressive",),
     "Coulomb": ("coulomb",),
     "CoulombTwoLevels": ("two_level",),
-    "CoulombByLoad": ("coulomb",),
+    "CoulombByLoad": ("friction_by_load", "slip_by_load"),
     "Iwan": ("iwan",),
     "LinearAndCoulomb": ("linear+coulomb", "slip"),
     "LinearAndCubic": ("linear+cubic",),

@@ -101,3 +101,47 @@ def test_a_column_is_over_what_is_predicted_of_it() -> None:
     off = np.abs(z.coordinate[ruled] - cases.measured[ruled, 2])
     assert 0.0 < off.max() < 6.0 * cases.input_sigma[ruled, 2].max()
     assert x.coordinate[read] == pytest.approx(found.prediction.values[read, 0])
+
+
+@pytest.mark.parametrize(
+    ("site", "name", "amplitude", "shapes"),
+    [
+        ("hinge_torque", "friction_by_load", 2.0, (0.002, 100.0)),
+        ("hinge_torque@tip", "friction_by_load", 2.0, (0.002, 100.0)),
+        ("along@base", "slip_by_load", 1e-8, (20.0, 2.0, 100.0)),
+        ("tilt_z@tip", "slip_by_load", 1e-11, (50.0, 2.0, 100.0)),
+    ],
+)
+def test_slight_friction_by_load_does_what_its_columns_say(
+    site: str, name: str, amplitude: float, shapes: tuple[float, ...]
+) -> None:
+    """Its limit follows the axial load of the bar beside it, a load step later, in the mechanism as in its columns."""
+    found = fit_of()
+    kind, form = SITE_KINDS[site.partition("@")[0]], forms()[name]
+    values = dict(zip((q.name for q in form.quantities), (amplitude, *shapes), strict=True))
+    held = {q.identifier(kind.gives, kind.over): values[q.name] for q in form.shapes if q.name in form.fixed}
+    it = SiteLaw.of(
+        name="law",
+        title="",
+        site=site,
+        form=name,
+        parameters=parameters_of(form, kind, values, 1.0),
+        held=held,
+    )
+    known = {q.identifier(kind.gives, kind.over): values[q.name] for q in form.quantities}
+    own = {p.name: known[p.name] for p in it.parameters}
+    cases, here = found.residual.program, found.prediction
+    model = replace(found.model, terms=(*found.model.terms, Term(it, own)))
+    there = predict(model, cases, slopes=False, shift=here.shift)
+    truth = found.residual.flat(whitening(cases, here).apply(there.values - here.values))
+    tags = set(filter(None, site.partition("@")[2].split(".")))
+    rows = found.residual.rows[:, 0]
+    told = np.zeros(rows.size)
+    for e in elements(found):
+        if e.kind == kind.name and tags <= set(e.tags):
+            assert e.axial is not None
+            says = form.columns(e.coordinate, cases.first, np.array(shapes), e.axial)
+            told += e.moved(says * amplitude, np.zeros(1), rows)[:, 0]
+    size = float(np.linalg.norm(truth))
+    assert size > 1e-4
+    assert float(np.linalg.norm(told - truth)) < 0.03 * size
