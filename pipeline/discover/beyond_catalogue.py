@@ -35,6 +35,7 @@ from pipeline.inference.model import Model
 from pipeline.inference.program import Program, program
 
 Say = Callable[[str], None]
+Looked = tuple[Diagnosis, Discovery | None]
 
 
 def with_laws(it: Diagnosis, say: Say = lambda _: None) -> Diagnosis:
@@ -42,14 +43,20 @@ def with_laws(it: Diagnosis, say: Say = lambda _: None) -> Diagnosis:
 
     Optional: what fails here is said and takes nothing else with it. On a rig without places of laws it is as it was.
     """
+    return looked(it, say)[0]
+
+
+def looked(it: Diagnosis, say: Say = lambda _: None) -> Looked:
+    """The diagnosis `with_laws`, and what was found on the way; None where laws were not looked for."""
     if not _asked(it):
-        return it
+        return it, None
     begin, attempts = perf_counter(), Attempts()
-    done = attempts.get(
-        "the look for laws beyond the catalogue", partial(_where_there_are_sites, it, say), it
+    nothing: Looked = (it, None)
+    done, found = attempts.get(
+        "the look for laws beyond the catalogue", partial(_where_there_are_sites, it, say), nothing
     )
     seconds = round(it.seconds + perf_counter() - begin, 3)
-    return replace(done, failed=(*it.failed, *attempts.failed), seconds=seconds)
+    return replace(done, failed=(*it.failed, *attempts.failed), seconds=seconds), found
 
 
 def _asked(it: Diagnosis) -> bool:
@@ -59,42 +66,42 @@ def _asked(it: Diagnosis) -> bool:
     return bool(it.shelf.whole.fitted.any())
 
 
-def _where_there_are_sites(it: Diagnosis, say: Say) -> Diagnosis:
+def _where_there_are_sites(it: Diagnosis, say: Say) -> Looked:
     try:
         return _with_laws(it, say)
     except NoSites:
-        return it
+        return it, None
 
 
-def _with_laws(it: Diagnosis, say: Say) -> Diagnosis:
+def _with_laws(it: Diagnosis, say: Say) -> Looked:
     best = frozenset(it.sets[0])
     if it.judgement.noise and best:
         return _competing(it, best, say)
     sure: Names = frozenset(it.certain)
     found, record = _discovered(it, it.shelf.with_own_line(sure).model if sure else it.shelf.base, say)
     if not found.laws and it.verdict == "within_noise":
-        return it
+        return it, found
     words = law_sentences(record) if found.laws else sentences(record)[:1]
-    return replace(it, laws=record.laws, law_words=words)
+    return replace(it, laws=record.laws, law_words=words), found
 
 
-def _competing(it: Diagnosis, best: Names, say: Say) -> Diagnosis:
+def _competing(it: Diagnosis, best: Names, say: Say) -> Looked:
     """A set of effects against what laws explain without it. One effect alone mimics no law as well as that explains
     itself: it competes only where it leaves a pattern, and gives way only to what is better."""
     several = len(best - root_of(it.shelf, best)) >= criteria.SEVERAL
     say("whether a law explains as much")
     if not (_leaves_a_pattern(it, best) or (several and _may_compete(it, best))):
-        return it
+        return it, None
     found, record = _discovered(it, it.shelf.base, say)
     law = _standing(it, found)
     if law is None or not 0 < len(found.laws) <= len(best - root_of(it.shelf, best)):
-        return it
+        return it, found
     behind = law.cost - min(_cost_of_set(it, names) for names in map(frozenset, it.sets))
     if any(each.ways[0].formed.form.kinked for each in found.laws):
         # Where each row chooses its side of a gap that takes up noise: it is never better than a set by that alone.
         behind = max(behind, -criteria.ALIKE)
     if behind > (criteria.ALIKE if several else -criteria.ALIKE):
-        return it
+        return it, found
     told = _told(found, law)
     if behind >= -criteria.ALIKE:
         ruling = replace(it.ruling, verdict="ambiguous", law=told)
@@ -102,7 +109,8 @@ def _competing(it: Diagnosis, best: Names, say: Say) -> Diagnosis:
         ruling = replace(it.ruling, verdict="unknown", because=f"{told} explains it by {-behind:.0f} better")
     # What laws explain without an effect makes that effect less than certain.
     sure = tuple(name for name in it.certain if name in found.end.model.names)
-    return replace(it, ruling=ruling, certain=sure, laws=record.laws, law_words=law_sentences(record))
+    done = replace(it, ruling=ruling, certain=sure, laws=record.laws, law_words=law_sentences(record))
+    return done, found
 
 
 def _leaves_a_pattern(it: Diagnosis, best: Names) -> bool:

@@ -15,7 +15,7 @@ from pipeline.challenge.laws.cases import Kind, LawCase, clean_case, law_case, p
 from pipeline.challenge.laws.measured import SEEN, LawTruth, Truth, measured
 from pipeline.challenge.laws.names import FORMS, same_physics
 from pipeline.diagnose.diagnosis import Diagnosis, diagnose, suitable
-from pipeline.discover.beyond_catalogue import with_laws
+from pipeline.discover.beyond_catalogue import looked
 from pipeline.discover.search import Added, Discovery, Law, discover
 from pipeline.discrepancy.gaussian import gaussian
 from pipeline.extrapolation.correction import corrected
@@ -84,8 +84,9 @@ class LawOutcome(Record):
     """The same of a Gaussian process on the residual of the model without laws."""
     error: str = ""
     seconds: float = 0.0
-    """Of the processor: the look for laws."""
+    """Of the processor until the answer; without a diagnosis that of `discover`."""
     seconds_of_diagnosis: float = 0.0
+    """Of them, before laws are looked for."""
     commit: str = ""
     code: str = ""
 
@@ -130,14 +131,16 @@ def law_outcome(kind: Kind, number: int, commit: str, code: str, diagnosing: boo
     }
     try:
         began = process_time()
-        found = discovered(campaign)
-        common["seconds"] = round(process_time() - began, 2)
-        common |= _judged(found, campaign, truth)
+        found: Discovery | None = None
         if diagnosing:
-            began = process_time()
-            answer = with_laws(diagnose(campaign, Model(), catalogue()))
+            plain = diagnose(campaign, Model(), catalogue())
             common["seconds_of_diagnosis"] = round(process_time() - began, 2)
-            common |= _named(answer, truth)
+            answer, found = looked(plain)
+            common |= _named(answer, truth) | {"seconds": round(process_time() - began, 2)}
+        if found is None:
+            found = discovered(campaign)
+            common.setdefault("seconds", round(process_time() - began, 2))
+        common |= _judged(found, campaign, truth)
     except (RuntimeError, ArithmeticError, ValueError) as error:
         common["error"] = f"{type(error).__name__}: {error}"
     return LawOutcome(**common)

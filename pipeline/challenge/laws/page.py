@@ -30,8 +30,8 @@ def law_page(it: LawScored) -> str:
             "",
             "The median of what is left beyond noise in held-out tests, sqrt(rms² - 1), over that of a Gaussian "
             f"process that learned the residual of the fitted tests: {excess} (wanted: at most 0.25). A bench took "
-            f"{it.seconds_median:.0f} s of one processor in the median and {it.seconds_most:.0f} s at most; its "
-            f"diagnosis {it.seconds_of_diagnosis:.0f} s in the median.",
+            f"{it.seconds_median:.0f} s of one processor in the median and {it.seconds_most:.0f} s at most, of which "
+            f"{it.seconds_of_diagnosis:.0f} s in the median are the diagnosis before laws are looked for.",
             "",
             "## Bench by bench",
             "",
