@@ -86,6 +86,10 @@ class SiteLaw(Effect):
             raise ValueError(f"{self.form!r} is no form of a law, allowed are {', '.join(forms())}")
         return forms()[self.form]
 
+    def at(self, tags: str) -> Self:
+        """ValueError: its site says where it is."""
+        raise ValueError(f"{self.name} is at {self.site}, allowed is a class of its own for another site")
+
     def absent(self, values: Values) -> bool:
         return all(values[self._identifier(q)] == 0.0 for q in self.law_form.amplitudes)
 

@@ -44,8 +44,9 @@ class Known:
         return Known(all_sized(self.effects, scale_for(campaign)), self.files)
 
     def files_of(self, names: Iterable[str]) -> tuple[Path, ...]:
-        """The user's files that define any of these effects."""
-        return tuple(dict.fromkeys(self.files[name] for name in names if name in self.files))
+        """The user's files that define any of these effects, at whatever parts."""
+        of = (name.partition("@")[0] for name in names)
+        return tuple(dict.fromkeys(self.files[name] for name in of if name in self.files))
 
 
 def known_effects(files: Iterable[Path] = (), beside: Known | None = None) -> Known:

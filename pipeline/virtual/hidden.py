@@ -57,6 +57,12 @@ def _simulable(text: str, effect: Effect, rig: Rig) -> None:
     if isinstance(effect, SensorFault) and not effect.column:
         example = f"{effect.name}@{effect.example}"
         raise InputError(f"--effect {text}: {effect.name} needs a sensor, allowed is {example}, such as fy_N")
+    if effect.tags:
+        kind = type(effect).name
+        raise InputError(
+            f"--effect {text}: the virtual bench has {kind} at all its parts alike, "
+            f"allowed is {kind} without @{effect.tags}"
+        )
     try:
         Errors.of(as_frame(paths, rig))
         effect.apply(rig.mechanism(()), effect.typicals)

@@ -40,13 +40,14 @@ def effect_of(name: str, known: Mapping[str, Effect]) -> Effect:
 
 
 def effect_named(name: str, known: Mapping[str, Effect]) -> Effect | None:
-    """An effect by its name, that of a sensor's fault with the sensor after an @; None for a name that is none."""
-    kind, at, column = name.partition("@")
+    """An effect by its name: of a sensor's fault with the sensor after an @, of one that acts on some parts alone with
+    their tags. None for a name that is none."""
+    kind, at, site = name.partition("@")
     effect = known.get(name) or known.get(kind)
-    if not at or effect is None or effect.name == name:
-        return effect if effect is not None and effect.name == name else None
+    if effect is None or effect.name == name:
+        return effect
     try:
-        return effect.at(column) if isinstance(effect, SensorFault) else None
+        return effect.at(site) if at else None
     except ValueError:
         return None
 

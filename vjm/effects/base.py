@@ -99,7 +99,8 @@ class Effect(ABC):
     smooth: False where the response has a kink or a dead zone in the parameters, so that a fit needs several
     starts and a derivative at null says little. probes: values of the first parameter at which to look for such an
     effect. history: whether the order of load steps matters. includes: effects that it cannot be without. nominal:
-    names of tolerances of which it is the excess; with none of them it is not looked for.
+    names of tolerances of which it is the excess; with none of them it is not looked for. tags: of the parts that
+    have it, joined by dots, where it is not all of them alike.
     """
 
     name: ClassVar[str]
@@ -117,6 +118,16 @@ class Effect(ABC):
     history: ClassVar[bool] = False
     includes: ClassVar[tuple[str, ...]] = ()
     nominal: ClassVar[tuple[str, ...]] = ()
+    tags: str = ""
+
+    def at(self, tags: str) -> Self:
+        """The same effect at the parts with these tags alone, named after them: `joint_friction@tip`. Which tags there
+        are is said by the rig that it is put in. ValueError for none."""
+        if not all(tags.split(".")):
+            raise ValueError(f"{tags!r} are no tags, allowed are names joined by dots, as in {self.name}@tip")
+        it, own = copy.copy(self), type(self)
+        vars(it).update(name=f"{own.name}@{tags}", title=f"{own.title}, at {tags}", tags=tags)
+        return it
 
     @abstractmethod
     def change(self, rig: Rig, values: Values) -> Rig:
@@ -125,10 +136,11 @@ class Effect(ABC):
     def apply(self, mechanism: Changing, values: Values, site: str = "") -> Changing:
         """The mechanism with the effect; itself where all values are null.
 
-        values: by parameter name, complete. site: tags of the parts that have it, joined by dots; "": all alike.
+        values: by parameter name, complete. site: tags of the parts that have it, joined by dots; "": its own `tags`.
         ValueError for a kind of rig that cannot have it, and for a site at which there is nothing it acts on.
         """
         self._check(mechanism.view)
+        site = site or self.tags
         if not site:
             return (
                 mechanism if self.absent(values) else mechanism.changed(self.change(mechanism.view, values))

@@ -28,7 +28,7 @@ class OfParts(Effect):
             raise ValueError(f"{self.name} needs a rig of kind manipulator")
         if self.absent(values):
             return mechanism
-        changed = mechanism.with_parts(lambda part: self.changed_part(part, values), site)
+        changed = mechanism.with_parts(lambda part: self.changed_part(part, values), site or self.tags)
         if changed is mechanism:
             raise ValueError(f"{self.name} changes nothing: the machine has no {self.parts} that it acts on")
         return changed
