@@ -1,5 +1,6 @@
 """What a run is doing: one line a stage with its time on a terminal, nothing where nobody watches."""
 
+import logging
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, field
@@ -7,6 +8,8 @@ from time import perf_counter
 
 from rich.console import Console
 from rich.status import Status
+
+LOG = logging.getLogger(__name__)
 
 
 @dataclass
@@ -53,5 +56,6 @@ class Stage:
 
     def say(self, text: str) -> None:
         """What the stage is at."""
+        LOG.info("%s: %s", self.name, text)
         if self.progress.status is not None:
             self.progress.status.update(f"{self.name}: {text}")

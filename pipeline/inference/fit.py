@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import logging
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -20,6 +21,7 @@ from pipeline.inference.residual import Residual, residual
 from pipeline.inference.solvers import ALL, Effort, End, Solver, Watch, far
 
 Array = NDArray[np.float64]
+LOG = logging.getLogger(__name__)
 
 
 @dataclass(frozen=True, eq=False)
@@ -160,7 +162,11 @@ def _fit(
         there = aim.at(aim.model.values, begin)
         return End(there, there.rounds, ended=False)
 
+    LOG.info("fit of %s from %s", ", ".join(model.names) or "the plain model", model.values)
     end = along_a_line(model, own, begin, solve, effort)
+    left = float(np.sum(end.there.residuals**2))
+    LOG.info("ended after %d evaluations%s", end.evaluations, ", as its work ran out" if end.ended else "")
+    LOG.info("sum of squares %.9g, rows lost %d, numbers %s", left, end.there.lost, end.there.values)
     values, there, model = end.there.values, end.there.with_slopes, end.there.objective.model
     if not others:
         return Fit(model.at(values), there.prediction, there.residual, end.evaluations, end.ended)

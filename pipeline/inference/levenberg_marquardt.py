@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import logging
 from dataclasses import replace
 
 import numpy as np
@@ -16,6 +17,7 @@ from vjm.effects.base import Parameter
 from vjm.work import spent
 
 Array = NDArray[np.float64]
+LOG = logging.getLogger(__name__)
 STEPS = 40
 PROMISE = 1e-3
 """Of chi-square, of which noise makes one for every number, a step of 0.03 standard errors; where the model leaves
@@ -41,6 +43,7 @@ LATE = 10
 PACE = 3
 """Evaluations over which it is seen how fast a sum of squares falls."""
 TINY = 1e-12
+_LINE = "sum of squares %.9g, tried %.9g, promised %.3g less, damping %.3g, rows lost %d, numbers %s"
 
 
 def levenberg_marquardt(
@@ -81,6 +84,7 @@ def levenberg_marquardt(
         gain = here @ here - np.sum(pulled.residuals(tried) ** 2)
         if watch is not None:
             watch(f"{count} evaluations, chi-square {min(here @ here, here @ here - gain):.5g}")
+        LOG.debug(_LINE, here @ here, here @ here - gain, promise, damping, tried.lost, tried.values)
         if tried.lost < there.lost or (tried.lost == there.lost and gain > 0.1 * promise):
             there = tried.with_slopes
             here, slopes = pulled.residuals(there), pulled.jacobian(there)
