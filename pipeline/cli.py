@@ -13,7 +13,7 @@ from pipeline.discover.wiring import register as register_discover
 from pipeline.errors import InputError
 from pipeline.export.wiring import register as register_export
 from pipeline.log import log_to
-from pipeline.options import CampaignFolder, EffectsFrom, Json, ModelFile
+from pipeline.options import CampaignFolder, EffectsFrom, Json, LogFile, ModelFile
 from pipeline.predict.wiring import register as register_predict
 from pipeline.system import missing_libraries, wanted
 from pipeline.typed import typed
@@ -43,14 +43,7 @@ def give_up(message: str, code: int) -> NoReturn:
 
 
 @app.callback()
-def main(
-    log: Annotated[
-        Path | None,
-        typer.Option(
-            metavar="FILE", help="What was fitted, step by step, is written at the end of this file."
-        ),
-    ] = None,
-) -> None:
+def main(log: LogFile = None) -> None:
     """Stiffness of parallelogram linkages: virtual springs, finite elements, and where they disagree."""
     if log is not None:
         guarded(lambda: log_to(log))

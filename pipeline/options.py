@@ -16,3 +16,9 @@ EffectsFrom = Annotated[
     typer.Option("--effects-from", help="Python file with an effect of your own; repeatable."),
 ]
 Json = Annotated[Path | None, typer.Option("--json", help="File for the whole result.")]
+LogFile = Annotated[
+    Path | None,
+    typer.Option(
+        "--log", metavar="FILE", help="What is fitted, step by step, is written at the end of this file."
+    ),
+]

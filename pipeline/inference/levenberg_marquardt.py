@@ -43,7 +43,6 @@ LATE = 10
 PACE = 3
 """Evaluations over which it is seen how fast a sum of squares falls."""
 TINY = 1e-12
-_LINE = "sum of squares %.9g, tried %.9g, promised %.3g less, damping %.3g, rows lost %d, numbers %s"
 
 
 def levenberg_marquardt(
@@ -68,9 +67,9 @@ def levenberg_marquardt(
         promise = here @ here - np.sum((here + slopes @ step) ** 2)
         unit = max(1.0, float(here @ here) / here.size)
         if not promise > _enough(unit, past, here.size):
-            if damping == 0.0 and there.settled:
-                break
             if damping == 0.0:
+                if there.settled:
+                    break
                 there, count = _settled(there, count)
                 here, slopes = pulled.residuals(there), pulled.jacobian(there)
                 continue
@@ -82,9 +81,7 @@ def levenberg_marquardt(
         )
         count += tried.rounds
         gain = here @ here - np.sum(pulled.residuals(tried) ** 2)
-        if watch is not None:
-            watch(f"{count} evaluations, chi-square {min(here @ here, here @ here - gain):.5g}")
-        LOG.debug(_LINE, here @ here, here @ here - gain, promise, damping, tried.lost, tried.values)
+        _tell(watch, count, (float(here @ here), float(gain), float(promise), damping), tried)
         if tried.lost < there.lost or (tried.lost == there.lost and gain > 0.1 * promise):
             there = tried.with_slopes
             here, slopes = pulled.residuals(there), pulled.jacobian(there)
@@ -107,6 +104,18 @@ def levenberg_marquardt(
         if vain or damping > 1e6 or losses == LOSSES or given_up or drags(past, here.size):
             break
     return End(there, count, given_up)
+
+
+def _tell(
+    watch: Watch | None, count: int, step: tuple[float, float, float, float], tried: Evaluation
+) -> None:
+    """A step for whoever watches and for the log. step: sum of squares before it, what it gained, what it promised,
+    damping."""
+    before, gain, promise, damping = step
+    if watch is not None:
+        watch(f"{count} evaluations, chi-square {min(before, before - gain):.5g}")
+    line = "sum of squares %.9g, tried %.9g, promised %.3g less, damping %.3g, rows lost %d, numbers %s"
+    LOG.debug(line, before, before - gain, promise, damping, tried.lost, tried.values)
 
 
 def _enough(unit: float, past: list[float], count: int) -> float:
