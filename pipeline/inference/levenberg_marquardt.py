@@ -57,7 +57,15 @@ def levenberg_marquardt(
     bounds = np.array([each.bounds for each in aim.model.free]).T
     reach = np.array([_reach(each.parameter) for each in aim.model.free]).T
     pulled = Pulled.of(aim, plausible)
-    scale, damping, least, losses, past, given_up = pulled.scale, 0.0, 0.0, 0, list[float](), False
+    scale, damping, least, refused, losses, past, given_up = (
+        pulled.scale,
+        0.0,
+        0.0,
+        np.inf,
+        0,
+        list[float](),
+        False,
+    )
     ends = spent() + effort.share * WORK * allowance(aim.program)
     there = aim.at(np.clip(aim.model.values, *bounds), start, within=np.inf)
     here, slopes, count = pulled.residuals(there), pulled.jacobian(there), there.rounds
@@ -67,9 +75,10 @@ def levenberg_marquardt(
         promise = here @ here - np.sum((here + slopes @ step) ** 2)
         unit = max(1.0, float(here @ here) / here.size)
         if not promise > _enough(unit, past, here.size):
+            # Shorter steps promise nothing, and a longer one from here was not worth taking.
+            if _less(damping) >= refused or (damping == 0.0 and there.settled):
+                break
             if damping == 0.0:
-                if there.settled:
-                    break
                 there, count = _settled(there, count)
                 here, slopes = pulled.residuals(there), pulled.jacobian(there)
                 continue
@@ -85,7 +94,7 @@ def levenberg_marquardt(
         if tried.lost < there.lost or (tried.lost == there.lost and gain > 0.1 * promise):
             there = tried.with_slopes
             here, slopes = pulled.residuals(there), pulled.jacobian(there)
-            damping = max(_less(damping), least)
+            damping, refused = max(_less(damping), least), np.inf
             least /= SLOWLY
         elif not there.settled and tried.lost == there.lost:
             # Where inputs are not settled a sum of squares is too small, which makes the step look worse.
@@ -93,7 +102,7 @@ def levenberg_marquardt(
             here, slopes = pulled.residuals(there), pulled.jacobian(there)
         else:
             # Beyond what the linkage bears every row costs many tries: back at once, and no soon return.
-            losing = tried.lost > there.lost
+            losing, refused = tried.lost > there.lost, min(refused, damping)
             part = max(1.0 / (2.0 - float(gain / promise)), SHORTEST)
             damping = max(10.0 * damping, LOSING) if losing else _shorter(slopes, here, room, damping, part)
             # Along a curved ridge the next step would be as much too long again: it grows by and by.
