@@ -57,21 +57,13 @@ def levenberg_marquardt(
     bounds = np.array([each.bounds for each in aim.model.free]).T
     reach = np.array([_reach(each.parameter) for each in aim.model.free]).T
     pulled = Pulled.of(aim, plausible)
-    scale, damping, least, refused, losses, past, given_up = (
-        pulled.scale,
-        0.0,
-        0.0,
-        np.inf,
-        0,
-        list[float](),
-        False,
-    )
+    scale, damping, least = pulled.scale, 0.0, 0.0
+    refused, losses, past, given_up = np.inf, 0, list[float](), False
     ends = spent() + effort.share * WORK * allowance(aim.program)
     there = aim.at(np.clip(aim.model.values, *bounds), start, within=np.inf)
     here, slopes, count = pulled.residuals(there), pulled.jacobian(there), there.rounds
     for left in reversed(range(STEPS)):
-        room = (bounds - there.values) / scale * reach
-        step = _step(slopes, here, room, damping)
+        step = _step(slopes, here, room := (bounds - there.values) / scale * reach, damping)
         promise = here @ here - np.sum((here + slopes @ step) ** 2)
         unit = max(1.0, float(here @ here) / here.size)
         if not promise > _enough(unit, past, here.size):
