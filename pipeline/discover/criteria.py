@@ -17,7 +17,8 @@ FEW_TESTS = 3
 BLOCKS = 4
 """Into which a history is parted then."""
 PREFERRED = 3.0
-"""Cost by which a form that grows as a power is to be better than one that does not: less is not worth more than a
+"""Cost by which a form that grows as a power is to be better than one that does not, and one that grows as an
+exponential than a power: less is not worth more than a
 bare mention (R. E. Kass, A. E. Raftery, Journal of the American Statistical Association 90 (1995) 773-795)."""
 SETTLED = 3
 """Times that single bad readings are looked for, at most."""

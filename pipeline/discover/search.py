@@ -30,6 +30,8 @@ from vjm.effects.base import Effect
 Array = NDArray[np.float64]
 Say = Callable[[str], None]
 GEOMETRY = "bar_geometric_nonlinearity"
+FASTER = {"bounded": 0, "linear": 0, "power": 1, "exponential": 2}
+"""Times that a form is to be better by what is preferred, by how it grows beyond the loads."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -244,10 +246,9 @@ def _ways(seen: Map, first: list[Formed], cases: Program, name: str, say: Say) -
     if not ordered:
         return ()
     tied = [way for way in ordered if way.cost <= ordered[0].cost + criteria.ALIKE]
-    # Of those that are as good, what stays finite or grows linearly beyond the loads comes before a power.
-    return tuple(
-        sorted(tied, key=lambda way: way.cost + criteria.PREFERRED * (way.formed.form.grows == "power"))
-    )
+    # Of those that are as good, what stays finite or grows linearly beyond the loads comes before a power, and that
+    # before an exponential.
+    return tuple(sorted(tied, key=lambda way: way.cost + criteria.PREFERRED * FASTER[way.formed.form.grows]))
 
 
 def _about(way: Through, noise: Rest) -> list[Formed]:

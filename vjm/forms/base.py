@@ -60,7 +60,7 @@ class Form(ABC):
     no numbers of a fit but say where another one is told. memory: whether the way matters.
     loaded: whether the axial load of the bar beside it matters, N.
     kinked: whether each load step is on one side of a stop, as of a gap.
-    grows: at most linearly far outside ("bounded", "linear"), or as a power ("power").
+    grows: far outside: at most linearly ("bounded", "linear"), as a "power" or as an "exponential".
     """
 
     name: ClassVar[str]

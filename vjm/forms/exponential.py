@@ -23,7 +23,7 @@ class Exponential(CurveForm):
     limits = "beyond the loads measured it grows faster than anything else here"
     amplitudes = (Quantity("scale", 1, 0, "factor of the exponential"),)
     shapes = (Quantity("x0", 0, 1, "over which it grows by e", positive=True),)
-    grows = "power"
+    grows = "exponential"
 
     def points(self, x: Array, shapes: Array) -> Points:
         (x0,) = shapes

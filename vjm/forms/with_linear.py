@@ -23,7 +23,7 @@ class WithLinear(CurveForm):
             "places": other.beside or other.places,
             "amplitudes": (SLOPE, *other.amplitudes),
             "shapes": other.shapes,
-            "grows": "power" if other.grows == "power" else "linear",
+            "grows": "linear" if other.grows == "bounded" else other.grows,
         }
         # Attributes of the instance stand before those of its class.
         vars(self).update(of, other=other, fixed=other.fixed)
