@@ -80,9 +80,14 @@ class LinearModel:
         return factor
 
     @cached_property
+    def unit_motions(self) -> Floats:
+        """Unknowns (size, 6) for a unit of each platform coordinate with the others at zero, mm and rad."""
+        return self.motions(PLATFORM, ())
+
+    @cached_property
     def stiffness(self) -> Floats:
         """Cartesian stiffness at the platform point in the base frame, (6, 6), from one factorisation."""
-        k = self.energy_products(self.motions(PLATFORM, ()))
+        k = self.energy_products(self.unit_motions)
         return 0.5 * (k + k.T)
 
     def energy_products(self, motion: Floats) -> Floats:
