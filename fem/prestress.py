@@ -9,8 +9,8 @@ import scipy.sparse as sp
 from fem.elasticity import internal_forces, nodal_geometric_stiffness, stress
 from fem.linear import LinearModel
 from fem.linkage import PLATFORM
-from fem.solvers import Factor
 from fem.reduction import Placement, Reduction
+from fem.solvers import Factor
 from meshes.solid import Floats, Ints
 
 
