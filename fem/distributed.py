@@ -12,8 +12,8 @@ import scipy.linalg as sl
 import scipy.sparse as sp
 
 from fem.cells import reference
+from fem.rigid_motions import rigid_motions
 from fem.solvers import Solver, direct
-from fem.virtual_experiments import rigid_motions
 from meshes.part import PartMesh
 from meshes.solid import Floats, Ints
 

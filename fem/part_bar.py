@@ -1,6 +1,6 @@
 """A brought part as a bar: K_b by three ways to tie its ends, K_g, and the study of nested meshes."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -135,36 +135,3 @@ def pressed(points: Floats, facets: Mapping[str, Ints], pull: float) -> dict[str
         if (facing := normals[:, 0] * pull < 0.0).any():
             found[kind] = own[facing]
     return found
-
-
-# Two nested meshes: K_b falls as h to a power between that of clamped edges (about 1.4 in energy; M. L. Williams,
-# J. Appl. Mech. 19 (1952) 526-528) and 4 of a smooth field of quadratic cells. With 2, bar P comes within 0.05 % (K44
-# 0.15 %) from 12 000 and 80 000 unknowns; the band reaches from the limit by the one power to that by the other.
-POWER, SLOWEST, FASTEST = 2.0, 1.4, 4.0
-# Of swept hexahedra, graded to the ends: bending of bar P falls by 8, its torsion by 4.
-SWEPT_POWER = 3.0
-
-
-@dataclass(frozen=True, eq=False)
-class Limit:
-    """`value` (6, 6) extrapolated from two nested meshes, `error` (6, 6) of it, absolute."""
-
-    value: Floats
-    error: Floats
-
-
-def limit(coarse: Floats, fine: Floats, power: float = POWER) -> Limit:
-    """The limit of matrices on two meshes of which one halves the cells of the other, falling as h to a power."""
-    step = fine - coarse
-
-    def beyond(p: float) -> Floats:
-        return fine + step / (2.0**p - 1.0)
-
-    value = beyond(power)
-    error = np.maximum(np.abs(beyond(SLOWEST) - value), np.abs(value - beyond(FASTEST)))
-    return Limit(value, error)
-
-
-def spread(matrices: Sequence[Floats]) -> Floats:
-    """(6, 6) largest difference of the others to the first of matrices (6, 6), entry by entry."""
-    return np.asarray(np.max([np.abs(m - matrices[0]) for m in matrices], axis=0))

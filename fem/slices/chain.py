@@ -9,12 +9,12 @@ import scipy.sparse as sp
 
 from fem.material import Isotropic
 from fem.reduction import node_dofs
+from fem.rigid_motions import rigid_motions
 from fem.slices.classes import classes, mirrors, said
 from fem.slices.condensed import Slice
 from fem.slices.layer_matrix import LayerMatrix
 from fem.slices.pieces import ClassChain, Piece, pieces_of_run
 from fem.slices.stiffness import ClassOfLayer
-from fem.virtual_experiments import rigid_motions
 from meshes.layers import SweptMesh
 from meshes.solid import Floats, Ints
 

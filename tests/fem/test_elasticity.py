@@ -12,9 +12,9 @@ from fem import space
 from fem.elasticity import nodal_geometric_stiffness, stiffness_matrix, stress
 from fem.material import Isotropic
 from fem.reduction import node_dofs
+from fem.rigid_motions import rigid_motions
 from fem.solvers import direct
 from fem.space import Space
-from fem.virtual_experiments import rigid_motions
 from meshes.discrete import ELEMENTS, INTEGRATION_ORDER, as_skfem
 from meshes.solid import SolidMesh
 
