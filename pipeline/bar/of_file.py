@@ -76,7 +76,8 @@ def bar_of_placed(
             for other in bars[0].ties
             if other != tie
         }
-        by_tie = {t: bars[0].axial(t).geometric for t in bars[0].ties if t != "distributed"}
+        rigid = [t for t in bars[0].ties if t != "distributed"]
+        by_tie = {t: bars[0].axial(t).geometric for t in rigid} if len(rigid) > 1 else {}
     with progress.stage("stress"):
         stress = stresses_of(case, bars)
     with progress.stage("buckling") as stage:
@@ -96,7 +97,7 @@ def bar_of_placed(
         modelling={name: rows(matrix) for name, matrix in others.items()},
         geometric=rows(geometric.value),
         geometric_numerical_band=relative_error(geometric.value, geometric.error),
-        geometric_modelling_band=relative_spread(by_tie["rigid"], by_tie) if len(by_tie) > 1 else {},
+        geometric_modelling_band=relative_spread(by_tie["rigid"], by_tie) if by_tie else {},
         buckling=loads,
         stress=stress,
         mesh=MeshRecord(
