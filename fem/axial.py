@@ -13,7 +13,6 @@ import numpy as np
 
 from fem.beam import Segment, stepped_stiffness
 from fem.linear import LinearModel
-from fem.linkage import PLATFORM
 from fem.prestress import stressed
 from meshes.solid import Floats
 
@@ -35,9 +34,7 @@ class AxialStiffness:
 
 def axial_stiffness(model: LinearModel) -> AxialStiffness:
     """K_b and K_g of a clamped bar (`fem.linkage.single_bar`) from one factorisation; SolveError if it is not held."""
-    motions = model.motions(PLATFORM, ())
-    elastic = model.energy_products(motions)
-    elastic = 0.5 * (elastic + elastic.T)
+    motions, elastic = model.unit_motions, model.stiffness
     # Pulled by a unit axial force, free to do what it likes otherwise.
     state = stressed(model, motions @ np.linalg.solve(elastic, np.eye(6)[0]))
     geometric = motions.T @ (state.geometric @ motions)

@@ -7,7 +7,7 @@ import numpy as np
 
 from fem.axis_shape import axis_shape, section_sizes
 from fem.eigenpairs import largest_eigenpairs
-from fem.linear import LinearModel, submatrix
+from fem.linear import LinearModel
 from fem.linkage import PLATFORM, Linkage
 from fem.prestress import prestress
 from meshes.solid import Floats
@@ -47,11 +47,9 @@ def buckling(model: LinearModel, held: Sequence[str], count: int = 6, driven: st
     free = r.others([driven, *held])
     factor = model.factor(free)
     state = prestress(model, driven, held, factor)
-    k = submatrix(model.reduced, free)
-    kg = submatrix(state.geometric, free)
     # Pushing reverses the sign of the unit state. Shift-invert about the unloaded state: the largest 1/λ
     # belong to the lowest loads.
-    inverse_factors, vectors = largest_eigenpairs(kg, k, factor, count)
+    inverse_factors, vectors = largest_eigenpairs(state.geometric.within(free), factor, count)
     if np.any(inverse_factors[:count] <= 0.0):
         raise RuntimeError(f"fewer than {count} buckling modes were found in compression")
     motions = np.zeros((r.size, len(inverse_factors)))

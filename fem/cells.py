@@ -10,7 +10,7 @@ from functools import cache
 from itertools import product
 
 import numpy as np
-from scipy.special import roots_legendre
+from numpy.polynomial.legendre import leggauss
 
 from meshes.solid import EDGES, Floats
 
@@ -156,7 +156,7 @@ def _lagrange(places: Floats) -> Callable[[Floats], tuple[Floats, Floats]]:
 
 
 def _cube(dimension: int) -> tuple[Floats, Floats]:
-    x, w = roots_legendre(3)
+    x, w = leggauss(3)
     points = np.array(list(product(x, repeat=dimension)))
     return points, np.array([np.prod(p) for p in product(w, repeat=dimension)])
 
@@ -171,7 +171,7 @@ def _triangle() -> tuple[Floats, Floats]:
 
 
 def _wedge() -> tuple[Floats, Floats]:
-    x, w = roots_legendre(3)
+    x, w = leggauss(3)
     corners = [(1 / 6, 1 / 6), (2 / 3, 1 / 6), (1 / 6, 2 / 3)]
     points = np.array([(*p, z) for z in x for p in corners])
     return points, np.repeat(w, 3) / 6.0

@@ -11,30 +11,27 @@ import numpy as np
 import scipy.linalg as sl
 import scipy.sparse as sp
 
-from fem.anisotropic import Regional
 from fem.cells import reference
-from fem.elasticity import stiffness_matrix
-from fem.material import Isotropic
+from fem.rigid_motions import rigid_motions
 from fem.solvers import Solver, direct
-from fem.space import Space
-from fem.virtual_experiments import rigid_motions
+from meshes.part import PartMesh
 from meshes.solid import Floats, Ints
 
 
 def distributed_stiffness(
-    space: Space,
-    material: Isotropic | Regional,
+    mesh: PartMesh,
+    stiffness: sp.csr_matrix,
     facets: tuple[Mapping[str, Ints], Mapping[str, Ints]],
     points: tuple[Floats, Floats],
     solver: Solver = direct,
 ) -> Floats:
     """(6, 6) stiffness at the tip point against the base point, frame of the mesh, N, mm, rad.
 
+    stiffness : (dofs, dofs) of the whole mesh, nothing held
     facets : those of base and tip, by kind
     points : (3,) base point and tip point, mm
     Raises SolveError if the system cannot be solved.
     """
-    mesh = space.mesh
     base, tip = (fit(mesh.points, own, at) for own, at in zip(facets, points, strict=True))
     # A motion of the base point as the tip point follows it, and a wrench at the tip as the base has to balance it.
     carried = np.eye(6)
@@ -42,7 +39,6 @@ def distributed_stiffness(
     loads = tip.T - base.T @ carried.T
     free = np.ones(mesh.dofs, dtype=bool)
     free[still(mesh.points)] = False
-    stiffness = stiffness_matrix(space, material)
     u = np.zeros((mesh.dofs, 6))
     u[free] = solver(stiffness[free][:, free])(loads[free])
     compliance = loads.T @ u

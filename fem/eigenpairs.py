@@ -1,76 +1,115 @@
-"""The largest eigenvalues of A x = μ K x with every member of a multiple one.
+"""The largest eigenvalues of A x = μ K x with every member of a multiple one, by block Krylov spaces.
 
-One Krylov space holds one vector of each eigenspace, so that Lanczos' method finds further members of a multiple
-eigenvalue only through rounding, or not at all. What was found is therefore taken out of A, and the rest is searched
-again until nothing is left that belongs among the wanted ones.
-Source: B. N. Parlett, The Symmetric Eigenvalue Problem, SIAM 1998, sections 5.2 (deflation) and 13.1 (Krylov spaces).
+A space that starts from one vector holds one vector of each eigenspace, so that further members of a multiple
+eigenvalue are found only through rounding, or not at all. One that starts from b random vectors holds b of them: where
+fewer than b were found of an eigenvalue there are no more. Else the search is done again with more.
+Sources: B. N. Parlett, The Symmetric Eigenvalue Problem, SIAM 1998, sections 13.1 (Krylov spaces) and 13.10 (blocks);
+G. H. Golub, R. Underwood, in: Mathematical Software III, Academic Press 1977, 361-377.
 """
 
-import numpy as np
-import scipy.sparse as sp
-from scipy.sparse.linalg import LinearOperator, eigsh
+from typing import Protocol
 
-from fem.solvers import Factor
+import numpy as np
+
+from fem.factor import Factor
 from meshes.solid import Floats
 
-# Of the vectors, relative; the eigenvalues are then good to its square.
+# Of the residual of a wanted pair over its eigenvalue, which is then good to the square of it.
 VECTOR_TOLERANCE = 1e-6
-# Enough to see whether anything is left; what is found is then searched with the tolerance above.
+# The same of the next one, which is only looked at for being a twin of the last.
 GLANCE = 1e-3
 # Eigenvalues closer than this are members of one: above the error of the eigensolver, below that of a mesh.
 SAME = 1e-4
-# Members of the last wanted eigenvalue beyond those asked for; more of them change no answer.
-MOST_BEYOND = 5
+# Vectors to start from: a solver takes little longer for a few columns than for one.
+BLOCK = 5
+MOST_STEPS = 60
+# Squared, of the longest of new vectors: what is left of a shorter one is the solver's rounding.
+GONE = 1e-18
 
 
-def largest_eigenpairs(
-    a: sp.csr_matrix, k: sp.csr_matrix, factor: Factor, count: int
-) -> tuple[Floats, Floats]:
+class Product(Protocol):
+    """A symmetric matrix as far as it multiplies columns (n, r)."""
+
+    def __matmul__(self, x: Floats) -> Floats: ...
+
+
+def largest_eigenpairs(a: Product, factor: Factor, count: int, block: int = BLOCK) -> tuple[Floats, Floats]:
     """The `count` largest μ (m,) in falling order with vectors (n, m), m ≥ count: with the twins of the last one.
 
-    a      : (n, n) sparse symmetric
-    k      : (n, n) sparse symmetric, positive definite; `factor` solves with it
-    The vectors are orthonormal in K. Raises RuntimeError (ArpackNoConvergence) if the iteration does not settle.
+    a      : (n, n) symmetric
+    factor : solves with K (n, n), symmetric positive definite
+    The vectors are orthonormal in K. RuntimeError if the iteration does not settle.
     """
-    search = Search(a, k, factor)
-    values, vectors = search.rest(np.zeros((k.shape[0], 0)), np.zeros(0), count, VECTOR_TOLERANCE)
-    while len(values) < k.shape[0] - 1:
-        last = float(np.sort(values)[-count])
-        beyond = int(np.sum(values >= last * (1.0 - SAME))) - int(np.sum(values > last * (1.0 + SAME)))
-        glance, _ = search.rest(vectors, values, 1, GLANCE)
-        if glance[0] < last * (1.0 - SAME):
+    size = factor.matrix.shape[0]
+    space = Krylov(a, factor, np.random.default_rng(0).standard_normal((size, min(block, size))))
+    for _ in range(MOST_STEPS):
+        space.grow()
+        values, parts, residuals = space.pairs()
+        if len(values) < min(count + 1, size):
+            continue
+        last = values[min(count, size) - 1]
+        wanted = int(np.count_nonzero(values >= last - SAME * abs(last)))
+        limits = np.where(np.arange(len(values)) < wanted, VECTOR_TOLERANCE, GLANCE) * np.abs(values)
+        if space.whole or np.all(residuals[: wanted + 1] <= limits[: wanted + 1]):
             break
-        value, vector = search.rest(vectors, values, 1, VECTOR_TOLERANCE)
-        if value[0] < last * (1.0 - SAME) or (beyond > MOST_BEYOND and value[0] <= last * (1.0 + SAME)):
-            break
-        values, vectors = np.append(values, value), np.hstack((vectors, vector))
-    order = np.argsort(-values, kind="stable")
-    return values[order], vectors[:, order]
+    else:
+        raise RuntimeError(f"{count} eigenvalues did not settle in {MOST_STEPS} steps of {block} vectors")
+    if not space.whole and members(values[:wanted]) >= block:
+        return largest_eigenpairs(a, factor, count, 2 * block)
+    return values[:wanted], space.basis @ parts[:, :wanted]
 
 
-class Search:
-    """Lanczos' method on what is left of A once found pairs are taken out of it."""
+def members(values: Floats) -> int:
+    """Most of the values (m,), in falling order, that are one."""
+    return max(int(np.count_nonzero(np.abs(values - v) <= SAME * abs(v))) for v in values)
 
-    def __init__(self, a: sp.csr_matrix, k: sp.csr_matrix, factor: Factor) -> None:
-        self.a, self.k = a, k
-        self.inverse = LinearOperator(k.shape, matvec=factor, dtype=float)
 
-    def rest(self, vectors: Floats, values: Floats, count: int, tolerance: float) -> tuple[Floats, Floats]:
-        """The `count` largest of A - Σ μ (K v)(K v)ᵀ over pairs found: values (count,), vectors (n, count)."""
-        operator = self.a if not len(values) else self.without(vectors, values)
-        # What is left of an eigenspace is orthogonal to the start of the search before: another start each time, but
-        # the same in every run.
-        start = np.random.default_rng(len(values)).standard_normal(self.k.shape[0])
-        found, new = eigsh(operator, count, self.k, which="LA", Minv=self.inverse, v0=start, tol=tolerance)
-        order = np.argsort(-found, kind="stable")
-        return found[order], new[:, order]
+class Krylov:
+    """The span of K⁻¹F, K⁻¹A K⁻¹F, .. with a basis Q (n, m) orthonormal in K, and A in it.
 
-    def without(self, vectors: Floats, values: Floats) -> LinearOperator:
-        """A without the pairs (m,), (n, m): their eigenvalues become zero, all others stay."""
-        heavy = self.k @ vectors
+    K Q comes with Q, for K times a new vector is A times the old one: no product with K is made.
+    """
 
-        def product(x: Floats) -> Floats:
-            x = np.ravel(x)
-            return np.asarray(self.a @ x - heavy @ (values * (heavy.T @ x)))
+    def __init__(self, a: Product, factor: Factor, loads: Floats) -> None:
+        self.a, self.factor = a, factor
+        empty = np.zeros((len(loads), 0))
+        self.basis, self.heavy, self.within = empty, empty, np.zeros((0, 0))
+        self.next, self.heavy_next, self.over = self.orthonormal(loads)
 
-        return LinearOperator(self.a.shape, matvec=product, dtype=float)
+    @property
+    def whole(self) -> bool:
+        """Whether A maps the space into itself, so that its pairs are exact."""
+        return self.next.shape[1] == 0
+
+    def grow(self) -> None:
+        """Take in the next vectors."""
+        loads = np.asarray(self.a @ self.next)
+        self.basis = np.hstack((self.basis, self.next))
+        self.heavy = np.hstack((self.heavy, self.heavy_next))
+        columns = self.basis.T @ loads
+        old = len(self.within)
+        self.within = np.block([[self.within, columns[:old]], [columns[:old].T, columns[old:]]])
+        self.next, self.heavy_next, self.over = self.orthonormal(loads)
+
+    def pairs(self) -> tuple[Floats, Floats, Floats]:
+        """Eigenvalues (m,) of A in the space, falling, their vectors (m, m) in the basis, and residuals (m,)."""
+        values, parts = np.linalg.eigh(0.5 * (self.within + self.within.T))
+        values, parts = values[::-1], parts[:, ::-1]
+        # Only the last vectors taken in lead out of the space.
+        return values, parts, np.linalg.norm(self.over @ parts[-self.over.shape[1] :], axis=0)
+
+    def orthonormal(self, loads: Floats) -> tuple[Floats, Floats, Floats]:
+        """K⁻¹ loads (n, b) beyond the basis as new vectors (n, r), K times these, and (r, b) the shares of them."""
+        new, heavy = self.factor(loads), loads
+        over = np.eye(loads.shape[1])
+        # Twice is enough.
+        for _ in range(2):
+            longest = np.einsum("nb,nb->b", new, heavy).max(initial=0.0)
+            shares = self.basis.T @ heavy
+            new, heavy = new - self.basis @ shares, heavy - self.heavy @ shares
+            squares, turn = np.linalg.eigh(0.5 * (new.T @ heavy + heavy.T @ new))
+            kept = squares > GONE * longest
+            lengths, turn = np.sqrt(squares[kept]), turn[:, kept]
+            new, heavy = new @ turn / lengths, heavy @ turn / lengths
+            over = (lengths[:, None] * turn.T) @ over
+        return new, heavy, over

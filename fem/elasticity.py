@@ -86,11 +86,14 @@ def scalar_geometric_blocks(gradients: Floats, weighted_stress: Floats) -> Float
     return pushed @ gradients.transpose(0, 1, 3, 2).reshape(m, 3 * q, k)
 
 
-def geometric_stiffness_matrix(space: Space, sigma: Floats) -> sp.csr_matrix:
-    """K_g of ∫ σ_ab ∂_a u·∂_b v dV for the stress `sigma` (m, q, 3, 3) MPa; (dofs, dofs) sparse, N/mm."""
+def nodal_geometric_stiffness(space: Space, sigma: Floats) -> sp.csr_matrix:
+    """∫ ∇N_i·σ·∇N_j dV for the stress `sigma` (m, q, 3, 3) MPa, (nodes, nodes) sparse, N/mm.
+
+    K_g of ∫ σ_ab ∂_a u·∂_b v dV has it for each of the three directions and nothing between them.
+    """
 
     def local(cells: slice) -> Floats:
         weighted = sigma[cells] * space.weights[cells][:, :, None, None]
         return scalar_geometric_blocks(space.gradients[cells], weighted)[..., None]
 
-    return space.pattern.matrix(space.summed(local)[:, :, None] * IDENTITY)
+    return space.pattern.nodal(space.summed(local)[:, 0])

@@ -59,8 +59,11 @@ class Factor(ABC):
     matrix: Operator
 
     def __init__(self, matrix: sp.csr_matrix) -> None:
-        self.matrix = matrix
-        self.scale = float(np.abs(matrix.data).max(initial=0.0))
+        self.begin(matrix, max(float(matrix.data.max(initial=0.0)), -float(matrix.data.min(initial=0.0))))
+
+    def begin(self, matrix: Operator, scale: float) -> None:
+        """Make ready; scale: the largest entry of the matrix."""
+        self.matrix, self.scale = matrix, scale
         self.solve_seconds, self.solved, self.iterations, self.residual = 0.0, 0, 0, 0.0
         start = time.perf_counter()
         self.prepare()

@@ -13,6 +13,7 @@ from fem.elasticity import stiffness_matrix
 from fem.linkage import PLATFORM, Linkage
 from fem.material import Isotropic
 from fem.reduction import Reduction
+from fem.slices.solver import ChainFactor, ChainSolver
 from fem.solvers import Factor, Solver, automatic
 from meshes.solid import Floats, Ints
 
@@ -21,11 +22,15 @@ ROWS_AT_ONCE = 4000
 
 @dataclass(frozen=True)
 class LinearModel:
-    """A linkage with its stiffness matrices, one for each member."""
+    """A linkage with its stiffness matrices, one for each member.
+
+    known : stiffness matrix of its only member, where that is there already
+    """
 
     linkage: Linkage
     material: Isotropic | Regional
     solver: Solver = automatic
+    known: sp.csr_matrix | None = None
 
     @cached_property
     def reduction(self) -> Reduction:
@@ -41,6 +46,8 @@ class LinearModel:
     @property
     def matrices(self) -> tuple[sp.csr_matrix, ...]:
         """Stiffness matrix of every member, made anew and not kept; members with the same space share one."""
+        if self.known is not None:
+            return (self.known,)
         made: dict[int, sp.csr_matrix] = {}
         for member in self.linkage.members:
             if id(member.space) not in made:
@@ -74,15 +81,29 @@ class LinearModel:
 
     def factor(self, free: Ints) -> Factor:
         """The stiffness of the unknowns `free`, ready to solve; SolveError if they are not held."""
-        coarse = (lambda: prolongation(self.reduction, free)) if self.has_coarse else None
-        factor = self.solver(submatrix(self.reduced, free), coarse)
+        if self._by_chain is not None:
+            factor: Factor = self._by_chain.part(free)
+        else:
+            coarse = (lambda: prolongation(self.reduction, free)) if self.has_coarse else None
+            factor = self.solver(submatrix(self.reduced, free), coarse)
         factor.require_held()
         return factor
 
     @cached_property
+    def _by_chain(self) -> ChainFactor | None:
+        """Of all unknowns, where a chain of slices solves them: any of the generalised coordinates may be held then."""
+        factor = self.solver(self.reduced) if isinstance(self.solver, ChainSolver) else None
+        return factor if isinstance(factor, ChainFactor) else None
+
+    @cached_property
+    def unit_motions(self) -> Floats:
+        """Unknowns (size, 6) for a unit of each platform coordinate with the others at zero, mm and rad."""
+        return self.motions(PLATFORM, ())
+
+    @cached_property
     def stiffness(self) -> Floats:
         """Cartesian stiffness at the platform point in the base frame, (6, 6), from one factorisation."""
-        k = self.energy_products(self.motions(PLATFORM, ()))
+        k = self.energy_products(self.unit_motions)
         return 0.5 * (k + k.T)
 
     def energy_products(self, motion: Floats) -> Floats:

@@ -5,7 +5,7 @@ import numpy as np
 from fem.cells import nodal_slopes, reference
 from fem.space import Space
 from meshes.part import PartMesh
-from meshes.solid import Floats, Ints
+from meshes.solid import Floats, Ints, SolidMesh
 
 
 def part_space(mesh: PartMesh) -> Space:
@@ -24,6 +24,11 @@ def part_space(mesh: PartMesh) -> Space:
         # The last node again: in rising order, and nothing is added to it.
         connectivity.append(np.pad(c, ((0, 0), (0, more_nodes)), mode="edge"))
     return Space(mesh, np.concatenate(gradients), np.concatenate(weights), np.concatenate(connectivity))
+
+
+def layer_space(mesh: SolidMesh) -> Space:
+    """The space of a mesh of one kind of cells, by the same functions; ValueError for cells that are inside out."""
+    return Space(mesh, *_block(mesh.kind, mesh.points, mesh.cells))
 
 
 def _block(kind: str, points: Floats, cells: Ints) -> tuple[Floats, Floats, Ints]:

@@ -1,6 +1,7 @@
 """Sparsity of a symmetric matrix over nodes with three unknowns each, and its sums over cells."""
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 import scipy.sparse as sp
@@ -52,6 +53,20 @@ class SymmetricPattern:
         """The full matrix of the blocks (count, 3, 3) on and above the diagonal; exactly symmetric off it."""
         size = len(self.indptr) - 1
         return sp.csr_matrix((blocks.reshape(-1)[self.source], self.indices, self.indptr), shape=(size, size))
+
+    @cached_property
+    def of_nodes(self) -> tuple[Ints, Ints, Ints]:
+        """Compressed rows over nodes: the block's number at each place, columns, starts of rows."""
+        counts = np.diff(self.indptr)
+        first = np.repeat(np.arange(len(counts)) % 3 == 0, counts) & (self.indices % 3 == 0)
+        starts = np.concatenate(([0], np.cumsum(counts[::3] // 3)))
+        return self.source[first] // 9, self.indices[first] // 3, starts
+
+    def nodal(self, values: Floats) -> sp.csr_matrix:
+        """The symmetric matrix over nodes of the values (count,) of pairs."""
+        number, columns, starts = self.of_nodes
+        nodes = len(starts) - 1
+        return sp.csr_matrix((values[number], columns, starts), shape=(nodes, nodes))
 
 
 def full_blocks(rows: Ints, columns: Ints, nodes: int) -> sp.csr_matrix:

@@ -116,6 +116,20 @@ class Reduction:
                 parts.append(block)
         return tuple(np.concatenate(pair) for pair in zip(parts[::2], parts[1::2], strict=True))
 
+    def spreads(self, at: Placement) -> tuple[sp.csr_matrix, ...]:
+        """`fields` as a matrix of each member, sparse (dofs, size)."""
+        made = []
+        for index, (member, jacobian) in enumerate(
+            zip(self.linkage.members, self.face_jacobians(at), strict=True)
+        ):
+            inner, outer = self.inner[index], self.outer[index]
+            ends = sp.coo_matrix(jacobian)
+            rows = np.concatenate((inner, outer[ends.row]))
+            columns = np.concatenate((self.numbers[index][inner], self.starts[-1] + ends.col))
+            values = np.concatenate((np.ones(len(inner)), ends.data))
+            made.append(sp.csr_matrix((values, (rows, columns)), shape=(member.space.dofs, self.size)))
+        return tuple(made)
+
     def fields(self, motion: Floats, at: Placement) -> tuple[Floats, ...]:
         """Node displacements (dofs, ...) of each member for a small `motion` (size, ...) of the unknowns."""
         coordinates = motion[self.starts[-1] :]

@@ -10,7 +10,6 @@ from functools import cached_property, reduce
 import numpy as np
 
 from fem.pattern import SymmetricPattern
-from meshes.discrete import discretise
 from meshes.solid import Floats, Ints, SolidMesh
 
 # Bounds the memory of a batch to a few hundred megabytes whatever the mesh.
@@ -34,6 +33,9 @@ class Space:
     @staticmethod
     def of(mesh: SolidMesh) -> "Space":
         """The space of a mesh; ValueError if the mesh cannot carry it."""
+        # Late: scikit-fem takes half a second to import, which a chain of slices does without.
+        from meshes.discrete import discretise
+
         discrete = discretise(mesh)
         basis = discrete.basis
         order = np.argsort(discrete.connectivity, axis=1)

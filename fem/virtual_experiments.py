@@ -17,6 +17,7 @@ import scipy.sparse as sp
 from fem.elasticity import stiffness_matrix
 from fem.material import Isotropic
 from fem.reduction import node_dofs
+from fem.rigid_motions import rigid_motions
 from fem.solvers import Solver, direct
 from fem.space import Space
 from meshes.discrete import discretise
@@ -55,10 +56,3 @@ def virtual_experiments(
     leftover = np.sqrt(np.sum(rest * (mass @ rest), axis=0) / np.sum(u * (mass @ u), axis=0))
     inverse = np.linalg.inv(compliance)
     return VirtualExperiments(0.5 * (inverse + inverse.T), leftover)
-
-
-def rigid_motions(arms: Floats) -> Floats:
-    """Node displacements (3 n, 6) of the six unit motions of a body, for `arms` (n, 3) from its point, mm."""
-    translations = np.broadcast_to(np.eye(3), (len(arms), 3, 3))
-    rotations = np.stack([np.cross(e, arms) for e in np.eye(3)], axis=-1)
-    return np.concatenate((translations, rotations), axis=2).reshape(-1, 6)

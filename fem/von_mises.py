@@ -13,7 +13,6 @@ from scipy.spatial import cKDTree
 from fem.anisotropic import Regional, tensor_of
 from fem.cells import nodal_slopes
 from fem.linear import LinearModel
-from fem.linkage import PLATFORM
 from meshes.part import PartMesh
 from meshes.solid import Floats, Ints, SolidMesh
 
@@ -45,7 +44,7 @@ def unit_stress(model: LinearModel) -> UnitStress:
     """Of a single clamped bar. ValueError for a linkage of several; SolveError if it cannot be solved."""
     (member,) = model.linkage.members
     mesh, r = member.space.mesh, model.reduction
-    motions = model.motions(PLATFORM, ()) @ np.linalg.inv(model.stiffness)
+    motions = model.unit_motions @ np.linalg.inv(model.stiffness)
     (fields,) = r.fields(motions, r.rest)
     regions = region_of(mesh)
     count = int(regions.max()) + 1

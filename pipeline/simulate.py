@@ -77,7 +77,6 @@ def _known(source: Path) -> tuple[ParallelogramRig, dict[str, float]]:
     rig = rig_of(source)
     bench = replace(
         rig,
-        computed=None,
         gravity=rig.gravity or (0.0, 0.0, -1.0),
         reference_temperature=REFERENCE_C if rig.reference_temperature is None else rig.reference_temperature,
     )

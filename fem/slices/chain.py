@@ -9,12 +9,12 @@ import scipy.sparse as sp
 
 from fem.material import Isotropic
 from fem.reduction import node_dofs
+from fem.rigid_motions import rigid_motions
 from fem.slices.classes import classes, mirrors, said
 from fem.slices.condensed import Slice
 from fem.slices.layer_matrix import LayerMatrix
 from fem.slices.pieces import ClassChain, Piece, pieces_of_run
 from fem.slices.stiffness import ClassOfLayer
-from fem.virtual_experiments import rigid_motions
 from meshes.layers import SweptMesh
 from meshes.solid import Floats, Ints
 
@@ -123,13 +123,26 @@ class Chain:
         return self.solve(np.zeros((self.swept.mesh.dofs, 6)), motions)
 
     def product(self, u: Floats) -> Floats:
-        """Nodal forces (dofs,) of node displacements `u` (dofs,): the stiffness of the whole mesh, layer by layer."""
+        """Nodal forces (dofs, r) of node displacements `u`: the stiffness of the whole mesh, layer by layer."""
         out = np.zeros_like(u)
-        for run in self.swept.sweep.runs():
-            stiffness = self.matrices[run.shape].stiffness(run.thickness)
-            dofs = np.stack([self._layer_dofs(i) for i in range(run.start, run.start + run.count)], axis=1)
-            np.add.at(out, dofs, stiffness @ u[dofs])
+        for stiffness, dofs in self._runs:
+            moved = u[dofs]
+            forces = (stiffness @ moved.reshape(len(dofs), -1)).reshape(moved.shape)
+            # Of every other layer, no two of which have a node in common.
+            for own in (slice(0, None, 2), slice(1, None, 2)):
+                out[dofs[:, own]] += forces[:, own]
         return out
+
+    @cached_property
+    def _runs(self) -> list[tuple[sp.csr_matrix, Ints]]:
+        """For each run of equal layers the stiffness of one, and the mesh's unknowns (n, layers) of its own."""
+        return [
+            (
+                self.matrices[run.shape].stiffness(run.thickness),
+                np.stack([self._layer_dofs(i) for i in range(run.start, run.start + run.count)], axis=1),
+            )
+            for run in self.swept.sweep.runs()
+        ]
 
     def _layer_dofs(self, number: int) -> Ints:
         """The mesh's unknown for each of a layer's own."""

@@ -10,9 +10,8 @@ from itertools import product
 
 import numpy as np
 import scipy.sparse as sp
-from scipy.spatial import cKDTree
 
-from meshes.layers import SAME_PLACE, Layer, Sweep
+from meshes.layers import SAME_PLACE, Layer, Sweep, clusters
 from meshes.solid import Floats, Ints
 
 Y, Z = 1, 2
@@ -64,12 +63,16 @@ def mirror_images(points: Floats, axes: Sequence[int]) -> Ints | None:
     """(n,) number of the point that stands where each point (n, 3) is mirrored to; None if one stands alone."""
     flipped = points.copy()
     flipped[:, list(axes)] *= -1.0
-    distance, image = cKDTree(points).query(flipped)
     # Of the length of a bar ten times as long as its section is wide.
     near = 10.0 * SAME_PLACE * float(np.ptp(points[:, 1:], axis=0).max(initial=0.0))
-    if distance.max() > near or len(np.unique(image)) != len(points):
+    both = np.concatenate((points, flipped))
+    places = np.stack([clusters(both[:, a], near)[0] for a in range(3)], axis=1)
+    place = np.unique(places, axis=0, return_inverse=True)[1].ravel()
+    own, image = np.split(place, 2)
+    standing, number = np.unique(own, return_index=True)
+    if len(standing) < len(points) or not np.array_equal(standing, np.unique(image)):
         return None
-    return np.asarray(image, dtype=np.int64)
+    return np.asarray(number[np.searchsorted(standing, image)])
 
 
 def class_basis(places: Floats, signs: Signs) -> sp.csc_matrix:

@@ -7,6 +7,7 @@ import scipy.sparse as sp
 
 from fem.elasticity import gradient_gram, isotropic_blocks
 from fem.material import Isotropic
+from fem.part_space import layer_space
 from fem.space import Space
 from meshes.layers import Layer
 from meshes.solid import Floats
@@ -23,7 +24,7 @@ class LayerMatrix:
     @staticmethod
     def of(layer: Layer, material: Isotropic) -> "LayerMatrix":
         """The integration over a layer; ValueError if its mesh cannot carry the displacements."""
-        space = Space.of(layer.mesh)
+        space = layer_space(layer.mesh)
         gram = space.summed(lambda cells: gradient_gram(space.gradients[cells], space.weights[cells]))
         return LayerMatrix(space, material, gram.reshape(-1, 3, 3))
 

@@ -4,8 +4,8 @@ The inner unknowns of a bar, both faces held, are solved by its chain. The few g
 faces come by their Schur complement.
 """
 
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -18,7 +18,7 @@ from fem.reduction import Reduction
 from fem.slices.chain import Chain
 from fem.solvers import Coarse, Solver, automatic
 from meshes.layers import as_sweep
-from meshes.solid import Floats
+from meshes.solid import Floats, Ints
 
 # Relative to the largest force: a matrix that differs more is not that of the chain, but a tangent of a stressed state.
 SAME_MATRIX = 1e-9
@@ -28,16 +28,20 @@ SAME_MATRIX = 1e-9
 class ChainSolver:
     """A `Solver` for the stiffness of one linkage; other matrices go to `otherwise`.
 
+    known : the chain of its only member, where that is there already
     Raises ValueError when first used if a mesh of the linkage is no sweep (`meshes.layers.as_sweep` says why).
     """
 
     linkage: Linkage
     material: Isotropic
     otherwise: Solver = automatic
+    known: Chain | None = None
 
     @cached_property
     def chains(self) -> tuple[Chain, ...]:
         """Of every member; members with the same space share one."""
+        if self.known is not None:
+            return (self.known,)
         made: dict[int, Chain] = {}
         for member in self.linkage.members:
             if id(member.space) not in made:
@@ -51,7 +55,7 @@ class ChainSolver:
     def __call__(self, matrix: sp.spmatrix, coarse: Coarse | None = None) -> Factor:
         matrix = matrix.tocsr()
         if self.is_own(matrix):
-            return ChainFactor(matrix, self.chains, self.reduction)
+            return ChainFactor(Bordered.of(matrix, self.chains, self.reduction))
         return self.otherwise(matrix, coarse)
 
     def is_own(self, matrix: sp.csr_matrix) -> bool:
@@ -62,37 +66,102 @@ class ChainSolver:
             return False
         x = np.random.default_rng(0).standard_normal(inner)
         wanted = (matrix @ np.concatenate((x, np.zeros(matrix.shape[0] - inner))))[:inner]
-        found = np.concatenate([chain.product(u)[d] for chain, u, d in self._fields(x)])
+        found = inner_forces(x[:, None], self.chains, r)[:, 0]
         return bool(np.abs(found - wanted).max() <= SAME_MATRIX * np.abs(wanted).max())
 
-    def _fields(self, x: Floats) -> list[tuple[Chain, Floats, np.ndarray]]:
-        """Each member's chain, its node displacements for inner unknowns `x`, and the inner dofs."""
-        r = self.reduction
-        found = []
-        for i, chain in enumerate(self.chains):
-            u = np.zeros(chain.swept.mesh.dofs)
-            u[r.inner[i]] = x[r.starts[i] : r.starts[i + 1]]
-            found.append((chain, u, r.inner[i]))
-        return found
+
+@dataclass(frozen=True, eq=False)
+class Bordered:
+    """A linkage's matrix by its chains: n inner unknowns, then g generalised coordinates.
+
+    scale, nonzeros : its largest entry, and the number of its entries
+    border : (n, g) of inner unknowns and generalised coordinates; `corner` (g, g) of these
+    answer : (n, g) inner unknowns of the loads `border`, all faces held
+    """
+
+    chains: tuple[Chain, ...]
+    reduction: Reduction
+    scale: float
+    nonzeros: int
+    border: Floats
+    corner: Floats
+    answer: Floats
+
+    @staticmethod
+    def of(matrix: sp.csr_matrix, chains: tuple[Chain, ...], reduction: Reduction) -> "Bordered":
+        """Of all inner unknowns and some generalised coordinates, in this order."""
+        inner = reduction.starts[-1]
+        ends = matrix[inner:]
+        border = ends[:, :inner].toarray().T
+        scale = max(float(matrix.data.max()), -float(matrix.data.min()))
+        answer = inner_solved(border, chains, reduction)
+        return Bordered(chains, reduction, scale, matrix.nnz, border, ends[:, inner:].toarray(), answer)
+
+    def part(self, held: Ints) -> "Bordered":
+        """With some of the generalised coordinates alone."""
+        return replace(
+            self,
+            border=self.border[:, held],
+            corner=self.corner[np.ix_(held, held)],
+            answer=self.answer[:, held],
+        )
+
+    @property
+    def shape(self) -> tuple[int, int]:
+        size = sum(self.border.shape)
+        return size, size
+
+    @property
+    def nnz(self) -> int:
+        return self.nonzeros
+
+    def __matmul__(self, x: Floats) -> Floats:
+        columns = x.reshape(len(x), -1)
+        inner, ends = columns[: len(self.border)], columns[len(self.border) :]
+        forces = inner_forces(inner, self.chains, self.reduction) + self.border @ ends
+        return np.concatenate((forces, self.border.T @ inner + self.corner @ ends)).reshape(x.shape)
+
+
+def inner_forces(motions: Floats, chains: Sequence[Chain], reduction: Reduction) -> Floats:
+    """Forces on the inner unknowns (n, r) for motions of them, all faces held."""
+    return _by_member(motions, chains, reduction, Chain.product)
+
+
+def inner_solved(loads: Floats, chains: Sequence[Chain], reduction: Reduction) -> Floats:
+    """Inner unknowns (n, r) for loads on them, all faces held."""
+    return _by_member(loads, chains, reduction, Chain.solve)
+
+
+def _by_member(
+    given: Floats, chains: Sequence[Chain], r: Reduction, work: Callable[[Chain, Floats], Floats]
+) -> Floats:
+    out = np.empty_like(given)
+    if not given.shape[1]:
+        return out
+    for i, chain in enumerate(chains):
+        own = slice(r.starts[i], r.starts[i + 1])
+        nodal = np.zeros((chain.swept.mesh.dofs, given.shape[1]))
+        nodal[r.inner[i]] = given[own]
+        out[own] = work(chain, nodal)[r.inner[i]]
+    return out
 
 
 class ChainFactor(Factor):
     """The stiffness of a linkage's unknowns: all inner ones, then some generalised coordinates."""
 
-    matrix: sp.csr_matrix
-
-    def __init__(self, matrix: sp.csr_matrix, chains: Sequence[Chain], reduction: Reduction) -> None:
-        self.chains, self.reduction = chains, reduction
-        self.name = chains[0].name
-        super().__init__(matrix)
+    def __init__(self, whole: Bordered) -> None:
+        self.whole = whole
+        self.name = whole.chains[0].name
+        self.begin(whole, whole.scale)
 
     def prepare(self) -> None:
-        self.inner = self.reduction.starts[-1]
-        self.border = self.matrix[: self.inner, self.inner :].toarray()
-        self.answer = self.inner_solved(self.border)
-        corner = self.matrix[self.inner :, self.inner :].toarray()
-        self.schur = corner - self.border.T @ self.answer
+        self.schur = self.whole.corner - self.whole.border.T @ self.whole.answer
         self.negative = int(np.count_nonzero(np.linalg.eigvalsh(self.schur) < 0.0))
+
+    def part(self, kept: Ints) -> "ChainFactor":
+        """Of some of its unknowns, in rising order, all inner ones among them: nothing is solved again."""
+        inner = len(self.whole.border)
+        return ChainFactor(self.whole.part(kept[inner:] - inner))
 
     @property
     def negative_eigenvalues(self) -> int:
@@ -103,24 +172,12 @@ class ChainFactor(Factor):
         """Of another matrix, which the chain does not know."""
         return automatic(matrix)
 
-    def inner_solved(self, loads: Floats) -> Floats:
-        """Inner unknowns (n, r) for loads on them, all faces held."""
-        r = self.reduction
-        out = np.empty_like(loads)
-        if not loads.shape[1]:
-            return out
-        for i, chain in enumerate(self.chains):
-            own = slice(r.starts[i], r.starts[i + 1])
-            nodal = np.zeros((chain.swept.mesh.dofs, loads.shape[1]))
-            nodal[r.inner[i]] = loads[own]
-            out[own] = chain.solve(nodal)[r.inner[i]]
-        return out
-
     def solve(self, rhs: Floats) -> Floats:
-        columns = rhs.reshape(len(rhs), -1)
-        inner = self.inner_solved(columns[: self.inner])
+        columns, whole = rhs.reshape(len(rhs), -1), self.whole
+        count = len(whole.border)
+        inner = inner_solved(columns[:count], whole.chains, whole.reduction)
         try:
-            ends = np.linalg.solve(self.schur, columns[self.inner :] - self.border.T @ inner)
+            ends = np.linalg.solve(self.schur, columns[count:] - whole.border.T @ inner)
         except np.linalg.LinAlgError as error:
             raise SolveError("the linear system is singular: the model is not held") from error
-        return np.concatenate((inner - self.answer @ ends, ends)).reshape(rhs.shape)
+        return np.concatenate((inner - whole.answer @ ends, ends)).reshape(rhs.shape)

@@ -12,6 +12,7 @@ import numpy as np
 import scipy.sparse as sp
 
 from fem.material import Isotropic
+from fem.rigid_motions import rigid_motions
 from fem.slices.classes import Signs, along_x, class_basis, classes, mirrors, section
 from fem.slices.condensed import (
     Prism,
@@ -25,7 +26,6 @@ from fem.slices.condensed import (
     solved,
 )
 from fem.slices.layer_matrix import LayerMatrix
-from fem.virtual_experiments import rigid_motions
 from meshes.layers import Layer, Sweep
 from meshes.solid import Floats
 

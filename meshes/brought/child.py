@@ -6,6 +6,7 @@ import signal
 import subprocess
 import sys
 import tempfile
+import time
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -19,37 +20,58 @@ ASKED, TOLD, ARRAYS = "asked.json", "told.json", "arrays.npz"
 MEMORY_SHARE = 0.8
 
 
-def in_child(module: str, asked: dict[str, Any], seconds: float) -> tuple[dict[str, Any], Arrays]:
-    """What `module.work(asked)` returns, told and arrays, both plain; run in another process.
+class Child:
+    """`module.work(asked)` in another process, which starts at once; what is open is ended and cleared away."""
 
-    ValueError with the sentence of the work's own ValueError, or that the file took too long or ended the reader.
-    """
-    with tempfile.TemporaryDirectory() as name:
-        folder = Path(name)
-        (folder / ASKED).write_text(json.dumps(asked), encoding="utf-8")
-        code = f"from {__name__} import main; main({module!r}, {str(folder)!r})"
-        environment = {**os.environ, "PYTHONPATH": os.pathsep.join(p or os.getcwd() for p in sys.path)}
+    def __init__(self, module: str, asked: dict[str, Any]) -> None:
+        self._kept = tempfile.TemporaryDirectory()
+        self.folder, self.start = Path(self._kept.name), time.monotonic()
+        (self.folder / ASKED).write_text(json.dumps(asked), encoding="utf-8")
+        code = f"from {__name__} import main; main({module!r}, {str(self.folder)!r})"
+        self.process = subprocess.Popen(
+            [sys.executable, "-c", code],
+            env={**os.environ, "PYTHONPATH": os.pathsep.join(p or os.getcwd() for p in sys.path)},
+            stdin=subprocess.DEVNULL,
+            stdout=subprocess.DEVNULL,
+            stderr=subprocess.PIPE,
+        )
+
+    def __enter__(self) -> "Child":
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        if self.process.poll() is None:
+            self.process.kill()
+        self.process.communicate()
+        self._kept.cleanup()
+
+    def found(self, seconds: float) -> tuple[dict[str, Any], Arrays]:
+        """Told and arrays, both plain, at the latest so many seconds after the start.
+
+        ValueError with the sentence of the work's own ValueError, or that the file took too long or ended the reader.
+        """
         try:
-            done = subprocess.run(
-                [sys.executable, "-c", code],
-                env=environment,
-                stdin=subprocess.DEVNULL,
-                capture_output=True,
-                timeout=seconds,
-                check=False,
-            )
+            left = max(self.start + seconds - time.monotonic(), 0.0)
+            _, said = self.process.communicate(timeout=left)
         except subprocess.TimeoutExpired:
             raise ValueError(
                 f"took longer than {seconds:g} s to read and mesh, allowed is a file that takes less; a larger mesh "
                 "size takes less"
             ) from None
-        if not (folder / TOLD).exists():
-            raise ValueError(f"ended the program that reads it ({_ending(done)}): it is damaged")
-        told = json.loads((folder / TOLD).read_text(encoding="utf-8"))
+        if not (self.folder / TOLD).exists():
+            why = _ending(self.process.returncode, said)
+            raise ValueError(f"ended the program that reads it ({why}): it is damaged")
+        told = json.loads((self.folder / TOLD).read_text(encoding="utf-8"))
         if "error" in told:
             raise ValueError(told["error"])
-        with np.load(folder / ARRAYS) as kept:
+        with np.load(self.folder / ARRAYS) as kept:
             return told, {key: kept[key] for key in kept.files}
+
+
+def in_child(module: str, asked: dict[str, Any], seconds: float) -> tuple[dict[str, Any], Arrays]:
+    """What `module.work(asked)` returns, run in another process and waited for; ValueError as `Child.found`."""
+    with Child(module, asked) as child:
+        return child.found(seconds)
 
 
 def main(module: str, folder: str) -> None:
@@ -89,8 +111,8 @@ def _limited() -> None:
         resource.setrlimit(resource.RLIMIT_AS, (most, hard))
 
 
-def _ending(done: subprocess.CompletedProcess[bytes]) -> str:
-    if done.returncode < 0:
-        return signal.Signals(-done.returncode).name
-    last = done.stderr.decode("utf-8", "replace").strip().splitlines()
-    return last[-1][:120] if last else f"exit code {done.returncode}"
+def _ending(code: int, said: bytes) -> str:
+    if code < 0:
+        return signal.Signals(-code).name
+    last = said.decode("utf-8", "replace").strip().splitlines()
+    return last[-1][:120] if last else f"exit code {code}"

@@ -11,7 +11,7 @@ from math import ceil, pi
 import gmsh
 import numpy as np
 
-from meshes.plane import PlaneMesh
+from meshes.plane import GRID, PlaneMesh
 from meshes.solid import Floats, Ints
 
 # Of the face's area: what may stick out of its mirror image.
@@ -26,8 +26,6 @@ EVEN = 1e-6
 SAMPLES = 12
 # Smallest over largest Jacobian of a cell that has a corner of nearly 180 degrees.
 FLAT = 0.05
-# Local nodes of a nine-node quadrilateral row by row, along u, then v.
-GRID = [0, 7, 3, 4, 8, 6, 1, 5, 2]
 # gmsh's number of it, with four nodes.
 QUADRILATERAL = 3
 # Nodes of a nine-node quadrilateral seen from behind.

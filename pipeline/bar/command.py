@@ -22,11 +22,15 @@ RECORD = "bar.json"
 
 @dataclass(frozen=True)
 class Asked:
-    """What was typed. file: a case, or a file with a bar, which `options` describe (`pipeline.bar.file_case`)."""
+    """What was typed. file: a case, or a file with a bar, which `options` describe (`pipeline.bar.file_case`).
+
+    stiffness_only: of a file K_b and its band by mesh, and nothing else.
+    """
 
     file: str
     coarse: bool = False
     fine: bool = False
+    stiffness_only: bool = False
     out: Path | None = None
     json: Path | None = None
     quiet: bool = False
@@ -48,8 +52,8 @@ def bar(asked: Asked) -> BarRecord:
     record.write(folder / RECORD)
     if asked.json is not None:
         record.write(asked.json)
-    page = _draw(folder, progress)
-    print("\n".join([*summary(record), f"record: {folder / RECORD}", f"report: {page}"]), flush=True)
+    page = [] if asked.stiffness_only else [f"report: {_draw(folder, progress)}"]
+    print("\n".join([*summary(record), f"record: {folder / RECORD}", *page]), flush=True)
     return record
 
 
@@ -60,6 +64,10 @@ def _of_case(asked: Asked, progress: Progress) -> tuple[BarRecord, Path]:
         allowed = f"allowed are a case as .toml, {', '.join(readers())}, or {', '.join(shipped_cases())}"
         raise InputError(f"{asked.file} is no file with a bar, {allowed}")
     case = load_case(asked.file, max(detail.study))
+    if asked.stiffness_only:
+        raise InputError(
+            "--stiffness-only is for a bar that comes as a file, leave it out for a case with a section"
+        )
     require("solid")
     from pipeline.bar.of_case import bar_of_case
     from pipeline.validation.workshop import Workshop
@@ -87,10 +95,14 @@ def _of_file(asked: Asked, progress: Progress) -> tuple[BarRecord, Path]:
             "--coarse and --fine are for a case with a section, allowed for a file is a mesh size"
         )
     require("solid")
-    from pipeline.bar.of_file import bar_of_file
-
     folder = asked.out or OWN / f"{case.name}-bar"
     usable(folder, f"--out {folder}")
+    if asked.stiffness_only:
+        from pipeline.bar.stiffness_only import stiffness_of_file
+
+        return stiffness_of_file(case, path.parent, progress, asked.typed), folder
+    from pipeline.bar.of_file import bar_of_file
+
     return bar_of_file(case, path.parent, folder, progress, asked.typed), folder
 
 

@@ -7,7 +7,8 @@ from pathlib import Path
 import numpy as np
 
 from fem.buckling import Mode, buckling
-from fem.part_bar import FASTEST, POWER, SLOWEST, PartBar
+from fem.mesh_limit import FASTEST, POWER, SLOWEST
+from fem.part_bar import PartBar
 from meshes.files import replacing
 from meshes.part import CORNERS, PartMesh, boundary
 from pipeline.progress import Stage

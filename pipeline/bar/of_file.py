@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -12,19 +11,22 @@ import numpy as np
 
 from fem.anisotropic import Orthotropic, Regional, in_frame
 from fem.material import Isotropic
-from fem.part_bar import POWER, SWEPT_POWER, Limit, PartBar, limit
+from fem.mesh_limit import POWER, SWEPT_POWER, Limit, limit, swept_limit
+from fem.part_bar import PartBar
 from fem.part_space import shape_quality
+from fem.section_torsion import torsion_limit
 from meshes.brought.child import in_child
+from meshes.brought.drawn import KIND as SWEPT
 from meshes.brought.formats import module_of
 from meshes.brought.found import Brought
-from meshes.brought.frame import BarFrame, bar_frame
+from meshes.brought.frame import BarFrame
 from meshes.solid import Floats
+from pipeline.bar.brought_bar import asked_of, described, frame_of, relative_error, said_of
 from pipeline.bar.modes import buckled
-from pipeline.bar.record import BarRecord, MeshRecord, named_entries, relative_spread
+from pipeline.bar.record import BarRecord, MeshRecord, relative_spread
 from pipeline.bar.stress import marked, stress_sentences, stresses
 from pipeline.bar.stress_record import Stresses
 from pipeline.bar.tables import FileCase, OrthotropicMaterial
-from pipeline.errors import InputError
 from pipeline.progress import Progress
 from pipeline.provenance import commit, versions
 from pipeline.validation.entries import rows
@@ -66,15 +68,16 @@ def bar_of_placed(
         elastic = [
             a.elastic if tie != "distributed" else b.stiffness(tie) for a, b in zip(axial, bars, strict=True)
         ]
-        power = SWEPT_POWER if bars[-1].mesh.kind == "hexahedron27" else POWER
-        found, geometric = limited(elastic, power), limited([a.geometric for a in axial], power)
+        found = elastic_limit(elastic, placed)
+        geometric = limited([a.geometric for a in axial], bars[-1].mesh.kind)
     with progress.stage("ties of the ends"):
         others = {
             other: found.value + bars[0].stiffness(other) - elastic[0]
             for other in bars[0].ties
             if other != tie
         }
-        by_tie = {t: bars[0].axial(t).geometric for t in bars[0].ties if t != "distributed"}
+        rigid = [t for t in bars[0].ties if t != "distributed"]
+        by_tie = {t: bars[0].axial(t).geometric for t in rigid} if len(rigid) > 1 else {}
     with progress.stage("stress"):
         stress = stresses_of(case, bars)
     with progress.stage("buckling") as stage:
@@ -89,12 +92,12 @@ def bar_of_placed(
         material=described(case),
         stiffness=rows(found.value),
         extrapolated=rows(found.value),
-        numerical_band=relative_error(found),
+        numerical_band=relative_error(found.value, found.error),
         modelling_band=relative_spread(found.value, others),
         modelling={name: rows(matrix) for name, matrix in others.items()},
         geometric=rows(geometric.value),
-        geometric_numerical_band=relative_error(geometric),
-        geometric_modelling_band=relative_spread(by_tie["rigid"], by_tie) if len(by_tie) > 1 else {},
+        geometric_numerical_band=relative_error(geometric.value, geometric.error),
+        geometric_modelling_band=relative_spread(by_tie["rigid"], by_tie) if by_tie else {},
         buckling=loads,
         stress=stress,
         mesh=MeshRecord(
@@ -113,35 +116,15 @@ def bar_of_placed(
     )
 
 
-def said_of(path: Path, work: Callable[[], Any]) -> Any:
-    """What the work returns; its ValueError as an InputError that names the file."""
-    try:
-        return work()
-    except InputError:
-        raise
-    except ValueError as error:
-        raise InputError(f"{path}: {error}") from error
-
-
 def place(case: FileCase, path: Path) -> Placed:
     """Read, mesh and turn into the bar's frame; ValueError says what is wrong with the file or its ends."""
-    if not path.is_file():
-        raise ValueError("is missing or no file")
-    bar = case.bar
-    asked = {
-        "path": str(path.resolve()),
-        "unit": bar.unit,
-        "size": case.mesh.size_mm,
-        "tetrahedra": case.mesh.tetrahedra,
-        "base": None if bar.base is None else bar.base.model_dump(),
-        "tip": None if bar.tip is None else bar.tip.model_dump(),
-        "y": bar.y,
-    }
-    told, arrays = in_child(module_of(path), asked, case.mesh.seconds)
-    brought = Brought(told, arrays)
-    base, tip = brought.base, brought.tip
-    frame = bar_frame(base.at, tip.at, (base.axis, tip.axis), bar.y)
-    bores = (base.axis is not None, tip.axis is not None)
+    return placed(case, Brought(*in_child(module_of(path), asked_of(case, path), case.mesh.seconds)))
+
+
+def placed(case: FileCase, brought: Brought) -> Placed:
+    """The same of what was read; ValueError for ends that make no bar, or materials that are not those of the part."""
+    frame = frame_of(case, brought)
+    bores = (brought.base.axis is not None, brought.tip.axis is not None)
     bars = []
     for mesh in brought.meshes:
         material = material_of(case, mesh.regions, mesh.region_of, frame.turn)
@@ -203,29 +186,19 @@ def checked_quality(placed: Placed) -> dict[str, float]:
     return worst[-1]
 
 
-def limited(matrices: list[Floats], power: float) -> Limit:
-    """Of two nested meshes their limit; of one mesh itself, its error not known and counted as nothing."""
+def elastic_limit(matrices: list[Floats], placed: Placed) -> Limit:
+    """K_b of two nested meshes without their error; of one mesh itself, its error not known and counted as nothing."""
+    drawn = placed.brought.drawn
+    if drawn is not None and isinstance(placed.bars[-1].material, Isotropic):
+        return swept_limit(matrices[-2], matrices[-1], torsion_limit(drawn.flats[-2:]))
+    return limited(matrices, placed.bars[-1].mesh.kind)
+
+
+def limited(matrices: list[Floats], kind: str) -> Limit:
+    """The same by the power of h alone, which the kind of cells says."""
     if len(matrices) == 1:
         return Limit(matrices[0], np.zeros((6, 6)))
-    return limit(matrices[-2], matrices[-1], power)
-
-
-def relative_error(found: Limit) -> dict[str, float]:
-    """Error over value of the entries that are not negligible, by name."""
-    value = found.value
-    return {name: float(found.error[ij] / abs(value[ij])) for name, ij in named_entries(value).items()}
-
-
-def described(case: FileCase) -> dict[str, float | str]:
-    """The material as it stands in the record."""
-    if case.material is not None:
-        own = case.material.model_dump(exclude_none=True)
-        return {k: v if isinstance(v, float | str) else str(v) for k, v in own.items()}
-    return {
-        f"{name} {k}": v if isinstance(v, float | str) else str(v)
-        for name, each in case.materials.items()
-        for k, v in each.model_dump(exclude_none=True).items()
-    }
+    return limit(matrices[-2], matrices[-1], SWEPT_POWER if kind == SWEPT else POWER)
 
 
 def sentences(placed: Placed, tie: str) -> list[str]:

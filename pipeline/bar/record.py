@@ -51,17 +51,17 @@ class BarRecord(Record):
     """K_b of the mesh study's limit."""
     numerical_band: dict[str, float]
     """Relative error of the entries of `stiffness` by its mesh."""
-    modelling_band: dict[str, float]
-    """Relative spread of the entries of `stiffness` over ways to tie its ends."""
-    modelling: dict[str, Matrix]
+    modelling_band: dict[str, float] = Field(default_factory=dict)
+    """Relative spread of the entries of `stiffness` over ways to tie its ends; empty where only one was computed."""
+    modelling: dict[str, Matrix] = Field(default_factory=dict)
     """K_b of each other way to tie the ends."""
-    geometric: Matrix
-    """K_g: derivative of the (6, 6) by the axial force at no load, tension positive, per N."""
-    geometric_numerical_band: dict[str, float]
+    geometric: Matrix | None = None
+    """K_g: derivative of the (6, 6) by the axial force at no load, tension positive, per N; None: not computed."""
+    geometric_numerical_band: dict[str, float] = Field(default_factory=dict)
     geometric_modelling_band: dict[str, float] = Field(default_factory=dict)
-    buckling: list[Buckling]
+    buckling: list[Buckling] = Field(default_factory=list)
     stress: Stresses | None = None
-    """Under unit loads; None of a bar whose materials are all orthotropic."""
+    """Under unit loads; None of a bar whose materials are all orthotropic, or where it is not computed."""
     mesh: MeshRecord
     said: list[str]
     """What a reader has to know, a sentence each."""

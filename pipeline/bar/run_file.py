@@ -8,7 +8,8 @@ from pathlib import Path
 import numpy as np
 
 from fem.material import Isotropic
-from pipeline.bar.of_file import bar_of_placed, place, said_of
+from pipeline.bar.brought_bar import said_of
+from pipeline.bar.of_file import bar_of_placed, place
 from pipeline.bar.part_linkage import PartLinkage, PartSpecimen, Sizes, part_linkage
 from pipeline.bar.part_result import PartResult
 from pipeline.bar.record import BarRecord

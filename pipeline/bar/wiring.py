@@ -35,6 +35,9 @@ def register(app: typer.Typer, guarded: Callable[[Callable[[], object]], None]) 
         modulus: Annotated[float | None, typer.Option("--E", help="Young's modulus, MPa.")] = None,
         nu: Annotated[float | None, typer.Option("--nu", help="Poisson's ratio.")] = None,
         size: Annotated[float | None, typer.Option(help="Mesh size, mm; default by thickness.")] = None,
+        stiffness_only: Annotated[
+            bool, typer.Option("--stiffness-only", help="Of a file K_b and its band by mesh alone, no page.")
+        ] = False,
         json: Json = None,
         out: Annotated[
             Path | None, typer.Option(help="Folder of bar.json and its page; default results/NAME-bar.")
@@ -59,6 +62,8 @@ def register(app: typer.Typer, guarded: Callable[[Callable[[], object]], None]) 
             "nu": nu,
             "size": size,
         }
-        guarded(lambda: compute(Asked(file, coarse, fine, out, json, quiet, typed(), options)))
+        guarded(
+            lambda: compute(Asked(file, coarse, fine, stiffness_only, out, json, quiet, typed(), options))
+        )
 
     app.command()(bar)

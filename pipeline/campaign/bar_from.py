@@ -23,7 +23,8 @@ class BarFrom:
     """A bar that was computed.
 
     stiffness: (6, 6) K_b, exactly symmetric. geometric: (6, 6) K_g per N, or None. length, width: mm; width None where
-    nobody said it. numerical, modelling: relative bands by EA, EIy, EIz, GJ, the largest of their entries.
+    nobody said it. numerical, modelling: relative bands by EA, EIy, EIz, GJ, the largest of their entries, where they
+    were computed.
     """
 
     path: Path
@@ -61,12 +62,14 @@ class BarFrom:
         """Both bands of EA, EIy, EIz, GJ together, as the root of the sum of their squares."""
         return {key: hypot(self.numerical.get(key, 0.0), self.modelling.get(key, 0.0)) for key in OF}
 
+    def _by_tie(self, key: str) -> str:
+        return f"{100 * self.modelling[key]:.2g} %" if key in self.modelling else "nothing known"
+
     @property
     def said(self) -> str:
         """The bands in words."""
         parts = [
-            f"{key} {100 * self.numerical.get(key, 0.0):.2g} % by mesh and "
-            f"{100 * self.modelling.get(key, 0.0):.2g} % by tie of the ends"
+            f"{key} {100 * self.numerical.get(key, 0.0):.2g} % by mesh and {self._by_tie(key)} by tie of the ends"
             for key in OF
         ]
         return f"{self.name} adds its bands to the usual tolerance: {', '.join(parts)}"
@@ -98,7 +101,7 @@ def _of_bar(path: Path, raw: Mapping[str, Any]) -> BarFrom:
     return BarFrom(
         path,
         symmetric(raw["stiffness"]),
-        symmetric(raw["geometric"]),
+        None if raw["geometric"] is None else symmetric(raw["geometric"]),
         float(raw["length_mm"]),
         None if width is None else float(width),
         _by_stiffness(raw["numerical_band"]),
@@ -124,6 +127,7 @@ def _of_run(path: Path, raw: Mapping[str, Any]) -> BarFrom:
 def _by_stiffness(band: Mapping[str, float]) -> dict[str, float]:
     """Of each stiffness of a section the largest band of its entries."""
     return {
-        key: max([abs(float(band[e])) for e in entries if e in band], default=0.0)
+        key: max(abs(float(band[e])) for e in entries if e in band)
         for key, entries in OF.items()
+        if any(e in band for e in entries)
     }

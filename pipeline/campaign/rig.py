@@ -94,6 +94,11 @@ class Rig(ABC):
         return ()
 
     @property
+    def named(self) -> dict[str, Any]:
+        """Keys of its table that name these files in the place of the numbers which they hold."""
+        return {}
+
+    @property
     def tolerance_said(self) -> str:
         """Where these come from, if from more than usage; else empty."""
         return ""

@@ -28,21 +28,33 @@ from pipeline.toml.complaints import BadCampaign
 def write(folder: Path, campaign: Campaign, overwrite: bool = False) -> None:
     """Write both files, each whole or not at all; `read` then gives the same numbers to the last bit.
 
-    InputError if the folder has a campaign already and `overwrite` is not set, or cannot be written.
+    Files that the rig names are copied beside them. InputError if the folder has a campaign already and `overwrite` is
+    not set, has another file of such a name, or cannot be written.
     ValueError if the campaign is one that `read` would refuse; nothing is written then.
     """
     there = [name for name in (DESCRIPTION, MEASUREMENTS) if (folder / name).exists()]
     if there and not overwrite:
         raise InputError(f"{folder / there[0]} exists, allowed is a folder without a campaign")
+    beside = {path.name: path.read_bytes() for path in campaign.rig.files}
+    for name, content in beside.items():
+        if (folder / name).exists() and (folder / name).read_bytes() != content:
+            raise InputError(
+                f"{folder / name} is there already and is another file, allowed is a folder without it"
+            )
     texts = {DESCRIPTION: description_text(campaign), MEASUREMENTS: measurements_text(campaign)}
     with tempfile.TemporaryDirectory() as trial:
         for name, text in texts.items():
             (Path(trial) / name).write_text(text, encoding="utf-8", newline="")
+        for name, content in beside.items():
+            (Path(trial) / name).write_bytes(content)
         try:
             read(Path(trial))
         except BadCampaign as error:
             raise ValueError(f"the campaign could not be read again: {error.complaints[0]}") from error
     try:
+        for name, content in beside.items():
+            with replacing(folder / name) as part:
+                part.write_bytes(content)
         # The measurements first: a folder with a description is complete.
         for name in (MEASUREMENTS, DESCRIPTION):
             with replacing(folder / name) as part:
@@ -104,7 +116,7 @@ def gauge_table(gauge: Gauge) -> dict[str, Any]:
 
 def rig_table(rig: Rig) -> dict[str, Any]:
     """A rig in the keys and units of the file; what has its default is left out."""
-    table = {"kind": rig.kind, **rig.keys()}
+    table = {"kind": rig.kind, **rig.keys(), **rig.named}
     return {
         key: inline(value) if isinstance(value, dict) else value
         for key, value in table.items()

@@ -11,6 +11,7 @@ from pipeline.validation.agreement import force_at
 from pipeline.validation.bands import Band
 from pipeline.validation.entries import ENTRIES
 from pipeline.validation.mode_alarms import mode_alarms
+from pipeline.validation.quantities import force
 from pipeline.validation.result import Bar, Buckling, Critical, Curve, Parallelogram, Refinement
 from pipeline.validation.stages.axial import BENDING
 
@@ -98,20 +99,30 @@ def critical_alarms(records: Sequence[Critical]) -> list[str]:
         ("beam formula", [r for r in records if r.model == "beam formula" and r.ratio_to_solid is not None]),
         ("distributed springs", [r for r in records if r.spring_at == "distributed"]),
     ):
-        off = [
-            Difference(
-                f"q = {r.q_deg:g}°, {', '.join(r.held)} held, {r.what}",
-                -1.0 if r.ratio_to_solid is None else r.ratio_to_solid - 1.0,
-            )
-            for r in chosen
-        ]
+        off = [Difference(where(r), r.ratio_to_solid - 1.0) for r in chosen if r.ratio_to_solid is not None]
         found += beyond(f"Critical loads of the linkage, {title} against the solid", bands.CRITICAL, off)
-    errors = [
-        Difference(f"q = {r.q_deg:g}°, {', '.join(r.held)} held, {r.what}", r.band)
-        for r in records
-        if r.band is not None
-    ]
+        found += [not_found(title, r, records) for r in chosen if r.load_N is None]
+    errors = [Difference(where(r), r.band) for r in records if r.band is not None]
     return [*found, *beyond("Mesh error of the linkage's critical loads", bands.MESH, errors, FINER)]
+
+
+def where(record: Critical) -> str:
+    """Which critical load it is."""
+    return f"q = {record.q_deg:g}°, {', '.join(record.held)} held, {record.what}"
+
+
+def not_found(title: str, record: Critical, records: Sequence[Critical]) -> str:
+    """That a model has no critical load, how far it was looked for, and the lowest one of the solid there."""
+    far = "" if record.searched_N is None else f" up to {force(record.searched_N)}"
+    solids = [
+        r.load_N
+        for r in records
+        if r.model == "solid" and (r.q_deg, r.held) == (record.q_deg, record.held) and r.load_N is not None
+    ]
+    beside = f", the solid has one at {force(min(solids))}" if solids else ""
+    return (
+        f"Critical loads of the linkage: no critical load found by {title}{far} for {where(record)}{beside}."
+    )
 
 
 def path_alarms(curves: Sequence[Curve], studies: Sequence[Refinement]) -> list[str]:

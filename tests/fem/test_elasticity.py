@@ -9,12 +9,12 @@ from scipy.spatial import cKDTree
 from skfem.models.elasticity import linear_elasticity
 
 from fem import space
-from fem.elasticity import geometric_stiffness_matrix, stiffness_matrix, stress
+from fem.elasticity import nodal_geometric_stiffness, stiffness_matrix, stress
 from fem.material import Isotropic
 from fem.reduction import node_dofs
+from fem.rigid_motions import rigid_motions
 from fem.solvers import direct
 from fem.space import Space
-from fem.virtual_experiments import rigid_motions
 from meshes.discrete import ELEMENTS, INTEGRATION_ORDER, as_skfem
 from meshes.solid import SolidMesh
 
@@ -78,15 +78,14 @@ def test_stiffness_equals_scikit_fem(small: SolidMesh, small_space: Space, mater
 def test_geometric_stiffness_is_stress_times_slopes(small: SolidMesh, small_space: Space) -> None:
     """For linear fields u, v in a constant stress, u K_g v = V tr(G_u σ G_vᵀ); rigid translations feel nothing."""
     sigma = np.array([[-50.0, 7.0, 3.0], [7.0, 20.0, -4.0], [3.0, -4.0, 11.0]])
-    kg = geometric_stiffness_matrix(
+    kg = nodal_geometric_stiffness(
         small_space, np.broadcast_to(sigma, (*small_space.weights.shape, 3, 3)).copy()
     )
     other = GRADIENT[::-1] - 2e-3 * np.eye(3)
-    u, v = ((small.points @ g.T).ravel() for g in (GRADIENT, other))
+    u, v = (small.points @ g.T for g in (GRADIENT, other))
     expected = small_space.weights.sum() * np.trace(GRADIENT @ sigma @ other.T)
-    np.testing.assert_allclose(u @ (kg @ v), expected, rtol=1e-10)
-    translation = np.tile([1.0, 2.0, 3.0], len(small.points))
-    assert np.abs(kg @ translation).max() < 1e-10 * abs(kg).max()
+    np.testing.assert_allclose(np.sum(u * (kg @ v)), expected, rtol=1e-10)
+    assert np.abs(kg @ np.ones(len(small.points))).max() < 1e-10 * abs(kg).max()
 
 
 def test_batches_do_not_change_the_matrix(

@@ -10,12 +10,13 @@ from fem.cells import _FUNCTIONS, _NODES, reference
 from fem.distributed import fit, still
 from fem.elasticity import stiffness_matrix, stress
 from fem.material import Isotropic
-from fem.part_bar import PartBar, limit
+from fem.mesh_limit import limit
+from fem.part_bar import PartBar
 from fem.part_space import part_space, shape_quality
+from fem.rigid_motions import rigid_motions
 from fem.rotation import rotation
 from fem.space import Space
 from fem.stiffness import bar_stiffness
-from fem.virtual_experiments import rigid_motions
 from meshes.bar import Bar
 from meshes.facets import Cylinder, on_surface
 from meshes.part import CORNERS, FACETS, PartMesh

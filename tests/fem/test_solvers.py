@@ -11,6 +11,7 @@ import scipy.sparse as sp
 from fem import solvers
 from fem.coarse_space import linear_in_quadratic, prolongation
 from fem.linear import LinearModel, submatrix
+from fem.rigid_motions import rigid_motions
 from fem.solvers import (
     Factor,
     MultigridFactor,
@@ -23,7 +24,6 @@ from fem.solvers import (
     has_pardiso,
     multigrid,
 )
-from fem.virtual_experiments import rigid_motions
 from tests.fem import bar_p
 
 needs_pardiso = pytest.mark.skipif(not has_pardiso(), reason="pypardiso is not installed on this platform")

@@ -9,7 +9,7 @@ import pytest
 
 from fem.buckling import buckling
 from fem.reduction import Reduction
-from fem.virtual_experiments import rigid_motions
+from fem.rigid_motions import rigid_motions
 from meshes.solid import SolidMesh
 from tests.fem import bar_p
 from tests.peers import calculix

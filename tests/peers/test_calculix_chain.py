@@ -7,8 +7,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from fem.rigid_motions import rigid_motions
 from fem.slices.stiffness import chain_stiffness
-from fem.virtual_experiments import rigid_motions
 from meshes.extrusion import section_solid, stepped_thickness
 from meshes.resolution import Resolution
 from tests.fem import bar_p

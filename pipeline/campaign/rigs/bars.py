@@ -71,6 +71,10 @@ class RigOfBars(Rig):
         return () if self.computed is None else (self.computed.path,)
 
     @property
+    def named(self) -> dict[str, Any]:
+        return {} if self.computed is None else {"bar_stiffness": None, "bar_from": self.computed.name}
+
+    @property
     def tolerance_said(self) -> str:
         return "" if self.computed is None else self.computed.said
 

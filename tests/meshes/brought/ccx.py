@@ -12,7 +12,7 @@ import numpy as np
 from fem.anisotropic import Orthotropic, Regional
 from fem.material import Isotropic
 from fem.part_bar import PartBar
-from fem.virtual_experiments import rigid_motions
+from fem.rigid_motions import rigid_motions
 from meshes.solid import Floats
 
 CCX = shutil.which("ccx")

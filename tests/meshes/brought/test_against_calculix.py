@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import numpy as np
 import pytest
 
+from fem import cells
 from fem.anisotropic import Orthotropic, Regional
 from fem.material import Isotropic
 from fem.part_bar import PartBar
@@ -36,22 +38,42 @@ def test_hexahedra_wedges_and_both_with_two_materials_one_of_them_orthotropic(
     assert compared(PartBar(mesh, 60.0, law, (False, False)), tmp_path) < 1e-4
 
 
-@pytest.mark.long
-def test_a_fork_with_two_bores(tmp_path: Path) -> None:
-    ends = bore(0, 0, 0, radius=3.0), bore(60, 0, 0, radius=2.5)
-    bar, _ = bars(brought(cad(tmp_path / "fork.step", made.fork), *ends, size=6.0))
-    assert compared(bar, tmp_path) < 1e-4
+@pytest.fixture
+def its_points(monkeypatch: pytest.MonkeyPatch) -> Iterator[Callable[[], None]]:
+    """Integrate a curved tetrahedron at CalculiX's four points (C3D10, exact to degree 2) and no more at 14."""
+
+    def chosen() -> None:
+        far = (5.0 - np.sqrt(5.0)) / 20.0
+        points = np.full((4, 3), far) + np.vstack((np.zeros(3), (1.0 - 4.0 * far) * np.eye(3)))
+        functions, _ = cells._FUNCTIONS["tetra10"]
+        monkeypatch.setitem(
+            cells._FUNCTIONS, "tetra10", (functions, lambda: (points, np.full(4, 1.0 / 24.0)))
+        )
+        cells.reference.cache_clear()
+
+    yield chosen
+    cells.reference.cache_clear()
 
 
 @pytest.mark.long
-@pytest.mark.parametrize("name", ["tapered", "hollow"])
-def test_a_tapered_and_a_hollow_bar(name: str, tmp_path: Path) -> None:
-    make = {"tapered": made.tapered, "hollow": made.hollow}[name]
-    bar, _ = bars(
-        brought(cad(tmp_path / "it.step", make), plane(0, 0, 0), plane(60, 0, 0), size=6.0, tetrahedra=True)
-    )
-    # Curved tetrahedra: 14 points here and 4 there.
-    assert compared(bar, tmp_path) < 2e-4
+@pytest.mark.parametrize("name", ["tapered", "hollow", "fork"])
+def test_curved_tetrahedra(name: str, tmp_path: Path, its_points: Callable[[], None]) -> None:
+    """A taper, a tube and a fork with two bores: 1e-4 where it was asked for, on the mesh that K_b comes from.
+
+    What is left on the coarse one, up to 1.5e-4, is how curved cells are integrated: at the same points the two
+    programs agree to 1e-6.
+    """
+    make = {"tapered": made.tapered, "hollow": made.hollow, "fork": made.fork}[name]
+    planes = plane(0, 0, 0), plane(60, 0, 0)
+    ends = (bore(0, 0, 0, radius=3.0), bore(60, 0, 0, radius=2.5)) if name == "fork" else planes
+    it = brought(cad(tmp_path / "it.step", make), *ends, size=6.0, tetrahedra=True)
+    coarse, fine = bars(it)
+    assert compared(fine, tmp_path) < 1e-5
+    assert compared(coarse, tmp_path) < (1e-4 if name == "fork" else 2e-4)
+    its_points()
+    coarse, _ = bars(it)
+    assert coarse.space.weights.shape[1] == 4
+    assert compared(coarse, tmp_path) < 1e-6
 
 
 def test_two_solids_with_two_materials_from_one_file(tmp_path: Path) -> None:

@@ -9,14 +9,15 @@ from typing import Any
 import numpy as np
 import pytest
 
-from fem.part_bar import POWER, SWEPT_POWER, limit
+from fem.mesh_limit import limit, swept_limit
+from fem.section_torsion import torsion_limit
 from fem.slices.stiffness import chain_stiffness
 from meshes.brought.child import in_child
 from meshes.extrusion import section_sweep, stepped_thickness
 from meshes.resolution import Resolution
 from meshes.section import Rectangle, Tube
 from tests.fem import bar_p as bar_p_data
-from tests.meshes.brought import made
+from tests.meshes.brought import finest, made
 from tests.meshes.brought.made import bars, bore, brought, cad, difference, plane
 
 ENDS = (plane(0, 0, 0), plane(60, 0, 0))
@@ -178,9 +179,11 @@ def test_a_prism_is_swept(make: Callable[[], None], folder: Path) -> None:
     section = Rectangle(6.0, 10.0) if make is made.box else Tube(10.0, 2.0)
     sweep = section_sweep(section, Resolution(1.25), stepped_thickness(60.0, (8, 8, 8)))
     reference = chain_stiffness(sweep, made.ALUMINIUM)
-    found = limit(coarse.stiffness("rigid"), fine.stiffness("rigid"), SWEPT_POWER).value
+    assert it.drawn is not None
+    torsion = torsion_limit(it.drawn.flats)
+    found = swept_limit(coarse.stiffness("rigid"), fine.stiffness("rigid"), torsion).value
     error = np.abs(np.diag(found) / np.diag(reference) - 1.0)
-    assert np.delete(error, 3).max() < 2e-3 and error[3] < 1e-2
+    assert np.delete(error, 3).max() < 2e-3 and error[3] < 3e-3
 
 
 def test_what_is_no_prism_is_not_swept(folder: Path) -> None:
@@ -198,27 +201,32 @@ def test_what_is_no_prism_is_not_swept(folder: Path) -> None:
 
 @pytest.mark.long
 def test_bar_p_by_tetrahedra_and_swept(folder: Path) -> None:
-    """The figures that were asked for: forced to tetrahedra and extrapolated 0.1 %, K44 0.5 %; swept 0.1 %, K44 1 %."""
+    """The figures that were asked for: forced to tetrahedra and extrapolated 0.1 %, K44 0.5 %; swept 0.1 %, K44 1 %.
 
-    def bar_p() -> None:
-        import gmsh
-
-        from meshes.sweep import add_patch
-
-        occ = gmsh.model.occ
-        flats = [(2, add_patch(patch, 0.0)) for patch in bar_p_data.SECTION.patches()]
-        solids = [e for e in occ.extrude(flats, bar_p_data.LENGTH, 0.0, 0.0) if e[0] == 3]
-        occ.fuse(solids[:1], solids[1:])
-
-    path = cad(folder / "p.step", bar_p)
-    sweep = section_sweep(
-        bar_p_data.SECTION, Resolution(0.75), stepped_thickness(bar_p_data.LENGTH, (16, 16, 16, 16, 16))
-    )
-    reference = bar_p_data.entries(chain_stiffness(sweep, bar_p_data.MATERIAL))
-    for tetrahedra, torsion in ((True, 5e-3), (False, 1e-2)):
+    K44 of the sweep is met to 0.3 %, and each error lies in its band.
+    """
+    path = cad(folder / "p.step", extruded_bar_p)
+    reference = bar_p_data.entries(finest.bar_p())
+    for tetrahedra, torsion in ((True, 5e-3), (False, 3e-3)):
         it = brought(path, plane(0, 0, 0), plane(310, 0, 0), tetrahedra=tetrahedra)
-        power = POWER if tetrahedra else SWEPT_POWER
-        found = limit(*(bar.stiffness("rigid") for bar in bars(it)), power)
+        coarse, fine = (bar.stiffness("rigid") for bar in bars(it, bar_p_data.MATERIAL))
+        drawn = it.drawn
+        found = (
+            limit(coarse, fine) if drawn is None else swept_limit(coarse, fine, torsion_limit(drawn.flats))
+        )
         error = np.abs(bar_p_data.entries(found.value) / reference - 1.0)
-        assert np.delete(error, 5).max() < 1e-3 and error[5] < torsion
-        assert np.all(error <= bar_p_data.entries(found.error) / np.abs(reference))
+        assert (drawn is None) == tetrahedra
+        assert np.delete(error, 5).max() < 1e-3 and error[5] < torsion, error
+        assert np.all(error <= bar_p_data.entries(found.error) / np.abs(reference)), error
+
+
+def extruded_bar_p() -> None:
+    """Bar P as one solid."""
+    import gmsh
+
+    from meshes.sweep import add_patch
+
+    occ = gmsh.model.occ
+    flats = [(2, add_patch(patch, 0.0)) for patch in bar_p_data.SECTION.patches()]
+    solids = [e for e in occ.extrude(flats, bar_p_data.LENGTH, 0.0, 0.0) if e[0] == 3]
+    occ.fuse(solids[:1], solids[1:])

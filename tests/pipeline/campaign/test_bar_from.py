@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from fem.beam import uniform_stiffness
-from pipeline.campaign import BadCampaign, read
+from pipeline.campaign import BadCampaign, read, write
 from pipeline.campaign.bar_from import bar_from
 from pipeline.campaign.tolerance import SHARE
 from pipeline.errors import InputError
@@ -71,6 +71,31 @@ def test_all_of_it_comes_from_the_file(kind: str, tmp_path: Path) -> None:
     assert rig.mechanism(()).refined().bar == Refined(polar_radius=6.0)
     assert any("bar.json adds its bands" in remark for remark in campaign.remarks)
     assert dict(campaign.digests).keys() == {"campaign.toml", "bar.json", "measurements.csv"}
+
+
+def test_a_simulated_bench_keeps_the_file(tmp_path: Path) -> None:
+    """Its bands stay those of a computation, which `predict` counts apart, and its K_g stays known."""
+    source = written(tmp_path)
+    simulate(tmp_path / "hidden", ("joint_friction",), 4, True, source)
+    found, known = read(tmp_path / "hidden"), read(source)
+    assert found.rig.computed_bands == known.rig.computed_bands and found.rig.computed_bands["EIz"] > 0.0
+    assert found.tolerance == pytest.approx(known.tolerance)
+    assert found.rig.mechanism(()).refined().bar == Refined(polar_radius=6.0)
+    np.testing.assert_array_equal(found.rig.stiffness, known.rig.stiffness)
+    assert (tmp_path / "hidden" / "bar.json").read_bytes() == (source / "bar.json").read_bytes()
+    assert 'bar_from = "bar.json"' in (tmp_path / "hidden" / "campaign.toml").read_text()
+
+
+def test_a_campaign_is_written_with_the_file_that_it_names(tmp_path: Path) -> None:
+    campaign = read(written(tmp_path))
+    write(tmp_path / "again", campaign)
+    again = read(tmp_path / "again")
+    assert again.rig.computed_bands == campaign.rig.computed_bands and again.tolerance == campaign.tolerance
+    (tmp_path / "other").mkdir()
+    (tmp_path / "other" / "bar.json").write_text("{}")
+    with pytest.raises(InputError, match="is there already and is another file"):
+        write(tmp_path / "other", campaign)
+    assert sorted(p.name for p in (tmp_path / "other").iterdir()) == ["bar.json"]
 
 
 def test_what_a_campaign_says_itself_counts(tmp_path: Path) -> None:

@@ -8,10 +8,10 @@ from typing import Any
 import numpy as np
 import pytest
 
-from pipeline.validation.alarms import Difference, beyond, path_difference
+from pipeline.validation.alarms import Difference, beyond, critical_alarms, path_difference
 from pipeline.validation.bands import Band
 from pipeline.validation.mode_alarms import deviating, missing, single, unmatched
-from pipeline.validation.result import Buckling, Curve, Result
+from pipeline.validation.result import Buckling, Critical, Curve, Result
 from tests.conftest import Done
 
 BAND = Band(0.05, "share", "loads", "a drawing")
@@ -57,6 +57,26 @@ def test_modes_without_a_formula_or_far_from_it() -> None:
     (said,) = deviating([mode("xz", 5, 171e6, formula_N=124e6, deviation=0.38, mac=0.95, band=0.55)])
     assert "+38 %" in said and "estimated as 55 %" in said
     assert missing([mode("xy", 2, 5e6)]) == []
+
+
+def critical(model: str, load: float | None, spring_at: str | None = None, **more: Any) -> Critical:
+    given = {"q_deg": 0.0, "held": ["z"], "what": "in compression", "why": "", "load_N": load}
+    return Critical.model_validate({**given, "model": model, "spring_at": spring_at, **more})
+
+
+def test_a_model_without_a_critical_load_is_not_called_off_by_all_of_it() -> None:
+    """Where springs find none there is no share to tell; those that find one are compared as ever."""
+    solids = [critical("solid", 9.2e3, ratio_to_solid=1.0), critical("solid", 36e3, ratio_to_solid=3.9)]
+    lost = critical("vjm", None, "distributed", searched_N=1e6)
+    (said,) = critical_alarms([*solids, lost])
+    assert said == (
+        "Critical loads of the linkage: no critical load found by distributed springs up to 1 MN for q = 0°, z held, "
+        "in compression, the solid has one at 9.2 kN."
+    )
+    far = critical("vjm", 10e3, "distributed", ratio_to_solid=1.087)
+    said = " ".join(critical_alarms([*solids, lost, far]))
+    assert "+8.7 %" in said and "100 %" not in said
+    assert critical_alarms([*solids, critical("vjm", None, "tip", searched_N=1e6)]) == []
 
 
 def curve(model: str, loads: list[float]) -> Curve:
