@@ -161,7 +161,9 @@ def test_every_public_name_is_documented(name: str) -> None:
     found = getattr(parastiff, name)
     assert inspect.getdoc(found), name
     target = found.__name__ if inspect.ismodule(found) else f"parastiff.{name}"
-    assert re.search(rf"^\.\. auto\w+:: {re.escape(target)}$", reference()["reference/python.md"], re.MULTILINE)
+    assert re.search(
+        rf"^\.\. auto\w+:: {re.escape(target)}$", reference()["reference/python.md"], re.MULTILINE
+    )
 
 
 def test_the_score_is_that_of_the_kept_challenge() -> None:
