@@ -50,7 +50,7 @@ def beyond(rig: Rig, held: tuple[str, ...], way: Array) -> list[Equilibrium]:
     return [along(side, targets, *every) for side in ways.sides]
 
 
-@pytest.mark.parametrize("length", [L, 900.0])
+@pytest.mark.parametrize("length", [L, pytest.param(900.0, marks=pytest.mark.long)])
 @pytest.mark.parametrize(
     ("bending", "base", "tip", "factor"),
     [
