@@ -160,7 +160,7 @@ def commute(one: str, two: str) -> None:
     )
 
 
-@pytest.mark.parametrize(("one", "two"), pairwise([*EFFECTS, next(iter(EFFECTS))]))
+@pytest.mark.parametrize(("one", "two"), list(pairwise([*EFFECTS, next(iter(EFFECTS))])))
 def test_effects_that_are_neighbours_commute(one: str, two: str) -> None:
     """Each of them with two others; in `test_parts.py` the parts that they are made of."""
     commute(one, two)
