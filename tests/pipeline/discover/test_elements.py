@@ -32,12 +32,12 @@ def law(site: str, slope: float) -> SiteLaw:
     "site",
     [
         "hinge_torque",
-        "hinge_torque@tip.2",
+        pytest.param("hinge_torque@tip.2", marks=pytest.mark.long),
         "along@base",
-        "out_of_plane@1",
+        pytest.param("out_of_plane@1", marks=pytest.mark.long),
         "tilt_z@tip",
         "base_x",
-        "base_ry",
+        pytest.param("base_ry", marks=pytest.mark.long),
     ],
 )
 def test_a_slight_linear_law_moves_readings_by_influence_times_coordinate(site: str) -> None:
