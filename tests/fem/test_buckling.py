@@ -44,14 +44,17 @@ PARALLELOGRAM = [
 ]
 
 
-@pytest.mark.parametrize("supports", SOLID)
+EACH = [pytest.param(it, marks=pytest.mark.long if it == "clamped" else []) for it in SOLID]
+
+
+@pytest.mark.parametrize("supports", EACH)
 def test_bar_p(supports: str) -> None:
     modes = bar_p.modes(supports)
     np.testing.assert_allclose([m.load for m in modes[:4]], SOLID[supports], rtol=7e-3)
     assert tuple(m.plane for m in modes[:4]) == PLANES[supports]
 
 
-@pytest.mark.parametrize("supports", SOLID)
+@pytest.mark.parametrize("supports", EACH)
 def test_modes_are_normed_and_keep_their_supports(supports: str) -> None:
     """Largest nodal displacement 1 mm, driven and held coordinates at rest, base face still but for its hinge."""
     r = bar_p.model(2, supports == "pinned").reduction

@@ -120,7 +120,16 @@ def test_every_parameter_moves_something(name: str, rig: str) -> None:
         assert (change > 1e-6) != (rig.endswith("bar") and (name, p.name) in UNSEEN_ON_A_BAR), p.name
 
 
-@pytest.mark.parametrize(("name", "rig"), CASES)
+# Of yielding, closed forms are in test_yield_closed_forms.py.
+@pytest.mark.parametrize(
+    ("name", "rig"),
+    [
+        pytest.param(
+            *it.values, marks=[*it.marks, *([pytest.mark.long] * (it.values[0] == "material_yield"))]
+        )
+        for it in CASES
+    ],
+)
 def test_derivatives_agree_with_solving_again(name: str, rig: str) -> None:
     """Through the whole history, with the memory's own derivative handed on."""
     effect = EFFECTS[name]
