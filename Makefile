@@ -4,6 +4,9 @@ STAMP := $(VENV)/.ready
 # One thread a process: the arrays of most tests are small, and threads of two processes are in each other's way.
 ALONE := OMP_NUM_THREADS=1 MKL_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1
 
+# Byte code is kept, whatever the environment says: every command that a test starts would compile all files again.
+unexport PYTHONDONTWRITEBYTECODE
+
 .PHONY: setup run test quick proofs coverage check example clean
 
 setup: $(STAMP)

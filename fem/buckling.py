@@ -10,6 +10,7 @@ from fem.eigenpairs import largest_eigenpairs
 from fem.linear import LinearModel
 from fem.linkage import PLATFORM, Linkage
 from fem.prestress import prestress
+from fem.solvers import Factor
 from meshes.solid import Floats
 
 # Below this share of sideways motion of the axis, a mode is a twist of the section.
@@ -36,16 +37,22 @@ class Mode:
     displacements: tuple[Floats, ...]
 
 
-def buckling(model: LinearModel, held: Sequence[str], count: int = 6, driven: str = "x") -> tuple[Mode, ...]:
+def buckling(
+    model: LinearModel,
+    held: Sequence[str],
+    count: int = 6,
+    driven: str = "x",
+    factor: Factor | None = None,
+) -> tuple[Mode, ...]:
     """The `count` lowest modes of a linkage pushed along -`driven`, the `held` platform coordinates held.
 
     Every member of a multiple load is among them, and modes of one load are turned into the planes xy and xz: a round
-    or square bar has any direction between as well. Raises SolveError if the unloaded linkage is not held,
-    RuntimeError if fewer modes come out than asked for.
+    or square bar has any direction between as well. `factor` as in `LinearModel.motions`.
+    Raises SolveError if the unloaded linkage is not held, RuntimeError if fewer modes come out than asked for.
     """
     r = model.reduction
     free = r.others([driven, *held])
-    factor = model.factor(free)
+    factor = factor or model.factor(free)
     state = prestress(model, driven, held, factor)
     # Pushing reverses the sign of the unit state. Shift-invert about the unloaded state: the largest 1/λ
     # belong to the lowest loads.

@@ -98,11 +98,12 @@ def follow(
             finest = abs(step) / 2.0 < SMALLEST_STEP * abs(whole)
             try:
                 start = state if before is None else extrapolated(before, state, ratio)
-                found, point, factor = settle(model, held, driven, start, goal, stiffness, factor)
+                # Past the easy ones it may end on the mirrored branch of a bifurcation: a shorter step is tried.
+                most = ITERATIONS if finest else EASY + 1
+                found, point, factor = settle(model, held, driven, start, goal, stiffness, factor, most)
                 if point.unstable and abs(goal) <= unstable_past:
                     raise SolveError(UNSTABLE)
-                if not finest and (point.iterations > EASY or turns_back(before, state, found, ratio)):
-                    # It may have ended on the mirrored branch of a bifurcation.
+                if not finest and turns_back(before, state, found, ratio):
                     raise SolveError("the step was too long")
             except SolveError as error:
                 if finest:
@@ -152,11 +153,13 @@ def settle(
     value: float,
     scale: float,
     factor: Factor | None = None,
+    most: int = ITERATIONS,
 ) -> tuple[State, Equilibrium, Factor]:
     """Newton's method at one value of the driven coordinate.
 
     It begins with the `factor` of an earlier tangent, if there is one, as long as that converges fast, and goes on
-    with its own. Returns the factor of the tangent at the equilibrium too. Raises SolveError if it does not converge.
+    with its own, `most` of them. Returns the factor of the tangent at the equilibrium too. Raises SolveError if it
+    does not converge.
 
     `scale` N/mm times the size of the driven displacement is the load that the residual is measured against.
     """
@@ -166,11 +169,13 @@ def settle(
     state = pinned_down(r, start, driven, value)
     if factor is not None:
         state = approached(model, free, state, factor, limit)
-    for iteration in range(ITERATIONS):
+    for iteration in range(most):
         residual, tangent = residual_and_tangent(model, state)
+        error = float(np.abs(residual[free]).max())
+        if error >= limit and iteration + 1 == most:
+            break
         matrix = submatrix(tangent, free)
         factor = model.solver(matrix) if factor is None else factor.renewed(matrix)
-        error = float(np.abs(residual[free]).max())
         if error < limit:
             point = equilibrium(r, state, residual, iteration, factor.negative_eigenvalues)
             return state, point, factor

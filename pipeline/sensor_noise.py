@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
@@ -90,24 +91,37 @@ def from_roughness(
     A smooth curve leaves its own third difference behind: h³ f''' / root of 20, so the steps must be fine enough.
     ValueError for loads or readings that are not finite.
     """
-    rng = np.random.default_rng(0) if rng is None else rng
     if not all(np.isfinite(load).all() and np.isfinite(y).all() for load, y in paths):
         raise ValueError("the loads or the readings have values that are not finite")
-    found = [_differences(np.asarray(load, dtype=float)) for load, _ in paths]
+    loads = [np.asarray(load, dtype=float) for load, _ in paths]
+    found = [_differences(load) for load in loads]
     count = sum(len(w) for _, w in found)
     if count < FEWEST:
         return SigmaEstimate(None, None, count, f"{count} differences, allowed are {FEWEST} or more")
-    readings = [np.asarray(y, dtype=float)[:, None] for _, y in paths]
-    raw = float(_spread(found, readings)[0])
+    raw = float(_spread(found, [np.asarray(y, dtype=float)[:, None] for _, y in paths])[0])
     if raw == 0.0:
         return SigmaEstimate(None, None, count, "most differences are zero: the readings are rounded")
-    batches = [
-        _spread(found, [rng.normal(size=(len(y), BATCH)) for y in readings])
-        for _ in range(int(np.clip(EFFORT / count, FEWEST_DRAWS, DRAWS)) // BATCH)
-    ]
-    noise = np.concatenate(batches)
-    mean = float(np.mean(noise))
-    return SigmaEstimate(raw / mean, raw / mean * float(np.std(noise)) / mean, count)
+    mean, std = _drawn(loads, rng) if rng else _drawn_once(tuple(map(tuple, loads)))
+    return SigmaEstimate(raw / mean, raw / mean * std / mean, count)
+
+
+@lru_cache(maxsize=256)
+def _drawn_once(loads: tuple[tuple[float, ...], ...]) -> tuple[float, float]:
+    """Of the draws that are the same each time: sensors of a table share its loads, and are asked about often."""
+    return _drawn([np.array(load) for load in loads], np.random.default_rng(0))
+
+
+def _drawn(loads: list[Array], rng: np.random.Generator) -> tuple[float, float]:
+    """Mean and standard deviation of the statistic of unit noise along the loads."""
+    found = [_differences(load) for load in loads]
+    count = sum(len(w) for _, w in found)
+    noise = np.concatenate(
+        [
+            _spread(found, [rng.normal(size=(load.size, BATCH)) for load in loads])
+            for _ in range(int(np.clip(EFFORT / count, FEWEST_DRAWS, DRAWS)) // BATCH)
+        ]
+    )
+    return float(np.mean(noise)), float(np.std(noise))
 
 
 def _spread(found: list[tuple[NDArray[np.int64], Array]], readings: list[Array]) -> Array:

@@ -26,6 +26,8 @@ COLOURS = "cividis"
 SHARE = 0.09
 """Largest drawn displacement of a bending mode, as a share of the bar's length."""
 
+WINDOW, MARGIN = (1800, 1000), 12
+"""Pixels of a picture in space, at most, and around what is drawn."""
 LIGHT = {"ambient": 0.45, "diffuse": 0.6, "specular": 0.0, "smooth_shading": True}
 
 VIEWS: dict[str, tuple[tuple[float, float, float], tuple[float, float, float]]] = {
@@ -138,7 +140,7 @@ def render(shapes: Shapes, mode: Mode) -> npt.NDArray[np.uint8]:
     require_egl()
     import pyvista
 
-    plotter = pyvista.Plotter(off_screen=True, window_size=(1800, 1000))
+    plotter = pyvista.Plotter(off_screen=True, window_size=WINDOW)
     try:
         plotter.set_background("white")
         bent = shapes.surface.copy()
@@ -155,12 +157,27 @@ def render(shapes: Shapes, mode: Mode) -> npt.NDArray[np.uint8]:
         plotter.enable_parallel_projection()
         plotter.reset_camera()
         plotter.camera.zoom(1.5)
+        lower(plotter, np.vstack([bent.points, shapes.surface.points]))
         return crop(np.asarray(plotter.screenshot(return_img=True)))
     finally:
         plotter.close()
 
 
-def crop(image: npt.NDArray[np.uint8], margin: int = 12) -> npt.NDArray[np.uint8]:
+def lower(plotter: Any, points: Floats) -> None:
+    """Make the window of a parallel projection no higher than what is drawn, (n, 3), at the same scale: a slender bar
+    fills a strip of it, and every pixel costs as much as any other."""
+    camera, (width, height) = plotter.camera, WINDOW
+    forward = np.subtract(camera.focal_point, camera.position)
+    side = np.cross(forward, camera.up)
+    up = np.cross(side, forward)
+    reach = np.abs((points - camera.focal_point) @ (up / np.linalg.norm(up))).max()
+    half = int(np.ceil(0.5 * height * reach / camera.parallel_scale)) + 2 * MARGIN
+    if half < height // 2:
+        camera.parallel_scale *= 2.0 * half / height
+        plotter.window_size = (width, 2 * half)
+
+
+def crop(image: npt.NDArray[np.uint8], margin: int = MARGIN) -> npt.NDArray[np.uint8]:
     """The picture without its white border."""
     inked = np.min(image, axis=2) < 250
     if not inked.any():

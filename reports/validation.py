@@ -37,8 +37,11 @@ def draw(folder: Path) -> list[Path]:
 
 
 def write(folder: Path, result: Json) -> list[Path]:
-    """Draw everything first, then write."""
+    """Read everything first, then draw, then write: what cannot be drawn is said before time is spent."""
     found = [s for name in shapes.supports_of(result) if (s := shapes.read(folder, result, name)) is not None]
+    linkages = linkage_shapes.read(folder, result)
+    if found or linkages:
+        shapes.require_egl()
     drawings: dict[str, Drawing] = {
         "linkage": linkage_drawing.draw(result),
         "bar": bar_drawing.draw(result),
@@ -48,7 +51,6 @@ def write(folder: Path, result: Json) -> list[Path]:
     if result.get("agreement"):
         drawings["agreement"] = ("", agreement.draw(result))
     drawings |= {f"modes_{item.supports}": ("", shapes.picture(item)) for item in found}
-    linkages = linkage_shapes.read(folder, result)
     if linkages:
         drawings["stress"] = ("", linkage_shapes.picture(linkages))
     fresh = list(drawings)

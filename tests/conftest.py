@@ -8,6 +8,9 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import pytest
+from typer.testing import CliRunner
+
+from pipeline.cli import app
 
 ROOT = Path(__file__).resolve().parent.parent
 
@@ -41,6 +44,20 @@ def pipeline_command() -> Callable[..., Done]:
             timeout=600,
         )
         return Done(done.returncode, done.stdout, done.stderr)
+
+    return call
+
+
+@pytest.fixture
+def command_here(monkeypatch: pytest.MonkeyPatch) -> Callable[..., Done]:
+    """The same in this process: no interpreter starts, no library is loaded anew."""
+
+    def call(*arguments: str, cwd: Path) -> Done:
+        monkeypatch.chdir(cwd)
+        done = CliRunner().invoke(app, arguments)
+        if done.exception is not None and not isinstance(done.exception, SystemExit):
+            raise done.exception
+        return Done(done.exit_code, done.stdout, done.stderr)
 
     return call
 

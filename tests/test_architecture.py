@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ast
 from collections.abc import Iterator
+from functools import cache
 from pathlib import Path
 from statistics import median
 
@@ -37,22 +38,28 @@ def name_of(path: Path) -> str:
     return ".".join(parts[:-1] if parts[-1] == "__init__" else parts)
 
 
+@cache
 def parse(path: Path) -> ast.Module:
     return ast.parse(path.read_text(encoding="utf-8"), filename=str(path))
 
 
 PACKAGED = sources(*MAY_IMPORT)
-TREES = {path: parse(path) for path in PACKAGED}
 MODULES = {name_of(path): path for path in PACKAGED}
-# Classes that say what a kind of rig is; what differs between kinds is theirs to answer.
-RIGS = {
-    node.name
-    for path, tree in TREES.items()
-    if path.is_relative_to(ROOT / "pipeline" / "campaign" / "rigs")
-    for node in tree.body
-    if isinstance(node, ast.ClassDef)
-}
 TESTS = sorted((ROOT / "tests").rglob("*.py"))
+
+
+@cache
+def trees() -> dict[Path, ast.Module]:
+    """Every packaged file, parsed once and only where it is asked for."""
+    return {path: parse(path) for path in PACKAGED}
+
+
+@cache
+def rigs() -> frozenset[str]:
+    """Classes that say what a kind of rig is; what differs between kinds is theirs to answer."""
+    folder = ROOT / "pipeline" / "campaign" / "rigs"
+    inside = [node for path, tree in trees().items() if path.is_relative_to(folder) for node in tree.body]
+    return frozenset(node.name for node in inside if isinstance(node, ast.ClassDef))
 
 
 def imported(path: Path, tree: ast.Module) -> Iterator[tuple[str, int]]:
@@ -183,7 +190,7 @@ def kind_switches(path: Path, tree: ast.Module) -> list[str]:
             and id(node) not in told
         ):
             names = {n.id for n in ast.walk(node.args[1]) if isinstance(n, ast.Name)}
-            by_class += [node] * bool(names & RIGS)
+            by_class += [node] * bool(names & rigs())
     found = [*filter(_is_a_rigs_kind, chosen), *by_class]
     return [f"{path.relative_to(ROOT)}:{n.lineno} {ast.unparse(n)}" for n in found]  # type: ignore[attr-defined]
 
@@ -197,10 +204,11 @@ def _is_a_rigs_kind(node: ast.AST) -> bool:
     return ast.unparse(node.value).endswith(("rig", "rig']"))
 
 
+@cache
 def import_graph() -> dict[str, set[str]]:
     """Modules of the packages and what they import of each other."""
     graph = {}
-    for path, tree in TREES.items():
+    for path, tree in trees().items():
         here = name_of(path)
         graph[here] = {n for n, _ in imported(path, tree) if n in MODULES and n != here}
     return graph
@@ -208,7 +216,7 @@ def import_graph() -> dict[str, set[str]]:
 
 def collected(check: object) -> str:
     """Offenders over all packaged files, one a line."""
-    return "\n".join(line for path, tree in TREES.items() for line in check(path, tree))  # type: ignore[operator]
+    return "\n".join(line for path, tree in trees().items() for line in check(path, tree))  # type: ignore[operator]
 
 
 def test_there_is_something_to_check() -> None:
@@ -238,7 +246,7 @@ def test_files_are_read_below_what_they_describe() -> None:
 
 
 def test_nothing_but_a_campaigns_readers_asks_for_the_kind_of_a_rig() -> None:
-    here = {path: tree for path, tree in TREES.items() if path.is_relative_to(ROOT / "pipeline")}
+    here = {path: tree for path, tree in trees().items() if path.is_relative_to(ROOT / "pipeline")}
     readers = ROOT / "pipeline" / "campaign"
     found = [
         line

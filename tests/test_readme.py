@@ -3,11 +3,12 @@
 import re
 import subprocess
 import sys
+from collections.abc import Callable
 
 import pytest
 
 from pipeline.validation.result import Result
-from tests.conftest import ROOT
+from tests.conftest import ROOT, Done
 
 README = (ROOT / "README.md").read_text(encoding="utf-8")
 KEPT = ROOT / "reports" / "validation"
@@ -45,16 +46,14 @@ def test_examples_run(script: str, begins: str) -> None:
     assert done.stdout.startswith(begins)
 
 
-def test_commands_exist() -> None:
+def test_commands_exist(command_here: Callable[..., Done]) -> None:
     makefile = (ROOT / "Makefile").read_text()
     shell = "\n".join(blocks("sh"))
     for target in re.findall(r"^make (\w+)", shell, re.MULTILINE):
         assert re.search(rf"^{target}:", makefile, re.MULTILINE), target
     for command, option in re.findall(r"-m pipeline (\w+)[^\n#]*?(--\w+)?", shell):
-        done = subprocess.run(
-            [sys.executable, "-m", "pipeline", command, "--help"], capture_output=True, text=True
-        )
-        assert done.returncode == 0 and option in done.stdout, command
+        done = command_here(command, "--help", cwd=ROOT)
+        assert done.code == 0 and option in done.out, command
 
 
 def test_links_lead_somewhere() -> None:

@@ -80,7 +80,8 @@ def _scored(columns: Array, owner: Array, left: Array, logs: Array) -> tuple[Arr
     """Gradient (S,) and information (S, S) of the log likelihood by log lambda²; columns (R, C, M), owner (R, M, S),
     left (R, C)."""
     size = np.einsum("rms,s->rm", owner, np.exp(logs))
-    covariance = np.einsum("rcm,rm,rdm->rcd", columns, size, columns)
+    turned = np.swapaxes(columns, 1, 2)
+    covariance = (columns * size[:, None, :]) @ turned
     index = np.arange(left.shape[1])
     # A channel without a reading has no column: it is apart, and its residual is zero.
     covariance[:, index, index] += np.where(np.any(columns != 0.0, axis=2), 0.0, 1.0)
@@ -90,11 +91,11 @@ def _scored(columns: Array, owner: Array, left: Array, logs: Array) -> tuple[Arr
     farthest = chi2.isf(FAR_OUT, count)
     weight = np.minimum(1.0, farthest / np.maximum(np.einsum("rc,rc->r", left, pulled), 1e-300))
     through = np.einsum("rcm,rc->rm", columns, pulled) ** 2 * weight[:, None]
-    inner = np.einsum("rcm,rcd,rdn->rmn", columns, inverse, columns)
+    inner = turned @ inverse @ columns
     own = np.einsum("rmm->rm", inner)
     gradient = 0.5 * np.einsum("rm,rms->s", size * (through - own), owner)
     products = size[:, :, None] * size[:, None, :] * inner**2
-    information = 0.5 * np.einsum("rms,rmn,rnt->st", owner, products, owner)
+    information = 0.5 * np.einsum("rms,rmt->st", owner, products @ owner)
     return gradient, information
 
 

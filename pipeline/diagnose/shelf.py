@@ -272,6 +272,9 @@ class Shelf:
     def _probes(self) -> list[Probe]:
         if self.known is not None:
             return self.known._probes
+        if all(effect.smooth for effect in self.candidates.values()):
+            # The rows before need none made for these.
+            return []
         there, new = [], list(self.candidates.values())
         rows = None if self.before is None else rows_in(self.whole, self.before.whole)
         if self.before is not None and rows is not None:

@@ -47,7 +47,7 @@ def test_a_column_with_a_free_end(tmp_path: Path, case: str, loads: tuple[float,
     # The strip of c13 is given without shear, 0.06 % of it.
     np.testing.assert_allclose(sorted(formulas), loads, rtol=1e-3)
     # Faces that cannot contract make its ends a little stiffer.
-    modes = [mode.load for mode in modes_of(s, s.space, "free", 2)]
+    modes = [mode.load for mode in modes_of(s.model, s.bar.length, "free", 2)]
     np.testing.assert_allclose(modes, loads, rtol=3e-3)
 
 
@@ -62,6 +62,6 @@ def test_a_square_bar_that_is_twisted(tmp_path: Path) -> None:
 
 def test_guided_modes_of_a_tube_come_in_pairs(tmp_path: Path) -> None:
     s = bar("n_tube", tmp_path)
-    loads = [mode.load for mode in modes_of(s, s.space, "guided", 6)]
+    loads = [mode.load for mode in modes_of(s.model, s.bar.length, "guided", 6)]
     np.testing.assert_allclose(loads[::2], loads[1::2], rtol=1e-3)
     assert len(loads) == 6

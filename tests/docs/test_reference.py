@@ -6,6 +6,7 @@ import dataclasses
 import inspect
 import re
 from collections.abc import Iterator
+from functools import cache
 
 import pytest
 from pydantic import BaseModel
@@ -32,8 +33,6 @@ PAGES = {
     str(path.relative_to(ROOT / "docs")): path.read_text(encoding="utf-8")
     for path in (ROOT / "docs").rglob("*.md")
 }
-REFERENCE = {name: expanded(text) for name, text in PAGES.items() if name.startswith("reference/")}
-ALL = "\n".join(REFERENCE.values())
 SCHEMAS = {**TABLES, **ANSWERS}
 RECORDS = (
     "pipeline.answer",
@@ -45,6 +44,12 @@ RECORDS = (
     "pipeline.predict.record",
     "pipeline.manipulator.table_record",
 )
+
+
+@cache
+def reference() -> dict[str, str]:
+    """The pages of the reference as they are shown."""
+    return {name: expanded(text) for name, text in PAGES.items() if name.startswith("reference/")}
 
 
 def leaves(cls: type[BaseModel]) -> Iterator[type[BaseModel]]:
@@ -62,7 +67,8 @@ def keys(schema: type[BaseModel]) -> list[str]:
 
 def rows_of(schema: type[BaseModel]) -> dict[str, list[str]]:
     """Cells of the table of a schema in the pages, by key."""
-    (place,) = re.findall(rf"^\({re.escape(anchor(schema))}\)=$\n\n((?:\|.*\n)+)", ALL, re.MULTILINE)
+    every = "\n".join(reference().values())
+    (place,) = re.findall(rf"^\({re.escape(anchor(schema))}\)=$\n\n((?:\|.*\n)+)", every, re.MULTILINE)
     cells = [re.split(r"(?<!\\)\|", line)[1:-1] for line in place.splitlines()[2:]]
     return {row[0].strip().strip("`"): [cell.strip() for cell in row[1:]] for row in cells}
 
@@ -129,7 +135,7 @@ def test_every_mark_of_a_page_is_made_and_everything_made_is_shown() -> None:
 
 
 def test_every_command_has_all_its_options() -> None:
-    text, runner = REFERENCE["reference/commands.md"], CliRunner()
+    text, runner = reference()["reference/commands.md"], CliRunner()
     sections = dict(zip(command_names(), text.split("\n(command-")[1:], strict=True))
     for name, section in sections.items():
         said = runner.invoke(app, [name, "--help"], env={"COLUMNS": "200", "TERM": "dumb"}).output
@@ -140,7 +146,7 @@ def test_every_command_has_all_its_options() -> None:
 
 
 def test_every_effect_and_every_threshold_is_described() -> None:
-    effects, thresholds = REFERENCE["reference/effects.md"], REFERENCE["reference/criteria.md"]
+    effects, thresholds = reference()["reference/effects.md"], reference()["reference/criteria.md"]
     for name, effect in catalogue().items():
         section = effects.split(f"(effect-{name})=")[1].split("\n(effect-")[0]
         assert effect.equation in section and f"signatures/{name}.png" in section
@@ -155,7 +161,9 @@ def test_every_public_name_is_documented(name: str) -> None:
     found = getattr(parastiff, name)
     assert inspect.getdoc(found), name
     target = found.__name__ if inspect.ismodule(found) else f"parastiff.{name}"
-    assert re.search(rf"^\.\. auto\w+:: {re.escape(target)}$", REFERENCE["reference/python.md"], re.MULTILINE)
+    assert re.search(
+        rf"^\.\. auto\w+:: {re.escape(target)}$", reference()["reference/python.md"], re.MULTILINE
+    )
 
 
 def test_the_score_is_that_of_the_kept_challenge() -> None:

@@ -44,14 +44,17 @@ PARALLELOGRAM = [
 ]
 
 
-@pytest.mark.parametrize("supports", SOLID)
+EACH = [pytest.param(it, marks=pytest.mark.long if it == "clamped" else []) for it in SOLID]
+
+
+@pytest.mark.parametrize("supports", EACH)
 def test_bar_p(supports: str) -> None:
     modes = bar_p.modes(supports)
     np.testing.assert_allclose([m.load for m in modes[:4]], SOLID[supports], rtol=7e-3)
     assert tuple(m.plane for m in modes[:4]) == PLANES[supports]
 
 
-@pytest.mark.parametrize("supports", SOLID)
+@pytest.mark.parametrize("supports", EACH)
 def test_modes_are_normed_and_keep_their_supports(supports: str) -> None:
     """Largest nodal displacement 1 mm, driven and held coordinates at rest, base face still but for its hinge."""
     r = bar_p.model(2, supports == "pinned").reduction
@@ -65,10 +68,9 @@ def test_modes_are_normed_and_keep_their_supports(supports: str) -> None:
             assert np.all(u[r.linkage.members[0].space.mesh.face_nodes("base")] == 0.0)
 
 
-@pytest.mark.parametrize(
-    ("held", "degrees", "load"),
-    PARALLELOGRAM[:1] + [pytest.param(*it, marks=pytest.mark.long) for it in PARALLELOGRAM[1:]],
-)
+# Quickly: that load paths bend at the critical load of the parallelogram, test_path.py.
+@pytest.mark.long
+@pytest.mark.parametrize(("held", "degrees", "load"), PARALLELOGRAM)
 def test_parallelogram(held: tuple[str, ...], degrees: float, load: float) -> None:
     (mode,) = buckling(bar_p.linkage_model(2, degrees), held, 1)
     assert mode.load == pytest.approx(load, rel=1e-2)

@@ -74,7 +74,9 @@ def orders(sizes: list[float], errors: np.ndarray) -> np.ndarray:
     return np.asarray(np.diff(np.log(errors)) / np.diff(np.log(sizes)))
 
 
-@pytest.mark.parametrize("kind", ["hexahedron20", "hexahedron27", "tetra10"])
+@pytest.mark.parametrize(
+    "kind", ["hexahedron20", pytest.param("hexahedron27", marks=pytest.mark.long), "tetra10"]
+)
 def test_orders(kind: str, material: Isotropic) -> None:
     found = np.array([errors(box(kind, n), material) for n in DIVISIONS])
     sizes = [1.0 / n for n in DIVISIONS]

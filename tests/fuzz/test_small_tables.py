@@ -14,7 +14,7 @@ from vjm.effects import catalogue
 # A manipulator takes seconds where a bar takes tenths.
 KINDS = (*("bar", "parallelogram") * 12, "manipulator")
 # The quick ones are of one test and two rows: a search over a dozen rows takes a minute and more.
-QUICK, PARTS, PER_PART = 6, 40, 50
+QUICK, PARTS, PER_PART = 3, 40, 50
 CANTILEVER = """schema = 1
 name = "small"
 

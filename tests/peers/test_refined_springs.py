@@ -28,7 +28,10 @@ TABLE = [
 ]
 
 
-@pytest.mark.parametrize(("held", "degrees", "load", "slope"), TABLE)
+@pytest.mark.parametrize(
+    ("held", "degrees", "load", "slope"),
+    [pytest.param(*it, marks=[] if it[1] else pytest.mark.long) for it in TABLE],
+)
 def test_bifurcation(held: tuple[str, ...], degrees: float, load: float, slope: float) -> None:
     bars = BAR_P.stiffness(bar_p.LENGTH)
     linkage = Parallelogram(bar_p.LENGTH, bar_p.WIDTH, bars, np.radians(degrees)).refined(SEGMENTS)

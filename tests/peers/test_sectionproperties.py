@@ -30,7 +30,7 @@ SECTIONS: list[tuple[Section, Polygon]] = [
 ]
 
 
-@pytest.mark.parametrize("nu", [0.0, 0.33])
+@pytest.mark.parametrize("nu", [pytest.param(0.0, marks=pytest.mark.long), 0.33])
 @pytest.mark.parametrize(("section", "outline"), SECTIONS, ids=["rectangle", "I", "tube"])
 def test_constants(section: Section, outline: Polygon, nu: float) -> None:
     material = Material("m", 70e3, nu, 100.0, 1e-6, "grey")

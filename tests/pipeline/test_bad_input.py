@@ -75,21 +75,21 @@ COMMANDS = {
 
 @pytest.mark.parametrize("name", COMMANDS)
 def test_command_ends_with_one_sentence_and_two(
-    name: str, tmp_path: Path, pipeline_command: Callable[..., Done]
+    name: str, tmp_path: Path, command_here: Callable[..., Done]
 ) -> None:
     change, arguments, expected = COMMANDS[name]
     if change is not None:
         path = tmp_path / "case.toml"
         path.write_text(PLAIN.replace(*change))
         arguments = [str(path)]
-    done = pipeline_command("run", *arguments, "--out", str(tmp_path / "out"), cwd=tmp_path)
+    done = command_here("run", *arguments, "--out", str(tmp_path / "out"), cwd=tmp_path)
     assert done.code == 2
     assert expected in done.err and done.err.count("\n") == 1 and "Traceback" not in done.err
     assert not (tmp_path / "out" / "result.json").exists()
 
 
-def test_report_of_nothing_is_refused(tmp_path: Path, pipeline_command: Callable[..., Done]) -> None:
-    done = pipeline_command("report", str(tmp_path), cwd=tmp_path)
+def test_report_of_nothing_is_refused(tmp_path: Path, command_here: Callable[..., Done]) -> None:
+    done = command_here("report", str(tmp_path), cwd=tmp_path)
     assert done.code == 2 and "result.json" in done.err and "Traceback" not in done.err
 
 
@@ -132,11 +132,11 @@ def test_case_file_is_taken_at_its_word(name: str, tmp_path: Path) -> None:
     ],
 )
 def test_geometry_that_cannot_be_leaves_nothing_behind(
-    change: tuple[str, str], expected: str, tmp_path: Path, pipeline_command: Callable[..., Done]
+    change: tuple[str, str], expected: str, tmp_path: Path, command_here: Callable[..., Done]
 ) -> None:
     path = tmp_path / "case.toml"
     path.write_text(PLAIN.replace(*change, 1))
-    done = pipeline_command("run", str(path), "--out", "out", cwd=tmp_path)
+    done = command_here("run", str(path), "--out", "out", cwd=tmp_path)
     assert done.code == 2 and expected in done.err and "Traceback" not in done.err
     assert not (tmp_path / "out").exists()
 

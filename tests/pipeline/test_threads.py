@@ -37,6 +37,8 @@ def test_a_command_takes_one_thread() -> None:
 
 
 @pytest.mark.skipif((os.cpu_count() or 1) < 2, reason="one core has one thread anyhow")
-@pytest.mark.parametrize("name", ["OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS"])
+@pytest.mark.parametrize(
+    "name", [pytest.param("OMP_NUM_THREADS", marks=pytest.mark.long), "OPENBLAS_NUM_THREADS"]
+)
 def test_the_environment_decides(name: str) -> None:
     assert _threads(**{name: "2"}) == 2

@@ -51,6 +51,8 @@ def test_the_walk_begins_as_it_is_shown(pipeline_command: Call, tmp_path: Path) 
     seen = walked(pipeline_command, tmp_path, COMMANDS[:3])
     for part in excerpts(slice(0, 1)):
         assert part in seen, part
+    # What `compare` says of plain virtual springs.
+    assert "10.0 sigma" in seen
 
 
 @pytest.mark.long

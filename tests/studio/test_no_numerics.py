@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import ast
 
-from tests.test_architecture import TREES, imported, name_of
+from tests.test_architecture import imported, name_of, trees
 
 
 def test_the_studio_imports_no_numerical_library() -> None:
-    mine = {path: tree for path, tree in TREES.items() if name_of(path).startswith("pipeline.studio")}
+    mine = {path: tree for path, tree in trees().items() if name_of(path).startswith("pipeline.studio")}
     assert len(mine) >= 8
     found = {name for path, tree in mine.items() for name, _ in imported(path, tree)}
     assert not [name for name in found if name.split(".")[0] in ("numpy", "scipy", "fem", "vjm", "pandas")]
@@ -25,7 +25,7 @@ def test_the_studio_imports_no_numerical_library() -> None:
 def test_what_the_studio_does_holds_no_arithmetic() -> None:
     """Beside the views, that is."""
     operators = (ast.Mult, ast.Pow, ast.MatMult)
-    for path, tree in TREES.items():
+    for path, tree in trees().items():
         if path.stem in ("work", "session", "worker") and "studio" in path.parts:
             found = [
                 n.lineno for n in ast.walk(tree) if isinstance(n, ast.BinOp) and isinstance(n.op, operators)

@@ -129,7 +129,13 @@ def tilt_of(effects: Values) -> list[float]:
     return [mount.get(f"{n}_rad", 0.0) for n in ("rx", "ry", "rz")]
 
 
-@pytest.mark.parametrize("name", ["plain", *EFFECTS])
+@pytest.mark.parametrize(
+    "name",
+    [
+        pytest.param(it, marks=pytest.mark.long if it == "material_yield" else [])
+        for it in ("plain", *EFFECTS)
+    ],
+)
 def test_an_effect_of_typical_size(name: str) -> None:
     effects = {} if name == "plain" else sizes(name, 1)
     check(name, DRAWINGS["Eq. 12"], effects, programme([0.0, 30.0], 3, tilt_of(effects)))

@@ -40,7 +40,7 @@ def added(place: int, nu: float) -> float:
     return float(np.subtract(*(np.linalg.inv(solid(length, nu))[place, place] for length in (LONG, SHORT))))
 
 
-@pytest.mark.parametrize("nu", [0.0, 0.33])
+@pytest.mark.parametrize("nu", [pytest.param(0.0, marks=pytest.mark.long), 0.33])
 def test_stretch_and_bending(nu: float) -> None:
     more = LONG - SHORT
     assert added(0, nu) == pytest.approx(more / (E * AREA), rel=1e-3)

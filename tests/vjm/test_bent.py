@@ -50,7 +50,7 @@ def beyond(rig: Rig, held: tuple[str, ...], way: Array) -> list[Equilibrium]:
     return [along(side, targets, *every) for side in ways.sides]
 
 
-@pytest.mark.parametrize("length", [L, 900.0])
+@pytest.mark.parametrize("length", [L, pytest.param(900.0, marks=pytest.mark.long)])
 @pytest.mark.parametrize(
     ("bending", "base", "tip", "factor"),
     [
@@ -83,7 +83,7 @@ def test_columns_carry_on_as_the_elastica(
         assert sideways[0][-1] == pytest.approx(4.0 / np.pi * np.sqrt((way[-1] - start) * length), rel=0.01)
 
 
-@pytest.mark.parametrize("q", [0.0, 30.0])
+@pytest.mark.parametrize("q", [pytest.param(0.0, marks=pytest.mark.long), 30.0])
 @pytest.mark.parametrize(
     ("held", "load", "slope"),
     [

@@ -169,7 +169,11 @@ def test_load_of_an_independent_geometrically_exact_rod(section: Section, motion
 
 
 @pytest.mark.parametrize("degrees", [pytest.param(0, marks=pytest.mark.long), 30])
-@pytest.mark.parametrize("k", [BAR_P.stiffness(LENGTH), paper.BAR_STIFFNESS], ids=["bar P", "Eq. 12"])
+@pytest.mark.parametrize(
+    "k",
+    [pytest.param(BAR_P.stiffness(LENGTH), marks=pytest.mark.long), paper.BAR_STIFFNESS],
+    ids=["bar P", "Eq. 12"],
+)
 def test_default_refinement_is_converged_at_bench_size(k: np.ndarray, degrees: int) -> None:
     """4 kN along x, rotations to 0.06 rad, held and loaded coordinates at random: 1 µm, 20 µrad, 1 N."""
     generator = np.random.default_rng(0)

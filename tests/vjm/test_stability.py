@@ -33,7 +33,7 @@ def uniform_bar(bending: float, axial: float) -> np.ndarray:
 
 
 @pytest.mark.parametrize("held", [GUIDED, ("y", *GUIDED)])
-@pytest.mark.parametrize("degrees", [0, 30, -30])
+@pytest.mark.parametrize("degrees", [0, 30, pytest.param(-30, marks=pytest.mark.long)])
 @pytest.mark.parametrize("place", PLACES)
 @pytest.mark.parametrize("sign", [-1, 1])
 def test_critical_load_of_every_spring_placement(sign: int, place: str, degrees: int, held: tuple) -> None:

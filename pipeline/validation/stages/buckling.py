@@ -47,12 +47,13 @@ def buckle_bar(s: Specimen, study: Convergence, folder: Path, stage: Stage) -> l
     """Modes of all supports with their mesh errors and formulas; the shapes go to `folder`, a file for each support."""
     other = s.detail.companion
     space = Space.of(s.mesh(other))
+    second = LinearModel(single_bar(space, s.bar.length), s.material)
     records = []
     for supports in HELD:
         stage.say(f"{supports} tip")
-        modes = modes_of(s, s.space, supports, MODES)
+        modes = modes_of(s.model, s.bar.length, supports, MODES)
         write_modes(s.space.mesh, modes, folder / f"{supports}.vtu")
-        beside = modes_of(s, space, supports, MORE_MODES)
+        beside = modes_of(second, s.bar.length, supports, MORE_MODES)
         formulas = formulas_of(s, supports)
         shapes = shapes_of(s, s.space.mesh, modes)
         by_formula = with_formulas(shapes, formulas)
@@ -87,12 +88,14 @@ def missing_records(supports: str, found: list[Match], formulas: list[FormulaMod
     ]
 
 
-def modes_of(s: Specimen, space: Space, supports: str, count: int) -> tuple[Mode, ...]:
-    """The lowest modes of the bar under named supports, on the working mesh or another one."""
-    if supports != "pinned" and space is s.space:
-        return buckling(s.model, HELD[supports], count)
-    model = LinearModel(single_bar(space, s.bar.length, supports == "pinned"), s.material)
-    return buckling(model, HELD[supports], count)
+def modes_of(clamped: LinearModel, length: float, supports: str, count: int) -> tuple[Mode, ...]:
+    """The lowest modes of a bar of a length, mm, under named supports; `clamped` is its model, whose matrix is kept."""
+    if supports != "pinned":
+        return buckling(clamped, HELD[supports], count)
+    (member,) = clamped.linkage.members
+    return buckling(
+        LinearModel(single_bar(member.space, length, True), clamped.material), HELD[supports], count
+    )
 
 
 def shapes_of(s: Specimen, mesh: SolidMesh, modes: tuple[Mode, ...]) -> list[AxisShape]:

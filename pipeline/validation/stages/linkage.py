@@ -11,6 +11,7 @@ from fem.buckling import Mode, buckling
 from fem.linear import LinearModel
 from fem.linkage import parallelogram
 from fem.path import follow, with_imperfection
+from fem.solvers import Factor
 from fem.space import Space
 from pipeline.progress import Stage
 from pipeline.validation.entries import rows
@@ -90,22 +91,26 @@ def solid_buckling(case: Sized, s: SolidBar, stage: Stage) -> list[SolidBuckling
         model = solid_linkage(case, s, s.space, q)
         for held in HELD_SETS:
             stage.say(f"q = {q:g}°, {' '.join(held)} held")
-            modes = buckling(model, held, LOWEST)
-            found.append(
-                SolidBuckling(
-                    q_deg=q,
-                    held=list(held),
-                    loads=[m.load for m in modes],
-                    planes=[m.plane for m in modes],
-                    travel=modes[0].load / slope(model, held),
-                )
-            )
+            found.append(buckled(model, q, held))
     return found
 
 
-def slope(model: LinearModel, held: Sequence[str]) -> float:
-    """dFx/dx at no load with `held` held and the rest free, N/mm."""
-    motion = model.motions(["x"], held)[:, 0]
+def buckled(model: LinearModel, q_deg: float, held: Sequence[str]) -> SolidBuckling:
+    """Lowest critical loads of one linkage, and the travel at the first, from one factorisation."""
+    factor = model.factor(model.reduction.others(["x", *held]))
+    modes = buckling(model, held, LOWEST, factor=factor)
+    return SolidBuckling(
+        q_deg=q_deg,
+        held=list(held),
+        loads=[m.load for m in modes],
+        planes=[m.plane for m in modes],
+        travel=modes[0].load / slope(model, held, factor),
+    )
+
+
+def slope(model: LinearModel, held: Sequence[str], factor: Factor | None = None) -> float:
+    """dFx/dx at no load with `held` held and the rest free, N/mm; `factor` as in `LinearModel.motions`."""
+    motion = model.motions(["x"], held, factor)[:, 0]
     row = int(model.reduction.platform(["x"])[0])
     return float((model.reduced[[row]] @ motion)[0])
 

@@ -7,6 +7,7 @@ stress of both together, linear elastic.
 
 from __future__ import annotations
 
+from itertools import groupby
 from pathlib import Path
 
 import numpy as np
@@ -38,20 +39,21 @@ def linkage_shapes(
 ) -> list[str]:
     """Write the bent linkage for every critical load, on the mesh of load paths; returns the names."""
     names = []
-    for it in loads:
-        stage.say(f"q = {it.q_deg:g}°, {' '.join(it.held)} held")
-        model = solid_linkage(case, s, s.path_space, it.q_deg)
-        bend = s.bar.length / LENGTH_TO_BEND
-        fields = bent(model, it.held, it.loads[0], bend)
-        names.append(shape_name(it.q_deg, it.held))
-        write_shape(model, fields, folder / names[-1])
+    for q, same in groupby(loads, key=lambda it: it.q_deg):
+        model = solid_linkage(case, s, s.path_space, q)
+        for it in same:
+            stage.say(f"q = {q:g}°, {' '.join(it.held)} held")
+            fields = bent(model, it.held, it.loads[0], s.bar.length / LENGTH_TO_BEND)
+            names.append(shape_name(q, it.held))
+            write_shape(model, fields, folder / names[-1])
     return names
 
 
 def bent(model: LinearModel, held: list[str], load: float, bend: float) -> tuple[Floats, ...]:
     """Node displacements (dofs,) of each member, mm: pushed along -x by `load`, N, and bent by `bend`, mm."""
-    (mode,) = buckling(model, held, 1)
-    unit = prestress(model, "x", held)
+    solve = model.factor(model.reduction.others(["x", *held]))
+    (mode,) = buckling(model, held, 1, factor=solve)
+    unit = prestress(model, "x", held, solve)
     factor = -load / float(unit.wrench[PLATFORM.index("x")])
     pairs = zip(unit.displacements, mode.displacements, strict=True)
     return tuple(factor * pushed + bend * shape for pushed, shape in pairs)

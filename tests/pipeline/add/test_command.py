@@ -33,13 +33,15 @@ def contents(folder: Path) -> dict[str, bytes]:
     return {p.name: p.read_bytes() for p in folder.iterdir() if p.name != "model.toml"}
 
 
-def test_effects_are_added_one_after_the_other(pipeline_command: Callable[..., Done], tmp_path: Path) -> None:
+def test_effects_are_added_one_after_the_other(
+    pipeline_command: Callable[..., Done], command_here: Callable[..., Done], tmp_path: Path
+) -> None:
     folder = tmp_path / "bench"
     write(folder, bench("modulus_error.scale", 0.95))
     before = contents(folder)
     done = pipeline_command("add", "bench", "bar_geometric_nonlinearity", "--quiet", cwd=tmp_path)
     assert done.code == 0 and done.out.startswith("unknown: what is left is no noise"), done.err
-    done = pipeline_command("add", "bench", "modulus_error", "--json", "a.json", "--out", "o", cwd=tmp_path)
+    done = command_here("add", "bench", "modulus_error", "--json", "a.json", "--out", "o", cwd=tmp_path)
     assert done.code == 0 and not done.err
     assert "within_noise: " in done.out and "next: python -m pipeline compare bench" in done.out
     saved = read_model_file(folder / "model.toml")
@@ -51,7 +53,7 @@ def test_effects_are_added_one_after_the_other(pipeline_command: Callable[..., D
     assert saved.uncertainty["modulus_error.scale"].low95 == value["low95"]
     assert saved.campaign == "small" and saved.versions["numpy"]
     assert contents(folder) == before
-    done = pipeline_command("add", "bench", "modulus_error", cwd=tmp_path)
+    done = command_here("add", "bench", "modulus_error", cwd=tmp_path)
     assert (
         done.code == 2 and "modulus_error is in the model already" in done.err and "Traceback" not in done.err
     )

@@ -40,7 +40,13 @@ def found(parameter: str) -> Answer:
     return added(bench(parameter, HIDDEN[parameter]), "bar_geometric_nonlinearity", effect).answer
 
 
-@pytest.mark.parametrize("parameter", HIDDEN)
+@pytest.mark.parametrize(
+    "parameter",
+    [
+        pytest.param(it, marks=pytest.mark.long if it == "thermal_expansion.alpha_per_K" else [])
+        for it in HIDDEN
+    ],
+)
 def test_a_hidden_error_comes_back_and_what_is_left_is_noise(parameter: str) -> None:
     """One seed each: within four standard errors, which noise exceeds once in 16000."""
     answer, truth = found(parameter), HIDDEN[parameter]

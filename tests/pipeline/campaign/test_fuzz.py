@@ -61,7 +61,7 @@ def damaged(texts: tuple[str, str], changes: list[tuple[bool, Mutation]]) -> str
     return said
 
 
-@settings(max_examples=300, derandomize=True, deadline=None, database=None)
+@settings(max_examples=100, derandomize=True, deadline=None, database=None)
 @given(pairs, damage)
 def test_damage_is_read_or_refused(texts: tuple[str, str], changes: list[tuple[bool, Mutation]]) -> None:
     assert damaged(texts, changes) in ("read", "refused")

@@ -47,7 +47,7 @@ def test_damage_is_compared_or_refused() -> None:
     """Of both kinds, or the mutations would test one half only; about one in seven is compared."""
     seen: Counter[str] = Counter()
 
-    @settings(max_examples=60, derandomize=True, deadline=None, database=None)
+    @settings(max_examples=40, derandomize=True, deadline=None, database=None)
     @given(pairs, damage)
     def count(texts: tuple[str, str], changes: list[tuple[bool, Mutation]]) -> None:
         seen[verdict(texts, changes)] += 1

@@ -38,7 +38,7 @@ def shelf(effect: str, value: float) -> Shelf:
         ("modulus_error.scale", 0.995, ("modulus_error",)),
         ("modulus_error.scale", 0.995, ("modulus_error", "load_misalignment")),
         ("load_misalignment.rz_rad", 0.002, ("load_misalignment",)),
-        ("joint_friction.torque_Nmm", 80.0, ("joint_friction",)),
+        pytest.param("joint_friction.torque_Nmm", 80.0, ("joint_friction",), marks=pytest.mark.long),
     ],
 )
 def test_gain_is_the_fall_of_the_fit(effect: str, value: float, named: tuple[str, ...]) -> None:

@@ -32,6 +32,11 @@ def plain() -> Campaign:
     return bench(*HIDDEN, IDS)
 
 
+@cache
+def plain_answer() -> Answer:
+    return answer(plain())
+
+
 def answer(it: Campaign) -> Answer:
     known = {n: catalogue()[n] for n in ("bar_geometric_nonlinearity", "modulus_error", "axis_flexibility")}
     return answered(diagnose(it, Model(), known))
@@ -47,13 +52,13 @@ def knocked(it: Campaign, number: int = 0) -> Campaign:
 
 
 def test_nothing_is_said_of_readings_as_declared() -> None:
-    it = answer(plain())
+    it = plain_answer()
     assert it.verdict == "identified" and "modulus_error" in it.added
     assert not it.set_aside and not it.noise and it.as_declared is None
 
 
 def test_a_knocked_reading_is_set_aside_and_told() -> None:
-    it, before = answer(knocked(plain())), answer(plain())
+    it, before = answer(knocked(plain())), plain_answer()
     (bad,) = it.set_aside
     assert (bad.test, bad.step, bad.column) == (IDS[0], 3, "mz_Nmm")
     assert (it.verdict, it.added) == (before.verdict, before.added)
@@ -68,7 +73,7 @@ def test_a_sigma_that_is_wrong_by_two_does_not_decide() -> None:
     wrench = it.noise.wrench.copy()
     wrench[3:] *= 0.5
     found = answer(replace(it, noise=replace(it.noise, wrench=wrench)))
-    assert (found.verdict, found.added) == ("identified", answer(it).added)
+    assert (found.verdict, found.added) == ("identified", plain_answer().added)
     columns = {each.column for each in found.noise}
     assert columns and columns <= {"mx_Nmm", "my_Nmm", "mz_Nmm"}
     for each in found.noise:

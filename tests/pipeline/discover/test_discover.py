@@ -35,7 +35,15 @@ HIDDEN = {
 }
 
 
-@pytest.mark.parametrize("effect", list(HIDDEN))
+QUICK = (
+    "joint_friction.torque_Nmm",
+    "joint_torsional_stiffness.stiffness_Nmm_per_rad",
+    "joint_clearance.play_mm",
+)
+EACH = [pytest.param(it, marks=[] if it in QUICK else pytest.mark.long) for it in HIDDEN]
+
+
+@pytest.mark.parametrize("effect", EACH)
 def test_the_place_is_the_best_or_in_its_group(effect: str) -> None:
     value, site, _ = HIDDEN[effect]
     seen = map_of(effect, value)
@@ -44,7 +52,7 @@ def test_the_place_is_the_best_or_in_its_group(effect: str) -> None:
     assert seen.body is None or seen.body.value < seen.best - 10.0
 
 
-@pytest.mark.parametrize("effect", [name for name, (_, _, form) in HIDDEN.items() if form])
+@pytest.mark.parametrize("effect", [it for it in EACH if HIDDEN[str(it.values[0])][2]])
 def test_the_form_is_among_those_that_explain_as_much(effect: str) -> None:
     value, site, form = HIDDEN[effect]
     seen = map_of(effect, value)
@@ -56,9 +64,9 @@ def test_the_form_is_among_those_that_explain_as_much(effect: str) -> None:
 @pytest.mark.parametrize(
     ("effect", "value", "body"),
     [
-        ("load_offset.y_mm", 3.0, "load_offset"),
+        pytest.param("load_offset.y_mm", 3.0, "load_offset", marks=pytest.mark.long),
         ("modulus_error.scale", 0.95, "modulus_error"),
-        ("bar_initial_bow.bow_y_mm", 0.5, "bar_initial_bow"),
+        pytest.param("bar_initial_bow.bow_y_mm", 0.5, "bar_initial_bow", marks=pytest.mark.long),
     ],
 )
 def test_what_is_no_law_by_nature_is_none(effect: str, value: float, body: str) -> None:

@@ -32,12 +32,12 @@ def law(site: str, slope: float) -> SiteLaw:
     "site",
     [
         "hinge_torque",
-        "hinge_torque@tip.2",
+        pytest.param("hinge_torque@tip.2", marks=pytest.mark.long),
         "along@base",
-        "out_of_plane@1",
+        pytest.param("out_of_plane@1", marks=pytest.mark.long),
         "tilt_z@tip",
         "base_x",
-        "base_ry",
+        pytest.param("base_ry", marks=pytest.mark.long),
     ],
 )
 def test_a_slight_linear_law_moves_readings_by_influence_times_coordinate(site: str) -> None:
@@ -60,8 +60,11 @@ def test_a_slight_linear_law_moves_readings_by_influence_times_coordinate(site: 
     assert float(np.linalg.norm(told - truth)) < 0.02 * size
 
 
+LATE = [pytest.param(it, marks=pytest.mark.long) for it in ("out_of_plane@tip", "along")]
+
+
 @pytest.mark.parametrize("zero", ["nominal", "first_row"])
-@pytest.mark.parametrize("site", ["base_y", "out_of_plane@tip", "tilt_z", "along"])
+@pytest.mark.parametrize("site", ["base_y", "tilt_z", *LATE])
 def test_a_shift_without_load_moves_readings_but_no_gauge_that_is_zeroed_there(site: str, zero: str) -> None:
     """y = y0 + c x in series: gauges are zeroed in the unloaded state, or all sensors in the first row."""
     plain = bench()

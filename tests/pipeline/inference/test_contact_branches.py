@@ -42,7 +42,7 @@ def chosen(it: Model, tests: Program, start: Prediction | None = None) -> tuple[
     return found, residual(tests, found)
 
 
-@pytest.mark.parametrize("seed", [3, 4])
+@pytest.mark.parametrize("seed", [3, pytest.param(4, marks=pytest.mark.long)])
 def test_play_under_forces_that_are_all_noise_is_no_misfit(seed: int) -> None:
     """Steps without axial force: read with 1 N of noise where half a newton is the whole play.
 
@@ -102,7 +102,9 @@ def test_a_turn_read_with_a_noise_as_large_as_the_play_is_no_misfit() -> None:
     assert np.all(np.isfinite(found.slides)) and np.any(np.abs(found.shift) > 0.0)
 
 
-@pytest.mark.parametrize(("share", "play", "steps"), [(0.02, 0.1, 10), (0.3, 0.02, 12)])
+@pytest.mark.parametrize(
+    ("share", "play", "steps"), [(0.02, 0.1, 10), pytest.param(0.3, 0.02, 12, marks=pytest.mark.long)]
+)
 def test_sensors_as_coarse_as_the_play_leave_no_misfit(share: float, play: float, steps: int) -> None:
     """At the truth, with noises ten times coarser. Under small loads many rows are a little better with a second bar at
     its stop; under larger ones a row may belong to the far one of two stops, where both look better than neither."""

@@ -42,7 +42,7 @@ def values(found: Fit) -> dict[str, float]:
     return dict(zip([each.name for each in numbers], found.residual.estimate.tolist(), strict=True))
 
 
-@pytest.mark.parametrize("effects", [(BENT,), (BENT, "mounting_tilt")])
+@pytest.mark.parametrize("effects", [pytest.param((BENT,), marks=pytest.mark.long), (BENT, "mounting_tilt")])
 def test_derivatives_are_those_of_central_differences(effects: tuple[str, ...]) -> None:
     cases = program(campaign())
     numbers = nominals(cases.campaign)

@@ -33,9 +33,9 @@ def total(there: Evaluation) -> float:
     "names",
     [
         ("modulus_error",),
-        ("thermal_expansion",),
+        pytest.param(("thermal_expansion",), marks=pytest.mark.long),
         pytest.param(("base_compliance",), marks=pytest.mark.long),
-        ("joint_friction",),
+        pytest.param(("joint_friction",), marks=pytest.mark.long),
         pytest.param(("joint_clearance",), marks=pytest.mark.long),
         pytest.param(("joint_clearance", "joint_friction"), marks=pytest.mark.long),
     ],

@@ -27,7 +27,7 @@ RIG = ParallelogramRig(
     fibre_y=6.0,
     fibre_z=7.75,
 )
-QUICK = ["modulus_error", "joint_friction", "load_offset", "thermal_expansion", "contact_stiffening"]
+QUICK = ["modulus_error", "load_offset", "thermal_expansion", "contact_stiffening"]
 
 
 def typical(name: str) -> dict[str, float]:

@@ -79,6 +79,7 @@ def test_that_the_work_ran_out_is_sent_and_the_fit_not_begun_again(
     assert best.ended and best.evaluations == alone.evaluations
 
 
+@pytest.mark.long
 def test_a_fit_of_a_whole_manipulator_comes_back_as_well(two: None) -> None:
     whole = program(manipulators.campaign())
     soft = Model().with_effects([catalogue()["modulus_error"]])

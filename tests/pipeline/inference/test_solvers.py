@@ -32,7 +32,9 @@ def pulled(found: Fit) -> float:
         pytest.param(
             "joint_clearance.play_mm", 0.02, AXIAL, (BENT, "joint_clearance"), marks=pytest.mark.long
         ),
-        ("joint_friction.torque_Nmm", 200.0, MIXED[:3], (BENT, "joint_friction")),
+        pytest.param(
+            "joint_friction.torque_Nmm", 200.0, MIXED[:3], (BENT, "joint_friction"), marks=pytest.mark.long
+        ),
         pytest.param(
             "bar_initial_bow.bow_y_mm", 0.1, AXIAL, (BENT, "bar_initial_bow"), marks=pytest.mark.long
         ),

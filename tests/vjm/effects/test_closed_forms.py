@@ -84,7 +84,7 @@ def test_hinge_springs_carry_a_force_along_z(q: float) -> None:
     np.testing.assert_allclose(found[:, 8], 4 * k * z / (LENGTH * np.cos(q)) ** 2, rtol=1e-3)
 
 
-@pytest.mark.parametrize("q", ANGLES)
+@pytest.mark.parametrize("q", [pytest.param(0.0, marks=pytest.mark.long), 0.5])
 def test_friction_encloses_an_area(q: float) -> None:
     """A full swing of ± a turn t: the loop takes 4 hinges x 4 T (t - presliding - bend), and slides at F = 4 T / arm.
 

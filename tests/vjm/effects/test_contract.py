@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import inspect
 from dataclasses import replace
-from itertools import combinations
+from itertools import combinations, pairwise
 from pathlib import Path
 
 import numpy as np
@@ -120,7 +120,16 @@ def test_every_parameter_moves_something(name: str, rig: str) -> None:
         assert (change > 1e-6) != (rig.endswith("bar") and (name, p.name) in UNSEEN_ON_A_BAR), p.name
 
 
-@pytest.mark.parametrize(("name", "rig"), CASES)
+# Of yielding, closed forms are in test_yield_closed_forms.py.
+@pytest.mark.parametrize(
+    ("name", "rig"),
+    [
+        pytest.param(
+            *it.values, marks=[*it.marks, *([pytest.mark.long] * (it.values[0] == "material_yield"))]
+        )
+        for it in CASES
+    ],
+)
 def test_derivatives_agree_with_solving_again(name: str, rig: str) -> None:
     """Through the whole history, with the memory's own derivative handed on."""
     effect = EFFECTS[name]
@@ -151,17 +160,28 @@ def test_derivatives_agree_with_solving_again(name: str, rig: str) -> None:
         assert np.max(error) < 1e-4 * largest + rounding, p.name
 
 
+def commute(one: str, two: str) -> None:
+    """In both orders: equal to 1e-9 of the reading, rounding of 1e-6 noises."""
+    ahead = run(with_values(two, with_values(one, PARALLELOGRAM, {}), {}), steps=1).readings
+    back = run(with_values(one, with_values(two, PARALLELOGRAM, {}), {}), steps=1).readings
+    np.testing.assert_array_less(
+        np.abs(ahead - back), 1e-9 * np.abs(ahead) + 1e-6 * NOISE, err_msg=f"{one}, {two}"
+    )
+
+
+@pytest.mark.parametrize(("one", "two"), list(pairwise([*EFFECTS, next(iter(EFFECTS))])))
+def test_effects_that_are_neighbours_commute(one: str, two: str) -> None:
+    """Each of them with two others; in `test_parts.py` the parts that they are made of."""
+    commute(one, two)
+
+
+@pytest.mark.long
 @pytest.mark.parametrize("first", EFFECTS)
 def test_effects_commute(first: str) -> None:
-    """All pairs with one that comes later, in both orders: equal to 1e-9 of the reading, rounding of 1e-6 noises."""
+    """All pairs with one that comes later."""
     for one, two in combinations(EFFECTS, 2):
-        if one != first:
-            continue
-        ahead = run(with_values(two, with_values(one, PARALLELOGRAM, {}), {}), steps=1).readings
-        back = run(with_values(one, with_values(two, PARALLELOGRAM, {}), {}), steps=1).readings
-        np.testing.assert_array_less(
-            np.abs(ahead - back), 1e-9 * np.abs(ahead) + 1e-6 * NOISE, err_msg=f"{one}, {two}"
-        )
+        if one == first:
+            commute(one, two)
     assert first in EFFECTS
 
 

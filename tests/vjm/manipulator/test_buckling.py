@@ -90,7 +90,7 @@ def test_bars_lumped_at_their_tips_do_not_buckle_in_compression() -> None:
     assert "stable up to 30000" in found.reason and found.left > 0.0
 
 
-@pytest.mark.parametrize("number", [0, 2])
+@pytest.mark.parametrize("number", [0, pytest.param(2, marks=pytest.mark.long)])
 def test_a_leg_between_held_ends_stands_for_the_whole(number: int) -> None:
     """The sweep's critical force leaves out how the platform gives way: a few per cent, on the path of the worst
     direction."""

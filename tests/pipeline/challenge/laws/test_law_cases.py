@@ -86,6 +86,7 @@ def test_a_number_is_the_same_case_whenever_it_is_asked_for() -> None:
     assert _told(LAWS[7]) != _told(LAWS[8])
 
 
+@pytest.mark.long
 def test_a_case_measured_again_is_the_same_to_the_last_bit(found: tuple[Campaign, Truth]) -> None:
     campaign, truth = measured(law_case, ONE_ANGLE)
     for one, other in zip(campaign.tests, found[0].tests, strict=True):
