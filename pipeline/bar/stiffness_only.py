@@ -77,8 +77,9 @@ def stiffness_of_file(case: FileCase, folder: Path, progress: Progress, typed: s
 
 def _read(case: FileCase, path: Path) -> Brought:
     with Child(module_of(path), asked_of(case, path)) as child:
-        import fem.mesh_limit
-        import fem.slices.stiffness  # noqa: F401
+        # What solves is loaded while the child reads.
+        from fem import mesh_limit  # noqa: F401
+        from fem.slices import stiffness  # noqa: F401
 
         commit()
         versions()
