@@ -120,7 +120,8 @@ def diagnose(
     criteria: Criteria = CRITERIA,
 ) -> Diagnosis:
     """Look for what the model lacks. InputError for a campaign that cannot be judged or a model that it cannot have."""
-    begin = perf_counter()
+    # In the order of names, whatever the order in which effects are known.
+    begin, known = perf_counter(), dict(sorted(known.items()))
     shelf, refused = _prepared(campaign, model, known, say, criteria)
     attempts = Attempts()
     beginning(shelf)
