@@ -67,15 +67,24 @@ class Map:
         return tuple(it for it in self.sites if it.value >= self.best - within)
 
 
-def mapped(found: Fit, effects: Mapping[str, Effect], beside: Array | None = None) -> Map:
+def mapped(
+    found: Fit,
+    effects: Mapping[str, Effect],
+    beside: Array | None = None,
+    known: Sequence[Located] = (),
+) -> Map:
     """Of a fit whose tests may all be fitted. effects: those that bodies are taken from. beside: (N, P) columns that
-    are fitted anew in both hypotheses, in standard deviations before any data.
+    are fitted anew in both hypotheses, in standard deviations before any data. known: places of laws in the model, of
+    which the free functions are fitted anew in both too: what a form of a law does not say is no law elsewhere.
 
     Where a law might be proposed, noise that is correlated from row to row beside it counts as what it is.
     """
     every, rest = elements(found), Rest.of(found.residual)
     if beside is not None:
         rest = replace(rest, tolerance=np.hstack([rest.tolerance, beside]))
+    freed = [rest.seen(_free(it, every, rest)) for it in known]
+    if freed:
+        rest = replace(rest, tolerance=np.hstack([rest.tolerance, *freed]))
     plain = _mapped(found, effects, every, rest)
     if max(plain.best, plain.body.value if plain.body else 0.0) < criteria.PROPOSED:
         return plain
@@ -85,6 +94,19 @@ def mapped(found: Fit, effects: Mapping[str, Effect], beside: Array | None = Non
         return plain
     again = _mapped(found, effects, every, rest.with_noise(decorrelating(there, sensors)))
     return replace(again, independent=plain)
+
+
+def _free(it: Located, every: Sequence[Element], rest: Rest) -> Array:
+    """(N, 30) of the free function at a place, in its standard deviations when the place was found, about this fit."""
+    site, evidence = it.site, it.evidence
+    places = {(each.kind, each.place) for each in site.elements}
+    total = np.zeros((rest.rows.size, evidence.prior.root.shape[0]))
+    for each in every:
+        if (each.kind, each.place) in places:
+            sign = site.sign(each)
+            says = basis_of(sign * each.coordinate, rest.first, evidence.site.largest)
+            total = total + sign * each.moved(says, unloaded(), rest.rows)
+    return np.asarray(total @ (evidence.size * evidence.prior.root))
 
 
 def without_best(seen: Map) -> Fit:

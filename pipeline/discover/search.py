@@ -121,7 +121,7 @@ def discover(
     rounds = 0
     while True:
         say("where the rest sits")
-        seen = mapped(here, effects)
+        seen = mapped(here, effects, known=[step.group[0] for step in steps if isinstance(step, Law)])
         new = beside(seen) if rounds < criteria.SETTLED else Beside()
         settled = new.applied(cases.campaign)
         if settled is not None:
