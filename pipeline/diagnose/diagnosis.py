@@ -120,8 +120,7 @@ def diagnose(
     criteria: Criteria = CRITERIA,
 ) -> Diagnosis:
     """Look for what the model lacks. InputError for a campaign that cannot be judged or a model that it cannot have."""
-    # In the order of names, whatever the order in which effects are known.
-    begin, known = perf_counter(), dict(sorted(known.items()))
+    begin = perf_counter()
     shelf, refused = _prepared(campaign, model, known, say, criteria)
     attempts = Attempts()
     beginning(shelf)
@@ -129,7 +128,10 @@ def diagnose(
     if doctor:
         return _unsettled(shelf, doctor, refused, attempts, _since(begin))
     again = partial(_shelf_of, model, known)
-    done, kinds = settled(shelf, again, attempts), all_sized(known, scale_for(campaign)).values()
+    done, kinds = (
+        settled(shelf, again, attempts),
+        all_sized(dict(sorted(known.items())), scale_for(campaign)).values(),
+    )
     done = done.attempts.get("whether a sensor is at fault", partial(with_faults, done, kinds, again), done)
     it, attempts, shelf = done.it, done.attempts, done.it.found.shelf
     whole = shelf.whole.campaign
@@ -237,9 +239,9 @@ def _since(begin: float) -> float:
 def suitable(
     campaign: Campaign, model: Model, known: Mapping[str, Effect]
 ) -> tuple[dict[str, Effect], dict[str, str]]:
-    """Effects that could be added, by name, and why the others cannot."""
+    """Effects that could be added, by name and in the order of names, and why the others cannot."""
     can, cannot = {}, {}
-    for name, effect in known.items():
+    for name, effect in sorted(known.items()):
         if name in model.names or not _may_exceed(effect, campaign) or _needs_a_sensor(effect):
             continue
         try:
