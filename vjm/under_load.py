@@ -2,7 +2,8 @@
 
 Such a law remembers, as the first of its numbers, the size of that load where the load step before ended: within a
 step it is constant, so that force and tangent are those of a law of its own coordinate. In a chain it acts on that
-coordinate and those of the bar beside it, from which the load is read.
+coordinate and those of the bar beside it, from which the load is read: what a bar bears by laws that remember, as
+where it yields, is no part of that.
 """
 
 from __future__ import annotations

@@ -82,7 +82,7 @@ def mapped(
     every, rest = elements(found), Rest.of(found.residual)
     if beside is not None:
         rest = replace(rest, tolerance=np.hstack([rest.tolerance, beside]))
-    freed = [rest.seen(_free(it, every, rest)) for it in known]
+    freed = [_free(it, every, rest) for it in known]
     if freed:
         rest = replace(rest, tolerance=np.hstack([rest.tolerance, *freed]))
     plain = _mapped(found, effects, every, rest)
@@ -100,13 +100,15 @@ def _free(it: Located, every: Sequence[Element], rest: Rest) -> Array:
     """(N, 30) of the free function at a place, in its standard deviations when the place was found, about this fit."""
     site, evidence = it.site, it.evidence
     places = {(each.kind, each.place) for each in site.elements}
-    total = np.zeros((rest.rows.size, evidence.prior.root.shape[0]))
-    for each in every:
-        if (each.kind, each.place) in places:
-            sign = site.sign(each)
-            says = basis_of(sign * each.coordinate, rest.first, evidence.site.largest)
-            total = total + sign * each.moved(says, unloaded(), rest.rows)
+    own = [each for each in every if (each.kind, each.place) in places]
+    total = np.sum([_columns(each, site.sign(each), evidence.site.largest, rest) for each in own], axis=0)
     return np.asarray(total @ (evidence.size * evidence.prior.root))
+
+
+def _columns(element: Element, sign: float, largest: float, rest: Rest) -> Array:
+    """(N, 30) what curve and sliders over the coordinate of an element do, seen as the residuals are."""
+    says = basis_of(sign * element.coordinate, rest.first, largest)
+    return rest.seen(sign * element.moved(says, unloaded(), rest.rows))
 
 
 def without_best(seen: Map) -> Fit:
@@ -139,8 +141,7 @@ def _mapped(found: Fit, effects: Mapping[str, Effect], every: Sequence[Element],
     def of(element: Element, sign: float) -> Array:
         key = (id(element), sign)
         if key not in done:
-            says = basis_of(sign * element.coordinate, rest.first, largest[element.kind])
-            done[key] = rest.seen(sign * element.moved(says, unloaded(), rest.rows))
+            done[key] = _columns(element, sign, largest[element.kind], rest)
         return done[key]
 
     best: dict[str, Located] = {}

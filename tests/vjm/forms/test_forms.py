@@ -164,3 +164,17 @@ def test_friction_of_iwan_is_a_parabola_and_masing_comes_back() -> None:
     assert np.abs(y[:121] - first(there)).max() < limit / 144.0
     assert np.abs(y[121:] - (limit - 2.0 * first((there[-1] - back[1:]) / 2.0))).max() < 2.0 * limit / 144.0
     assert y[-1] == pytest.approx(-limit)
+
+
+def test_a_table_rises_from_knot_to_knot_and_goes_on() -> None:
+    rises, far = np.array([1.0, 0.0, 2.0, 4.0, 0.5, 0.5, 1.0, 3.0]), 20.0
+    form = forms()["table"]
+    x = far * np.array([0.0, 0.1, 0.3, 0.6, 0.8, 1.0, 1.5, -0.1, -0.3, -0.6, -1.0, -1.2])
+    y = np.array([0.0, 1.0, 1.0, 3.0, 5.0, 7.0, 12.0, -0.5, -1.0, -2.0, -5.0, -6.5])
+    assert form.columns(x, np.array([0, x.size]), np.array([far])) @ rises == pytest.approx(y)
+    spring = form.law(rises, np.array([far]), series=False)
+    answer = spring.respond(x[:, None], np.zeros((x.size, 0)))
+    assert answer.force[:, 0] == pytest.approx(y)
+    # Areas below the polygon, from zero on either side.
+    area = far * np.array([0.0, 0.05, 0.25, 0.85, 1.65, 2.85, 7.6, 0.025, 0.175, 0.625, 2.025, 3.175])
+    assert answer.energy == pytest.approx(area)
