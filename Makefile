@@ -59,22 +59,22 @@ bare: $(STAMP)
 
 # Many benches for every effect: hours; what was finished is kept, so that it may be stopped and started again.
 coverage: $(STAMP)
-	$(PYTHON) -m pipeline.coverage
+	$(PYTHON) -m pipeline.assessment.coverage
 
 # Other ways to predict beyond the fitted loads, on the benches of the challenge: hours, to be stopped and started too.
 .PHONY: extrapolation
 extrapolation: $(STAMP)
-	$(PYTHON) -m pipeline.extrapolation
+	$(PYTHON) -m pipeline.assessment.extrapolation
 
 # How often the intervals of `predict` hold a reading, on the benches of the challenge: an hour, to be stopped too.
 .PHONY: predict
 predict: $(STAMP)
-	$(PYTHON) -m pipeline.predict.study
+	$(PYTHON) -m pipeline.assessment.prediction
 
 # Every criterion of the diagnosis halved and doubled on sixty benches: an hour or two, to be stopped and started too.
 .PHONY: sensitivity
 sensitivity: $(STAMP)
-	$(PYTHON) -m pipeline.sensitivity
+	$(PYTHON) -m pipeline.assessment.sensitivity
 
 # The shipped campaign, measured again on the virtual bench; what it hides stands here and in its sealed answer.
 example: $(STAMP)

@@ -22,7 +22,7 @@ PACKAGES = ("fem", "meshes", "pipeline", "reports", "vjm")
 DATA = (".csv", ".css", ".j2", ".js", ".toml", ".typed")
 LEFT_OUT = {
     "reports": ("challenge", "coverage", "extrapolation", "sensitivity", "studio", "validation"),
-    "pipeline": ("extrapolation", "sensitivity"),
+    "pipeline": ("assessment/extrapolation", "assessment/sensitivity"),
 }
 """Folders of packages that only a checkout has: results, and studies of the diagnosis that no command runs."""
 EXAMPLE = "examples/bench"
@@ -55,7 +55,7 @@ def laid_out(root: Path) -> Iterator[tuple[str, bytes]]:
     for folder in (NAME, *PACKAGES, EXAMPLE):
         for path in sorted((root / folder).rglob("*")):
             inside = path.relative_to(root / folder)
-            if not path.is_file() or inside.parts[0] in LEFT_OUT.get(folder, ()):
+            if not path.is_file() or any(map(inside.is_relative_to, LEFT_OUT.get(folder, ()))):
                 continue
             where = inside.as_posix() if folder == NAME else f"{folder}/{inside.as_posix()}"
             if path.suffix == ".py":

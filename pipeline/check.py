@@ -9,12 +9,12 @@ import numpy as np
 from rich.markup import escape
 from rich.table import Table
 
+from pipeline.answer.wording.doctor import doctor_sentence, mends
 from pipeline.attempt import Attempts
 from pipeline.campaign import Campaign, Test, read
 from pipeline.campaign.names import channel_columns
-from pipeline.diagnose.doctor_words import doctor_sentence, mends
-from pipeline.diagnose.examined import examined
 from pipeline.progress import Progress
+from pipeline.selection.examined import examined
 from pipeline.terminal import terminal
 from pipeline.typed import command
 from reports.quantities import short, sigma

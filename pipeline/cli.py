@@ -284,7 +284,7 @@ def challenge(
     quiet: Quiet = False,
 ) -> None:
     """The score of the diagnosis over many virtual benches with hidden effects; stopped, it can go on."""
-    from pipeline.challenge.command import run_challenge, run_dirty
+    from pipeline.assessment.challenge.command import run_challenge, run_dirty
 
     if dirty:
         own = store.with_name(f"dirty_{store.name}")

@@ -11,6 +11,10 @@ from pathlib import Path
 import numpy as np
 
 from meshes.files import replacing
+from pipeline.assessment.virtual.bench import measure
+from pipeline.assessment.virtual.hidden import hidden
+from pipeline.assessment.virtual.known_rig import rig_of
+from pipeline.assessment.virtual.plan import GAUGES, SENSORS, PlannedTest, bench_plan
 from pipeline.campaign import Campaign, ParallelogramRig, write
 from pipeline.campaign.reading import DESCRIPTION, MEASUREMENTS
 from pipeline.command import usable
@@ -18,10 +22,6 @@ from pipeline.errors import InputError
 from pipeline.parameter_names import path_of
 from pipeline.progress import Progress
 from pipeline.provenance import commit, versions
-from pipeline.virtual.bench import measure
-from pipeline.virtual.hidden import hidden
-from pipeline.virtual.known_rig import rig_of
-from pipeline.virtual.plan import GAUGES, SENSORS, PlannedTest, bench_plan
 from vjm import paper
 from vjm.effects import catalogue
 

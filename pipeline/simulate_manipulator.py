@@ -8,13 +8,13 @@ from pathlib import Path
 
 import numpy as np
 
+from pipeline.assessment.virtual.hidden import hidden
+from pipeline.assessment.virtual.manipulator import measure_manipulator, plan
 from pipeline.campaign import Campaign, ManipulatorRig
 from pipeline.manipulator.description import SHIPPED, read
 from pipeline.parameter_names import path_of
 from pipeline.progress import Progress
 from pipeline.simulate import require_free, seal
-from pipeline.virtual.hidden import hidden
-from pipeline.virtual.manipulator import measure_manipulator, plan
 from vjm.effects import catalogue
 
 

@@ -43,7 +43,7 @@ class Estimate(NamedTuple):
 
 
 def estimate(record: Mapping[str, Any]) -> Estimate:
-    """The parameter of a record `pipeline.answer.Value`, as JSON has it."""
+    """The parameter of a record `pipeline.answer.record.Value`, as JSON has it."""
     return Estimate(**{key: record[key] for key in Estimate._fields if key in record})
 
 

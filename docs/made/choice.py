@@ -9,8 +9,8 @@ from pathlib import Path
 from scipy.stats import norm
 
 from docs.made.lists import rows
-from pipeline.challenge.page import SCORES
-from pipeline.challenge.score import Scored
+from pipeline.assessment.challenge.page import SCORES
+from pipeline.assessment.challenge.score import Scored
 from pipeline.selection.criteria import CRITERIA
 
 ROOT = Path(__file__).resolve().parents[2]

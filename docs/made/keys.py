@@ -9,7 +9,9 @@ from pydantic import BaseModel
 
 from docs.made.allowed import allowed, anchor, default_of, unit_of
 from docs.made.described import descriptions, summary
-from pipeline import answer, law_record, value
+from pipeline.answer import law as law_record
+from pipeline.answer import record as answer
+from pipeline.answer import value
 from pipeline.bar import tables as bar
 from pipeline.campaign import tables as campaign
 from pipeline.campaign.mapped import schema as mapped

@@ -9,16 +9,16 @@ from functools import cache
 import numpy as np
 from numpy.typing import NDArray
 
+from pipeline.assessment.virtual import manipulator as machine
+from pipeline.assessment.virtual.plan import GAUGES, SENSORS, bench_plan
 from pipeline.campaign import Campaign, Data, ManipulatorRig, Noise, Test
 from pipeline.campaign.names import DISPLACEMENT
 from pipeline.inference.driving import column_name, driving, unit_of
+from pipeline.inference.load_cases import LoadCases, load_cases
 from pipeline.inference.model import Model, Term
 from pipeline.inference.prediction import predict
-from pipeline.inference.program import Program, program
 from pipeline.manipulator.description import read
 from pipeline.simulate import bench_rig
-from pipeline.virtual import manipulator as machine
-from pipeline.virtual.plan import GAUGES, SENSORS, bench_plan
 from vjm.effects import catalogue
 from vjm.effects.base import Effect
 from vjm.effects.sensor_fault import SensorFault
@@ -91,7 +91,7 @@ def _chosen(every: Sequence[Panel]) -> tuple[Panel, ...]:
     return tuple(out)
 
 
-def _panels(plan: Program, number: int, change: Array) -> list[Panel]:
+def _panels(plan: LoadCases, number: int, change: Array) -> list[Panel]:
     """All channels of a test that are predicted."""
     rows = slice(int(plan.first[number]), int(plan.first[number + 1]))
     test, gauges = plan.campaign.tests[number], plan.campaign.gauges
@@ -111,7 +111,7 @@ def _panels(plan: Program, number: int, change: Array) -> list[Panel]:
 
 
 @cache
-def _bench() -> Program:
+def _bench() -> LoadCases:
     """The plan of the virtual bench, with nothing read but what is prescribed."""
     rig = bench_rig()
     tests = [
@@ -126,11 +126,11 @@ def _bench() -> Program:
         )
         for one in bench_plan()
     ]
-    return program(Campaign("bench", rig, SENSORS, GAUGES, tuple(tests)))
+    return load_cases(Campaign("bench", rig, SENSORS, GAUGES, tuple(tests)))
 
 
 @cache
-def _machine() -> Program:
+def _machine() -> LoadCases:
     """The plan of a virtual machine, the shipped one."""
     found = read("orthoglide")
     rig = ManipulatorRig(length=found.manipulator.length, manipulator=found.manipulator, file="orthoglide")
@@ -148,7 +148,7 @@ def _machine() -> Program:
         for one in machine.plan(found.manipulator, found.home)
     ]
     noise: Noise = machine.NOISE
-    return program(Campaign("machine", rig, noise, (), tuple(tests)))
+    return load_cases(Campaign("machine", rig, noise, (), tuple(tests)))
 
 
 def _data(control: Sequence[str], values: Array, temperature: Array | None) -> Data:

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from pipeline.add.fitting import Added, add, remove
-from pipeline.add.table import show
+from pipeline.answer.tables.added import show
 from pipeline.campaign import Campaign, read
 from pipeline.command import usable
 from pipeline.inference.model import Model

@@ -2,37 +2,37 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 from time import perf_counter
 
 import numpy as np
 
-from pipeline.add.sentences import sentences
-from pipeline.add.summary import changes, confusable, error_of, nominals_of, undetermined, values_of
-from pipeline.adequacy.judgement import judge
-from pipeline.adequacy.untested import in_units, untested
-from pipeline.answer import Answer, Correlation
+from pipeline.answer.record import Answer, Correlation
+from pipeline.answer.summary import changes, confusable, error_of, nominals_of, undetermined, values_of
+from pipeline.answer.wording.added import sentences
 from pipeline.attempt import Attempts
+from pipeline.callbacks import OnProgress
 from pipeline.campaign import Campaign
-from pipeline.diagnose.shelf import Shelf
 from pipeline.errors import InputError
-from pipeline.inference.claims import trusted
+from pipeline.inference.declared_sigmas import trusted
+from pipeline.inference.estimated_sigmas import completed
 from pipeline.inference.fit import Fit, fit, unfitted
-from pipeline.inference.intervals import correlations, intervals, landscape, only_together, straight
+from pipeline.inference.intervals import correlations, intervals, only_together, profile_likelihood, straight
+from pipeline.inference.load_cases import LoadCases, load_cases
 from pipeline.inference.model import Model, at_bound
 from pipeline.inference.model_file import Uncertainty
+from pipeline.inference.multistart import best_fit
 from pipeline.inference.prediction import predict
-from pipeline.inference.program import Program, program
-from pipeline.inference.sigmas import completed
-from pipeline.inference.starts import best_fit
 from pipeline.inference.suitable import check_suitable, scale_for, sized_model
 from pipeline.provenance import commit, versions
+from pipeline.selection.adequacy.judgement import judge
+from pipeline.selection.adequacy.untested import in_units, untested
 from pipeline.selection.criteria import CRITERIA
+from pipeline.selection.fit_cache import FitCache
 from vjm.effects.base import Effect
 from vjm.effects.sized import sized
 
-Say = Callable[[str], None]
 WORSE = 1.0
 """Chi-square by which a fit may leave more than the model before: a step that noise takes."""
 NOTHING = 1e-9
@@ -58,7 +58,9 @@ class Added:
         }
 
 
-def add(campaign: Campaign, model: Model, effects: Sequence[Effect], say: Say = lambda _: None) -> Added:
+def add(
+    campaign: Campaign, model: Model, effects: Sequence[Effect], on_progress: OnProgress = lambda _: None
+) -> Added:
     """The campaign's model with further effects, all its free numbers fitted to the tests that may be fitted.
 
     No diagnosis is made: the verdict is "within_noise" where what is left passes the same checks as in a diagnosis,
@@ -74,28 +76,34 @@ def add(campaign: Campaign, model: Model, effects: Sequence[Effect], say: Say = 
     effects = [sized(effect, scale) for effect in effects]
     check_suitable([*(term.effect for term in model.terms), *effects], campaign)
     whole = trusted(completed(campaign), model)
-    cases = program(whole)
-    say("the model as it was")
+    cases = load_cases(whole)
+    on_progress("the model as it was")
     before = unfitted(model, cases)
-    shelf = Shelf(cases, model, {effect.name: effect for effect in effects}, say)
+    cache = FitCache(cases, model, {effect.name: effect for effect in effects}, on_progress)
     new = tuple(effect.name for effect in effects)
     if (cases.predicted & cases.fitted[:, None]).any():
         for count in range(len(new)):
-            shelf.fit(frozenset(new[: count + 1]))
-        after = shelf.fit(frozenset(new))
+            cache.fit(frozenset(new[: count + 1]))
+        after = cache.fit(frozenset(new))
         # Without the pull of plausible sizes: intervals are about the least chi-square itself, and where only
         # combinations of numbers are seen, it may be elsewhere on their ridge. One that ran out of its work would
         # do so again.
-        if not any(each.ended for each in shelf.fits.values()):
+        if not any(each.ended for each in cache.fits.values()):
             polished = fit(after.model, cases, after.prediction)
-            anew = best_fit(model.with_effects(effects), cases, new, predict(model, cases, slopes=False), say)
+            anew = best_fit(
+                model.with_effects(effects), cases, new, predict(model, cases, slopes=False), on_progress
+            )
             after = min(polished, anew, key=lambda each: each.order)
     else:
         after = unfitted(model.with_effects(effects), cases)
-    return _compared(cases, (before, after), len(model.free), new, say, start, shelf.unseen if new else ())
+    return _compared(
+        cases, (before, after), len(model.free), new, on_progress, start, cache.unseen if new else ()
+    )
 
 
-def remove(campaign: Campaign, model: Model, names: Sequence[str], say: Say = lambda _: None) -> Added:
+def remove(
+    campaign: Campaign, model: Model, names: Sequence[str], on_progress: OnProgress = lambda _: None
+) -> Added:
     """The campaign's model without some of its effects, what it has left fitted again.
 
     Verdict and errors as in `add`. InputError for an effect that is not in the model.
@@ -108,30 +116,30 @@ def remove(campaign: Campaign, model: Model, names: Sequence[str], say: Say = la
     model = sized_model(model, campaign)
     check_suitable([term.effect for term in model.terms], campaign)
     whole = trusted(completed(campaign), model)
-    cases = program(whole)
-    say("the model as it was")
+    cases = load_cases(whole)
+    on_progress("the model as it was")
     before = unfitted(model, cases)
     less = model
     for name in names:
         less = less.without(name)
-    return _compared(cases, (before, fit(less, cases)), len(model.free), (), say, start)
+    return _compared(cases, (before, fit(less, cases)), len(model.free), (), on_progress, start)
 
 
 def _compared(
-    cases: Program,
+    cases: LoadCases,
     fits: tuple[Fit, Fit],
     numbers: int,
     new: Sequence[str],
-    say: Say,
+    on_progress: OnProgress,
     start: float,
     unseen: Collection[str] = (),
 ) -> Added:
     """The answer about a fit, beside the one before, which had so many fitted numbers. unseen: numbers that stayed at
     null because these readings do not see them."""
     before, after = fits
-    say("intervals")
+    on_progress("intervals")
     attempts = Attempts()
-    land = landscape(after, cases)
+    land = profile_likelihood(after, cases)
     nothing = untested(before, numbers) or untested(after)
     judged = None if nothing else judge(after)
     # As in a diagnosis.
@@ -174,7 +182,7 @@ def _compared(
 
 def _keeps(before: Fit, after: Fit, numbers: int, nothing: str | None) -> str:
     """Why a fit should not take the place of the model before it, which had so many fitted numbers."""
-    rows = after.residual.program.fitted
+    rows = after.residual.load_cases.fitted
     lost = int(np.sum(after.prediction.lost & ~before.prediction.lost & rows))
     if nothing:
         return "nothing was tested"

@@ -9,7 +9,7 @@ from pipeline.toml.complaints import shown
 from pipeline.toml.spelling import unknown_name
 from vjm.tolerances import tolerances
 
-Say = Callable[[tuple[str, ...], str], None]
+Complain = Callable[[tuple[str, ...], str], None]
 EXACT, ALL, BAR, ENDS, BARS = "exact", "all", "bar", "ends", "bars"
 SECTION = ("EA", "EIy", "EIz", "GJ")
 LARGEST = {"length_mm": 10.0, "width_mm": 10.0, "q_mrad": 50.0}
@@ -25,7 +25,10 @@ def usual(written: tuple[str, ...]) -> dict[str, float]:
 
 
 def tolerance(
-    raw: Mapping[str, Any], written: tuple[str, ...], say: Say, known: Mapping[str, float] | None = None
+    raw: Mapping[str, Any],
+    written: tuple[str, ...],
+    complain: Complain,
+    known: Mapping[str, float] | None = None,
 ) -> dict[str, float]:
     """Standard deviations by key of a rig's tolerances, zero left out; with a complaint about every mistake.
 
@@ -38,13 +41,13 @@ def tolerance(
             if value == EXACT:
                 found = dict.fromkeys(found, 0.0)
             else:
-                say((key,), f'is {shown(value)}, allowed is: "{EXACT}"')
+                complain((key,), f'is {shown(value)}, allowed is: "{EXACT}"')
         elif key not in allowed:
-            say((key,), f"is not a key of this table, {unknown_name(key, allowed)}")
+            complain((key,), f"is not a key of this table, {unknown_name(key, allowed)}")
         elif key == BAR and isinstance(value, dict):
-            found |= _of_bar(value, written, say)
+            found |= _of_bar(value, written, complain)
         else:
-            number = _number((key,), value, LARGEST.get(key, SHARE), say)
+            number = _number((key,), value, LARGEST.get(key, SHARE), complain)
             own = [each for each in (*SECTION, BARS) if each in written] if key == BAR else [key]
             found |= dict.fromkeys(own, number)
     return {key: value for key, value in found.items() if value > 0.0}
@@ -67,23 +70,25 @@ def _spelled(written: tuple[str, ...]) -> list[str]:
     return list(dict.fromkeys(BAR if key in inside else key for key in written))
 
 
-def _of_bar(value: Mapping[str, Any], written: tuple[str, ...], say: Say) -> dict[str, float]:
+def _of_bar(value: Mapping[str, Any], written: tuple[str, ...], complain: Complain) -> dict[str, float]:
     allowed = [key for key in (*SECTION, ENDS) if key in written]
     found = {}
     for key, each in value.items():
         if key not in allowed:
             others = unknown_name(key, allowed) if allowed else "allowed is one number"
-            say((BAR, key), f"is not a key of this table, {others}")
+            complain((BAR, key), f"is not a key of this table, {others}")
         else:
-            found[key] = _number((BAR, key), each, SHARE, say)
+            found[key] = _number((BAR, key), each, SHARE, complain)
     return found
 
 
-def _number(path: tuple[str, ...], value: object, largest: float, say: Say) -> float:
+def _number(path: tuple[str, ...], value: object, largest: float, complain: Complain) -> float:
     if value == EXACT:
         return 0.0
     if isinstance(value, int | float) and not isinstance(value, bool) and 0.0 <= value <= largest:
         return float(value)
     what = "a table" if isinstance(value, dict) else "a list" if isinstance(value, list) else shown(value)
-    say(path, f'is {what}, allowed is: a number from 0 to {largest:g}, one standard deviation, or "{EXACT}"')
+    complain(
+        path, f'is {what}, allowed is: a number from 0 to {largest:g}, one standard deviation, or "{EXACT}"'
+    )
     return 0.0

@@ -12,10 +12,10 @@ from numpy.typing import NDArray
 
 from pipeline.compare.record import ChannelError, Lost, TestError
 from pipeline.inference.driving import column_name, unit_of
+from pipeline.inference.load_cases import LoadCases
+from pipeline.inference.noise import Check, chi_square, lag_one
 from pipeline.inference.predicted import Prediction
-from pipeline.inference.program import Program
 from pipeline.inference.residual import residual, whitening
-from pipeline.noise import Check, chi_square, lag_one
 
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
@@ -34,22 +34,22 @@ class _Whole(NamedTuple):
 
 @dataclass(frozen=True, eq=False)
 class Discrepancy:
-    """A prediction against its program; parameters: how many numbers were fitted to these measurements.
+    """A prediction against its load cases; parameters: how many numbers were fitted to these measurements.
 
     Two kinds of sigmas: totals and tests of noise use residuals that are whitened together, so that what an
     input's noise does to several channels at once counts once. A channel by itself is over its own standard
     deviation, in which the noise of the inputs stands too.
     """
 
-    program: Program
+    load_cases: LoadCases
     prediction: Prediction
     parameters: int = 0
 
     @cached_property
     def _whole(self) -> _Whole:
-        weights = whitening(self.program, self.prediction)
-        found = residual(self.program, self.prediction)
-        whitened, rank = _without_zeros(self.program, found.left, found.offsets)
+        weights = whitening(self.load_cases, self.prediction)
+        found = residual(self.load_cases, self.prediction)
+        whitened, rank = _without_zeros(self.load_cases, found.left, found.offsets)
         if found.marginal is not None:
             whitened = whitened.copy()
             # What departures from what was written cost is in the residuals of the tests that show them.
@@ -77,22 +77,24 @@ class Discrepancy:
     @property
     def kept(self) -> Mask:
         """(R, C) compared, and there is a prediction."""
-        return np.asarray(self.program.predicted & ~self.prediction.lost[:, None])
+        return np.asarray(self.load_cases.predicted & ~self.prediction.lost[:, None])
 
     @property
     def degrees(self) -> int:
         """Residuals of the fitted tests less fitted numbers and unknown zeros."""
-        return int(self.program.predicted[self.program.fitted].sum()) - self.parameters - self._whole.zeros
+        return (
+            int(self.load_cases.predicted[self.load_cases.fitted].sum()) - self.parameters - self._whole.zeros
+        )
 
     def rms(self, rows: Mask) -> float | None:
         """Whitened root mean square over rows (R,); None where nothing is compared."""
-        compared = self.whitened[rows][self.program.predicted[rows]]
+        compared = self.whitened[rows][self.load_cases.predicted[rows]]
         return float(np.sqrt(np.mean(compared**2))) if compared.size else None
 
     def size(self) -> Check | None:
         """Chi-square of the fitted tests, charges of rows beside their stops included; None without a degree of
         freedom."""
-        flat = self.whitened[self.program.fitted][self.program.predicted[self.program.fitted]]
+        flat = self.whitened[self.load_cases.fitted][self.load_cases.predicted[self.load_cases.fitted]]
         every = np.append(flat, np.sqrt(self._whole.charged))
         return chi_square(every, every.size - self.degrees) if self.degrees > 0 else None
 
@@ -100,22 +102,22 @@ class Discrepancy:
         """Correlation along the load paths of the fitted tests; what was fitted makes it smaller, never larger."""
         series = [
             self.whitened[rows, channel]
-            for rows, channel in self.series(self.program.predicted & self.program.fitted[:, None])
+            for rows, channel in self.series(self.load_cases.predicted & self.load_cases.fitted[:, None])
         ]
         enough = sum(len(each) for each in series) >= FEWEST and any(each.any() for each in series)
         return lag_one(series) if enough else None
 
     def series(self, mask: Mask) -> Iterator[tuple[NDArray[np.int64], int]]:
         """Rows of every test and channel in a mask (R, C), in the order of the steps."""
-        for number in range(len(self.program.campaign.tests)):
-            own = mask & (self.program.test == number)[:, None]
+        for number in range(len(self.load_cases.campaign.tests)):
+            own = mask & (self.load_cases.test == number)[:, None]
             for channel in np.flatnonzero(own.any(axis=0)):
                 yield np.flatnonzero(own[:, channel]), int(channel)
 
     def channels(self, rows: Mask) -> dict[str, ChannelError]:
         """Error of every channel over rows (R,)."""
         out = {}
-        gauges = self.program.campaign.gauges
+        gauges = self.load_cases.campaign.gauges
         for channel in np.flatnonzero((self.kept & rows[:, None]).any(axis=0)):
             own = self.kept[:, channel] & rows
             units = self.units[own, channel]
@@ -131,8 +133,8 @@ class Discrepancy:
     def tests(self) -> tuple[TestError, ...]:
         """Error of every test."""
         found = []
-        for number, test in enumerate(self.program.campaign.tests):
-            rows = self.program.test == number
+        for number, test in enumerate(self.load_cases.campaign.tests):
+            rows = self.load_cases.test == number
             found.append(
                 TestError(
                     test=test.id,
@@ -148,8 +150,8 @@ class Discrepancy:
     def lost(self) -> tuple[Lost, ...]:
         """Tests of which rows are lost."""
         found = []
-        for number, test in enumerate(self.program.campaign.tests):
-            rows = np.flatnonzero(self.program.test == number)
+        for number, test in enumerate(self.load_cases.campaign.tests):
+            rows = np.flatnonzero(self.load_cases.test == number)
             gone = np.flatnonzero(self.prediction.lost[rows])
             if not gone.size:
                 continue
@@ -168,7 +170,7 @@ class Discrepancy:
         return tuple(found)
 
 
-def _without_zeros(program: Program, values: Array, offsets: Array) -> tuple[Array, int]:
+def _without_zeros(load_cases: LoadCases, values: Array, offsets: Array) -> tuple[Array, int]:
     """Residuals (R, C) less their part along the unknown zeros (R, C, O), and the rank of those that are fitted."""
     if not offsets.shape[-1]:
         return values, 0
@@ -176,5 +178,5 @@ def _without_zeros(program: Program, values: Array, offsets: Array) -> tuple[Arr
     scale = np.maximum(np.linalg.norm(flat, axis=0), np.finfo(float).tiny)
     found = np.linalg.lstsq(flat / scale, values.ravel(), rcond=1e-9)[0]
     left = values - (offsets / scale) @ found
-    left = np.where(program.predicted, left, 0.0)
-    return left, int(np.linalg.matrix_rank(offsets[program.fitted].reshape(-1, offsets.shape[-1]) / scale))
+    left = np.where(load_cases.predicted, left, 0.0)
+    return left, int(np.linalg.matrix_rank(offsets[load_cases.fitted].reshape(-1, offsets.shape[-1]) / scale))

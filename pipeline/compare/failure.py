@@ -11,10 +11,10 @@ from numpy.typing import NDArray
 
 from pipeline.campaign import Gauge, Test
 from pipeline.compare.error import Discrepancy
+from pipeline.compare.misfit import Series, Signature, explained, flagged, misfit
 from pipeline.compare.record import Finding
 from pipeline.compare.sentence import Look, sentence
 from pipeline.inference.driving import column_name, driving, unit_of
-from pipeline.misfit import Series, Signature, explained, flagged, misfit
 
 Array = NDArray[np.float64]
 _ANGLE = re.compile(r"[\s_.-]*(q[\s_=]*)?[+-]?\d+(\.\d+)?$")
@@ -74,11 +74,11 @@ def groups(tests: tuple[Test, ...], gauges: tuple[Gauge, ...], role: str = "fit"
 
 def too_short(discrepancy: Discrepancy) -> tuple[str, ...]:
     """Series of the fitted tests whose shape cannot be judged, a sentence each channel."""
-    program, kept = discrepancy.program, discrepancy.kept
-    tests, gauges = program.campaign.tests, program.campaign.gauges
+    load_cases, kept = discrepancy.load_cases, discrepancy.kept
+    tests, gauges = load_cases.campaign.tests, load_cases.campaign.gauges
     found: dict[str, list[str]] = {}
     for group in groups(tests, gauges):
-        own = np.isin(program.test, group.numbers)
+        own = np.isin(load_cases.test, group.numbers)
         for channel in np.flatnonzero((kept & own[:, None]).any(axis=0)):
             if 0 < (count := int((kept[:, channel] & own).sum())) < FEWEST:
                 name = column_name(int(channel), gauges)
@@ -96,13 +96,13 @@ def _numbers(series: Series) -> tuple[Signature, ...]:
 
 
 def _looks(discrepancy: Discrepancy) -> Iterator[tuple[LoadedAlike, str, Look]]:
-    program, kept = discrepancy.program, discrepancy.kept
-    tests, gauges = program.campaign.tests, program.campaign.gauges
+    load_cases, kept = discrepancy.load_cases, discrepancy.kept
+    tests, gauges = load_cases.campaign.tests, load_cases.campaign.gauges
     for group in groups(tests, gauges):
-        own = np.isin(program.test, group.numbers)
+        own = np.isin(load_cases.test, group.numbers)
         load, heat = np.full(len(own), np.nan), np.full(len(own), np.nan)
         for number in group.numbers:
-            part = slice(int(program.first[number]), int(program.first[number + 1]))
+            part = slice(int(load_cases.first[number]), int(load_cases.first[number + 1]))
             load[part] = driving(tests[number], gauges)[1]
             measured = tests[number].data.temperature
             heat[part] = np.nan if measured is None else measured
@@ -125,17 +125,17 @@ def _looks(discrepancy: Discrepancy) -> Iterator[tuple[LoadedAlike, str, Look]]:
 def _series(
     discrepancy: Discrepancy, rows: NDArray[np.int64], channel: int, drive: int, load: Array, heat: Array
 ) -> Series:
-    program = discrepancy.program
-    q = np.array([test.q for test in program.campaign.tests])
-    steps = np.concatenate([test.data.steps for test in program.campaign.tests])
+    load_cases = discrepancy.load_cases
+    q = np.array([test.q for test in load_cases.campaign.tests])
+    steps = np.concatenate([test.data.steps for test in load_cases.campaign.tests])
     sigma = discrepancy.sigma[rows, channel]
     return Series(
         discrepancy.units[rows, channel] / sigma,
         load,
         sigma,
-        q[program.test[rows]],
+        q[load_cases.test[rows]],
         steps[rows].astype(float),
-        program.test[rows].astype(np.int64),
+        load_cases.test[rows].astype(np.int64),
         heat if np.isfinite(heat).all() else None,
         unit=_dotted(unit_of(channel)),
         load_unit=_dotted(unit_of(drive)),

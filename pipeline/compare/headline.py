@@ -42,12 +42,12 @@ def headline(discrepancy: Discrepancy) -> str:
 
 
 def _readings(discrepancy: Discrepancy, channel: int) -> int:
-    return int((discrepancy.kept[:, channel] & discrepancy.program.fitted).sum())
+    return int((discrepancy.kept[:, channel] & discrepancy.load_cases.fitted).sum())
 
 
 def _means(discrepancy: Discrepancy) -> Iterator[Mean]:
     """A share and a constant of every channel."""
-    whole = discrepancy.program
+    whole = discrepancy.load_cases
     for channel in np.flatnonzero((discrepancy.kept & whole.fitted[:, None]).any(axis=0)):
         rows = discrepancy.kept[:, channel] & whole.fitted
         spread = discrepancy.sigma[rows, channel]

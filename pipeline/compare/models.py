@@ -9,30 +9,31 @@ from time import perf_counter
 
 import numpy as np
 
-from pipeline.adequacy.judgement import judge
-from pipeline.adequacy.untested import in_units, untested
-from pipeline.answer import DoctorFinding
+from pipeline.answer.record import DoctorFinding
 from pipeline.attempt import Attempts, plain
+from pipeline.callbacks import OnProgress
 from pipeline.campaign import Campaign
 from pipeline.compare.error import Discrepancy
 from pipeline.compare.failure import findings, groups, too_short
 from pipeline.compare.headline import headline
 from pipeline.compare.record import Comparison, ModelError
-from pipeline.diagnose.examined import mistakes_of
-from pipeline.inference.claims import trusted
+from pipeline.inference.declared_sigmas import trusted
+from pipeline.inference.estimated_sigmas import completed
 from pipeline.inference.fit import Fit, unfitted
 from pipeline.inference.frame_prediction import predict_frame
 from pipeline.inference.linear_prediction import predict_linear
+from pipeline.inference.load_cases import LoadCases, load_cases
 from pipeline.inference.model import Model
-from pipeline.inference.nominals import nominals
+from pipeline.inference.nuisances import nominals
 from pipeline.inference.objective import Objective
 from pipeline.inference.predicted import Prediction, moved_along
 from pipeline.inference.prediction import predict
-from pipeline.inference.program import Program, program
 from pipeline.inference.residual import residual
-from pipeline.inference.sigmas import completed
 from pipeline.inference.suitable import check_suitable, sized_model
 from pipeline.provenance import commit, versions
+from pipeline.selection.adequacy.judgement import judge
+from pipeline.selection.adequacy.untested import in_units, untested
+from pipeline.selection.examined import mistakes_of
 from vjm.effects.bar_geometric_nonlinearity import BarGeometricNonlinearity
 
 REACH = 2.0
@@ -48,12 +49,13 @@ FITTABLE = ("vjm", "saved")
 """Models whose derivative by what was written about the rig is known."""
 SETTLED = 3.0
 """Whitened RMS below which a misfit moves the inputs by no more than their noise."""
-Say = Callable[[str], None]
 Solve = Callable[[np.ndarray | None], Prediction]
 """A prediction at inputs shifted by (R, 7) from the measured ones."""
 
 
-def compare_models(campaign: Campaign, saved: Model | None = None, say: Say = lambda _: None) -> Comparison:
+def compare_models(
+    campaign: Campaign, saved: Model | None = None, on_progress: OnProgress = lambda _: None
+) -> Comparison:
     """LIN, VJM, the saved model and FEA beside the measurements; nothing is fitted.
 
     A model that cannot be solved at all has its reason in `failed`; rows that cannot, in `lost`. FEA is given the
@@ -64,7 +66,7 @@ def compare_models(campaign: Campaign, saved: Model | None = None, say: Say = la
     saved = None if saved is None else sized_model(saved, campaign)
     check_suitable([term.effect for term in saved.terms] if saved else [], campaign)
     whole = trusted(completed(campaign), saved or Model())
-    cases = program(whole)
+    cases = load_cases(whole)
     none = np.zeros_like(cases.input_sigma)
     tangent = cache(lambda: _tangent(cases))
     plans: dict[str, tuple[Model, Solve]] = {
@@ -76,13 +78,13 @@ def compare_models(campaign: Campaign, saved: Model | None = None, say: Say = la
     plans["fea"] = (Model(), lambda shift: predict_frame(cases, tangent, shift))
     found: list[ModelError] = []
     for key, (model, solve) in plans.items():
-        say(TITLES[key])
+        on_progress(TITLES[key])
         found.append(_error(key, model, cases, solve))
     shown = next(it for it in found if it.model == ("vjm" if saved is None else "saved"))
     doctor: tuple[DoctorFinding, ...] = ()
     if shown.fit is not None and not shown.within_noise and not shown.untested:
         doctor = Attempts().get(
-            "mistakes of the table", lambda: mistakes_of(campaign, saved or Model(), say), ()
+            "mistakes of the table", lambda: mistakes_of(campaign, saved or Model(), on_progress), ()
         )
     return Comparison(
         doctor=doctor,
@@ -106,7 +108,7 @@ def compare_models(campaign: Campaign, saved: Model | None = None, say: Say = la
     )
 
 
-def _evaluated(model: Model, cases: Program) -> Solve:
+def _evaluated(model: Model, cases: LoadCases) -> Solve:
     """Of a model that may have kinks: each row on its better side, from there at other inputs."""
     first = cache(lambda: Objective(model, cases).at(model.values, slopes=False, within=np.inf).prediction)
     return lambda shift: (
@@ -114,7 +116,7 @@ def _evaluated(model: Model, cases: Program) -> Solve:
     )
 
 
-def _settled(cases: Program, solve: Solve) -> Prediction:
+def _settled(cases: LoadCases, solve: Solve) -> Prediction:
     """The prediction; where it leaves little, at the inputs that fit it best: the noise of the measured ones would look
     like a fault of their sensors."""
     first = _credible(cases, solve(None))
@@ -125,7 +127,7 @@ def _settled(cases: Program, solve: Solve) -> Prediction:
     return _credible(cases, solve(left.shift))
 
 
-def _error(key: str, model: Model, cases: Program, solve: Solve) -> ModelError:
+def _error(key: str, model: Model, cases: LoadCases, solve: Solve) -> ModelError:
     start = perf_counter()
     title = f"{TITLES[key]} {', '.join(model.names) or 'no effect'}" if key == "saved" else TITLES[key]
     names = model.names if key == "saved" else ()
@@ -140,13 +142,13 @@ def _error(key: str, model: Model, cases: Program, solve: Solve) -> ModelError:
     return found.model_copy(update={"seconds": round(perf_counter() - start, 3)})
 
 
-def _tolerated(model: Model, cases: Program) -> bool:
+def _tolerated(model: Model, cases: LoadCases) -> bool:
     """Whether a model is within the noise with what was written about the rig where it fits best."""
     return bool(nominals(cases.campaign)) and judge(unfitted(model, cases)).noise
 
 
 def _judged(key: str, title: str, model: Model, discrepancy: Discrepancy) -> ModelError:
-    cases, names = discrepancy.program, model.names
+    cases, names = discrepancy.load_cases, model.names
     size, order = discrepancy.size(), discrepancy.order()
     flat = discrepancy.whitened[cases.fitted][cases.predicted[cases.fitted]]
     fit = float(np.sqrt(flat @ flat / discrepancy.degrees)) if discrepancy.degrees > 0 else None
@@ -182,7 +184,7 @@ def _judged(key: str, title: str, model: Model, discrepancy: Discrepancy) -> Mod
     )
 
 
-def _credible(cases: Program, prediction: Prediction) -> Prediction:
+def _credible(cases: LoadCases, prediction: Prediction) -> Prediction:
     """Rows with numbers beyond all bounds are lost, and those where the platform lies beyond the bars' reach."""
     parts = (prediction.values, prediction.by_inputs)
     finite = np.all([np.isfinite(part.reshape(len(part), -1)).all(axis=1) for part in parts], axis=0)
@@ -201,7 +203,7 @@ def _credible(cases: Program, prediction: Prediction) -> Prediction:
     )
 
 
-def _tangent(cases: Program) -> Prediction:
+def _tangent(cases: LoadCases) -> Prediction:
     """Springs with refined bars; where they have no equilibrium, a constant stiffness."""
     refined = predict(Model().with_effects([BarGeometricNonlinearity()]), cases, slopes=False)
     if not refined.lost.any():

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pydantic import Field
 
-from pipeline.answer import DoctorFinding
+from pipeline.answer.record import DoctorFinding
 from pipeline.record import Record
 
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from pipeline.misfit import Series, Signature
+from pipeline.compare.misfit import Series, Signature
 from reports.quantities import percent, short, sigma, signed
 
 SHARE = 10.0
@@ -102,4 +102,4 @@ _WORDS: dict[str, Callable[[Signature, Look], str]] = {
     "slope_q": _slope_q,
     "scatter": _scatter,
 }
-"""Words for every number of `pipeline.misfit`."""
+"""Words for every number of `pipeline.compare.misfit`."""

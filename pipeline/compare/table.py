@@ -9,8 +9,8 @@ from rich.console import Console, Group, RenderableType
 from rich.table import Table
 from rich.text import Text
 
+from pipeline.answer.wording.doctor import doctor_sentence, mends
 from pipeline.compare.record import ChannelError, Comparison, ModelError, TestError
-from pipeline.diagnose.doctor_words import doctor_sentence, mends
 from pipeline.terminal import WIDTH, blocks, cell, one_line, terminal
 from reports.quantities import NONE, number, p_value, sigma
 

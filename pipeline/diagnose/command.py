@@ -6,15 +6,15 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from pipeline.add.command import starting_model
-from pipeline.answer import Answer
+from pipeline.answer.record import Answer
+from pipeline.answer.tables.diagnosis import show
+from pipeline.answer.wording.diagnosis import answered
 from pipeline.campaign import read
 from pipeline.command import usable
-from pipeline.diagnose.diagnosis import diagnose
-from pipeline.diagnose.table import show
-from pipeline.diagnose.words import answered
 from pipeline.discover.beyond_catalogue import with_laws
 from pipeline.inference.suitable import known_effects
 from pipeline.progress import Progress
+from pipeline.selection.diagnosis import diagnose
 from pipeline.typed import command
 
 
@@ -37,7 +37,7 @@ def diagnose_campaign(
     progress = Progress(quiet)
     with progress.stage("looking for what is missing") as stage:
         found = with_laws(diagnose(campaign, began, known.effects, stage.say), stage.say)
-        stage.note = f"{len(found.shelf.fits)} models fitted"
+        stage.note = f"{len(found.cache.fits)} models fitted"
     with progress.stage("intervals"):
         answer = answered(found).model_copy(update={"seed": seed})
     if json is not None:

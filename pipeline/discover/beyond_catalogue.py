@@ -11,19 +11,14 @@ nothing more is looked at from what is certain, and a pattern inside the noise f
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import partial
 from time import perf_counter
 
 import numpy as np
 
-from pipeline.adequacy.bad_readings import set_aside
-from pipeline.adequacy.judgement import judge
 from pipeline.attempt import Attempts
-from pipeline.diagnose.diagnosis import Diagnosis
-from pipeline.diagnose.merit import badness, root_of, taken
-from pipeline.diagnose.shelf import Names
+from pipeline.callbacks import OnProgress
 from pipeline.discover import criteria
 from pipeline.discover.elements import NoSites
 from pipeline.discover.locating import mapped
@@ -31,29 +26,33 @@ from pipeline.discover.record import Discovered
 from pipeline.discover.recording import recorded
 from pipeline.discover.search import Added, Discovery, discover, fitted_to
 from pipeline.discover.words import law_sentences, sentences
+from pipeline.inference.load_cases import LoadCases, load_cases
 from pipeline.inference.model import Model
-from pipeline.inference.program import Program, program
+from pipeline.selection.adequacy.bad_readings import set_aside
+from pipeline.selection.adequacy.judgement import judge
+from pipeline.selection.cost import cost_of, root_of, taken
+from pipeline.selection.diagnosis import Diagnosis
+from pipeline.selection.fit_cache import Names
 
-Say = Callable[[str], None]
 Looked = tuple[Diagnosis, Discovery | None]
 
 
-def with_laws(it: Diagnosis, say: Say = lambda _: None) -> Diagnosis:
+def with_laws(it: Diagnosis, on_progress: OnProgress = lambda _: None) -> Diagnosis:
     """The diagnosis with the laws that are found, and its verdict where they explain as much as its sets.
 
     Optional: what fails here is said and takes nothing else with it. On a rig without places of laws it is as it was.
     """
-    return looked(it, say)[0]
+    return looked(it, on_progress)[0]
 
 
-def looked(it: Diagnosis, say: Say = lambda _: None) -> Looked:
+def looked(it: Diagnosis, on_progress: OnProgress = lambda _: None) -> Looked:
     """The diagnosis `with_laws`, and what was found on the way; None where laws were not looked for."""
     if not _asked(it):
         return it, None
     begin, attempts = perf_counter(), Attempts()
     nothing: Looked = (it, None)
     done, found = attempts.get(
-        "the look for laws beyond the catalogue", partial(_where_there_are_sites, it, say), nothing
+        "the look for laws beyond the catalogue", partial(_where_there_are_sites, it, on_progress), nothing
     )
     seconds = round(it.seconds + perf_counter() - begin, 3)
     return replace(done, failed=(*it.failed, *attempts.failed), seconds=seconds), found
@@ -61,40 +60,42 @@ def looked(it: Diagnosis, say: Say = lambda _: None) -> Looked:
 
 def _asked(it: Diagnosis) -> bool:
     """Whether anything is to be found by laws: not before the table is settled."""
-    if it.untested or it.doctor or it.ruling.zero is not None or it.verdict == "nothing_tested":
+    if it.untested or it.doctor or it.decision.zero is not None or it.verdict == "nothing_tested":
         return False
-    return bool(it.shelf.whole.fitted.any())
+    return bool(it.cache.whole.fitted.any())
 
 
-def _where_there_are_sites(it: Diagnosis, say: Say) -> Looked:
+def _where_there_are_sites(it: Diagnosis, on_progress: OnProgress) -> Looked:
     try:
-        return _with_laws(it, say)
+        return _with_laws(it, on_progress)
     except NoSites:
         return it, None
 
 
-def _with_laws(it: Diagnosis, say: Say) -> Looked:
+def _with_laws(it: Diagnosis, on_progress: OnProgress) -> Looked:
     best = frozenset(it.sets[0])
     if it.judgement.noise and best:
-        return _competing(it, best, say)
+        return _competing(it, best, on_progress)
     sure: Names = frozenset(it.certain)
-    found, record = _discovered(it, it.shelf.with_own_line(sure).model if sure else it.shelf.base, say)
+    found, record = _discovered(
+        it, it.cache.with_own_line(sure).model if sure else it.cache.base, on_progress
+    )
     if not found.laws and it.verdict == "within_noise":
         return it, found
     words = law_sentences(record) if found.laws else sentences(record)[:1]
     return replace(it, laws=record.laws, law_words=words), found
 
 
-def _competing(it: Diagnosis, best: Names, say: Say) -> Looked:
+def _competing(it: Diagnosis, best: Names, on_progress: OnProgress) -> Looked:
     """A set of effects against what laws explain without it. One effect alone mimics no law as well as that explains
     itself: it competes only where it leaves a pattern, and gives way only to what is better."""
-    several = len(best - root_of(it.shelf, best)) >= criteria.SEVERAL
-    say("whether a law explains as much")
+    several = len(best - root_of(it.cache, best)) >= criteria.SEVERAL
+    on_progress("whether a law explains as much")
     if not (_leaves_a_pattern(it, best) or (several and _may_compete(it, best))):
         return it, None
-    found, record = _discovered(it, it.shelf.base, say)
+    found, record = _discovered(it, it.cache.base, on_progress)
     law = _standing(it, found)
-    if law is None or not 0 < len(found.laws) <= len(best - root_of(it.shelf, best)):
+    if law is None or not 0 < len(found.laws) <= len(best - root_of(it.cache, best)):
         return it, found
     behind = law.cost - min(_cost_of_set(it, names) for names in map(frozenset, it.sets))
     if any(each.ways[0].formed.form.kinked for each in found.laws):
@@ -104,29 +105,31 @@ def _competing(it: Diagnosis, best: Names, say: Say) -> Looked:
         return it, found
     told = _told(found, law)
     if behind >= -criteria.ALIKE:
-        ruling = replace(it.ruling, verdict="ambiguous", law=told)
+        decision = replace(it.decision, verdict="ambiguous", law=told)
     else:
-        ruling = replace(it.ruling, verdict="unknown", because=f"{told} explains it by {-behind:.0f} better")
+        decision = replace(
+            it.decision, verdict="unknown", because=f"{told} explains it by {-behind:.0f} better"
+        )
     # What laws explain without an effect makes that effect less than certain.
     sure = tuple(name for name in it.certain if name in found.end.model.names)
-    done = replace(it, ruling=ruling, certain=sure, laws=record.laws, law_words=law_sentences(record))
+    done = replace(it, decision=decision, certain=sure, laws=record.laws, law_words=law_sentences(record))
     return done, found
 
 
 def _leaves_a_pattern(it: Diagnosis, best: Names) -> bool:
     """Whether a function at any site explains what a set leaves, its own numbers fitted anew beside it."""
-    found = fitted_to(it.shelf.fit(best).model, _fitted(it))
-    sizes = it.shelf.criteria.plausible * np.array([abs(f.parameter.typical) for f in found.model.free])
+    found = fitted_to(it.cache.fit(best).model, _fitted(it))
+    sizes = it.cache.criteria.plausible * np.array([abs(f.parameter.typical) for f in found.model.free])
     own = found.residual.without_zeros(found.residual.slopes) * sizes
-    return mapped(found, it.shelf.candidates, own).best >= criteria.LEFT_BY_SET
+    return mapped(found, it.cache.candidates, own).best >= criteria.LEFT_BY_SET
 
 
 def _may_compete(it: Diagnosis, best: Names) -> bool:
     """Whether any site explains nearly as much as a set: a law gains little more of chi-square than twice the evidence
     of a free function at its site."""
-    without = it.shelf.fit(root_of(it.shelf, best))
-    seen = mapped(fitted_to(without.model, _fitted(it)), it.shelf.candidates)
-    gained = without.chi_square - badness(it.shelf, best)
+    without = it.cache.fit(root_of(it.cache, best))
+    seen = mapped(fitted_to(without.model, _fitted(it)), it.cache.candidates)
+    gained = without.chi_square - cost_of(it.cache, best)
     return 2.0 * criteria.LAW_GAINS * seen.best + criteria.LAW_MORE >= gained
 
 
@@ -142,7 +145,7 @@ def _standing(it: Diagnosis, found: Discovery) -> _Law | None:
     """What the laws that were found cost; None where they do not explain all, or by other readings."""
     if found.bad or any(isinstance(step, Added) or not step.ways for step in found.steps):
         return None
-    if found.end.lost or not judge(found.end, it.shelf.criteria).noise:
+    if found.end.lost or not judge(found.end, it.cache.criteria).noise:
         return None
     numbers = sum(law.ways[0].numbers for law in found.laws) + int(found.bent)
     # Choices of sides cost a law what they cost an effect.
@@ -151,13 +154,13 @@ def _standing(it: Diagnosis, found: Discovery) -> _Law | None:
 
 
 def _cost_of_set(it: Diagnosis, names: Names) -> float:
-    own = names - root_of(it.shelf, names)
-    return badness(it.shelf, names) + taken(it.shelf, own) * _of_one(it)
+    own = names - root_of(it.cache, names)
+    return cost_of(it.cache, names) + taken(it.cache, own) * _of_one(it)
 
 
 def _of_one(it: Diagnosis) -> float:
     """What a number costs."""
-    whole = it.shelf.whole
+    whole = it.cache.whole
     return float(np.log(max(int(np.sum(whole.predicted & whole.fitted[:, None])), 1)))
 
 
@@ -167,14 +170,14 @@ def _told(found: Discovery, law: _Law) -> str:
     return f"a law of {numbers} at {places}"
 
 
-def _fitted(it: Diagnosis) -> Program:
+def _fitted(it: Diagnosis) -> LoadCases:
     """The tests that may be fitted, as they were settled."""
     whole = it.campaign
-    return program(replace(whole, tests=tuple(test for test in whole.tests if test.role == "fit")))
+    return load_cases(replace(whole, tests=tuple(test for test in whole.tests if test.role == "fit")))
 
 
-def _discovered(it: Diagnosis, start: Model, say: Say) -> tuple[Discovery, Discovered]:
+def _discovered(it: Diagnosis, start: Model, on_progress: OnProgress) -> tuple[Discovery, Discovered]:
     begin = perf_counter()
-    found = discover(_fitted(it), start, it.shelf.candidates, say)
-    whole = program(set_aside(it.campaign, found.bad))
+    found = discover(_fitted(it), start, it.cache.candidates, on_progress)
+    whole = load_cases(set_aside(it.campaign, found.bad))
     return found, recorded(found, whole, perf_counter() - begin)

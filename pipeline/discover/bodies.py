@@ -55,7 +55,7 @@ def weighed(found: Fit, rest: Rest, effects: Mapping[str, Effect]) -> list[Body]
     """The evidence of each, from derivatives beside null."""
     if not effects:
         return []
-    here, cases = found.prediction, found.residual.program
+    here, cases = found.prediction, found.residual.load_cases
     model = found.model.with_effects(effects.values())
     new = [k for k, each in enumerate(model.free) if each.effect in effects]
     there = predict(model, cases, start=here, shift=here.shift)

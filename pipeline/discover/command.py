@@ -9,23 +9,24 @@ from time import perf_counter
 
 from meshes.files import replacing
 from pipeline.add.command import starting_model
-from pipeline.adequacy.bad_readings import set_aside
+from pipeline.callbacks import OnProgress
 from pipeline.campaign import Campaign, read
 from pipeline.command import usable
-from pipeline.diagnose.diagnosis import suitable
 from pipeline.discover.effect_file import effect_text, name_of, write_effect
 from pipeline.discover.record import Discovered
 from pipeline.discover.recording import recorded
-from pipeline.discover.search import GEOMETRY, Discovery, Say, discover
+from pipeline.discover.search import GEOMETRY, Discovery, discover
 from pipeline.discover.table import show
 from pipeline.discover.words import sentences
 from pipeline.errors import InputError
-from pipeline.inference.claims import trusted_and_fit
+from pipeline.inference.declared_sigmas import trusted_and_fit
+from pipeline.inference.estimated_sigmas import completed
+from pipeline.inference.load_cases import load_cases
 from pipeline.inference.model import Model
-from pipeline.inference.program import program
-from pipeline.inference.sigmas import completed
 from pipeline.inference.suitable import Known, check_suitable, known_effects
 from pipeline.progress import Progress
+from pipeline.selection.adequacy.bad_readings import set_aside
+from pipeline.selection.diagnosis import suitable
 from pipeline.typed import command
 
 
@@ -59,12 +60,12 @@ def discover_laws(asked: Asked) -> Discovered:
 
 
 def discovered(
-    campaign: Campaign, model: Model, known: Known, say: Say = lambda _: None
+    campaign: Campaign, model: Model, known: Known, on_progress: OnProgress = lambda _: None
 ) -> tuple[Discovery, Discovered]:
     """What is found, and its record with all of it in words. InputError as of `searched`."""
     begin = perf_counter()
-    found, whole = searched(campaign, model, known, say)
-    record = recorded(found, program(set_aside(whole, found.bad)), perf_counter() - begin)
+    found, whole = searched(campaign, model, known, on_progress)
+    record = recorded(found, load_cases(set_aside(whole, found.bad)), perf_counter() - begin)
     return found, record.model_copy(update={"sentences": sentences(record)})
 
 
@@ -76,7 +77,7 @@ def effects_found(found: Discovery, record: Discovered) -> tuple[str, ...]:
 
 
 def searched(
-    campaign: Campaign, model: Model, known: Known, say: Say = lambda _: None
+    campaign: Campaign, model: Model, known: Known, on_progress: OnProgress = lambda _: None
 ) -> tuple[Discovery, Campaign]:
     """What is found in the tests that may be fitted, and the campaign with all that it lacks of sigmas."""
     check_suitable([term.effect for term in model.terms], campaign)
@@ -88,7 +89,7 @@ def searched(
             f'{campaign.name} has no test that may be fitted, allowed is one with role = "fit" in campaign.toml'
         )
     try:
-        found = discover(program(replace(whole, tests=fitted)), model, effects, say)
+        found = discover(load_cases(replace(whole, tests=fitted)), model, effects, on_progress)
     except ValueError as error:
         raise InputError(f"{campaign.name}: {error}") from error
     return found, whole

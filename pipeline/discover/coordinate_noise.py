@@ -28,7 +28,7 @@ STEP = 1e-3
 
 def input_roots(found: Fit) -> Array:
     """(R, 7, 7) roots L of the covariances L L^T of the true inputs, given all readings of their load steps."""
-    cases, there = found.residual.program, found.prediction
+    cases, there = found.residual.load_cases, found.prediction
     sigma = cases.input_sigma
     kept = np.where(there.lost[:, None, None], 0.0, there.by_inputs)
     told = whitening(cases, there).apply(kept * sigma[:, None, :])

@@ -8,11 +8,11 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from meshes.files import replacing
+from pipeline.answer.law import LawFound
 from pipeline.discover.record import Discovered
 from pipeline.discover.search import Discovery
 from pipeline.discover.through import Through
 from pipeline.errors import InputError
-from pipeline.law_record import LawFound
 from vjm.effects.base import Parameter
 
 DIGITS = 8

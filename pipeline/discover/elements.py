@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from pipeline.campaign.names import channel_columns
 from pipeline.discover.coordinate_noise import input_roots, unsure
 from pipeline.inference.fit import Fit
-from pipeline.inference.program import Group, Program
+from pipeline.inference.load_cases import Group, LoadCases
 from pipeline.inference.residual import whitening
 from vjm.effects.base import Rig
 from vjm.equilibrium import Equilibrium
@@ -83,7 +83,7 @@ def elements(found: Fit) -> tuple[Element, ...]:
 
     NoSites for a rig that has no such places.
     """
-    cases = found.residual.program
+    cases = found.residual.load_cases
     weights = whitening(cases, found.prediction)
     lost = found.prediction.lost
 
@@ -98,7 +98,7 @@ def elements(found: Fit) -> tuple[Element, ...]:
 
 def _of_mechanism(found: Fit, flat: Callable[[Array], Array], roots: Array) -> Iterator[Element]:
     """Hinges, ends of bars, base. roots: (R, 7, 7) of `input_roots`."""
-    cases, there = found.residual.program, found.prediction
+    cases, there = found.residual.load_cases, found.prediction
     mechanisms = [_bench(found, group) for group in cases.groups]
     places = [(kind, place) for kind in SITE_KINDS.values() for place in _places(mechanisms[0], kind)]
     coordinates, doubts = np.zeros((2, len(cases.test), len(places)))
@@ -119,7 +119,7 @@ def _of_mechanism(found: Fit, flat: Callable[[Array], Array], roots: Array) -> I
 
 def _bench(found: Fit, group: Group) -> Rig:
     """The mechanism of a fit on the rig of some tests. NoSites where that is no bar and no parallelogram."""
-    mechanism = found.model.mechanism(group.rig, found.residual.program.campaign.gauges)
+    mechanism = found.model.mechanism(group.rig, found.residual.load_cases.campaign.gauges)
     if not isinstance(mechanism, Bar | Parallelogram):
         raise NoSites(f"sites of laws are those of a bar or a parallelogram, not of a {group.rig.kind}")
     return mechanism
@@ -237,7 +237,7 @@ def _unloaded_gauges(state: Equilibrium, series: Sequence[Where]) -> dict[Where,
     return out
 
 
-def _zeroed(cases: Program) -> np.ndarray:
+def _zeroed(cases: LoadCases) -> np.ndarray:
     """(R,) row at which the sensors of a row were zeroed, -1 for the unloaded state."""
     out = np.full(len(cases.test), -1)
     for k, test in enumerate(cases.campaign.tests):
@@ -246,7 +246,7 @@ def _zeroed(cases: Program) -> np.ndarray:
     return out
 
 
-def _reference(readings: Array, unloaded: Array, cases: Program, zeroed: np.ndarray) -> Array:
+def _reference(readings: Array, unloaded: Array, cases: LoadCases, zeroed: np.ndarray) -> Array:
     """Influences (R, C, K) on the readings at which sensors were zeroed: of all that were not prescribed in a first
     row, else those in the unloaded state."""
     out = unloaded.copy()
@@ -259,7 +259,7 @@ def _reference(readings: Array, unloaded: Array, cases: Program, zeroed: np.ndar
 
 def _of_columns(found: Fit, flat: Callable[[Array], Array], roots: Array) -> Iterator[Element]:
     """Errors of readings over what is predicted of them. roots: (R, 7, 7) of `input_roots`."""
-    cases, there = found.residual.program, found.prediction
+    cases, there = found.residual.load_cases, found.prediction
     names, zeroed = channel_columns(cases.campaign.gauges), _zeroed(cases)
     for channel, name in enumerate(names):
         readings = np.zeros(cases.measured.shape)

@@ -9,7 +9,7 @@ the prior; with z the weights in their standard deviations and F = sum of S_j ha
 
     E = b^T (1 + s² M)^-1 b s² / 2 - ln det(1 + s² M) / 2,    M = L^T F^T W² F L,    b = L^T F^T W² e,
 
-W that eliminates G (`pipeline.inference.marginal`).
+W that eliminates G (`pipeline.inference.eliminated`).
 """
 
 from __future__ import annotations
@@ -22,9 +22,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pipeline.discover.bases import Prior, priors
-from pipeline.inference.marginal import Marginal
+from pipeline.inference.eliminated import Marginal
+from pipeline.inference.orthonormal_basis import basis
 from pipeline.inference.residual import Residual
-from pipeline.inference.span import basis
 
 Array = NDArray[np.float64]
 SIZES = np.logspace(-1.0, 5.0, 19)
@@ -78,8 +78,8 @@ class Rest:
         return cls(
             left.without_zeros(left.as_written),
             rows,
-            left.program.test[rows],
-            left.program.first,
+            left.load_cases.test[rows],
+            left.load_cases.first,
             left.without_zeros(left.nominal),
             left.zeros,
         )

@@ -9,7 +9,6 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from pipeline.adequacy.correlated import correlated, decorrelating
 from pipeline.discover import criteria
 from pipeline.discover.bases import basis_of, unloaded
 from pipeline.discover.bodies import Body, bodies, weighed
@@ -17,6 +16,7 @@ from pipeline.discover.elements import Element, elements
 from pipeline.discover.evidence import Columns, Evidence, Rest
 from pipeline.discover.sites import Site, sites
 from pipeline.inference.fit import Fit
+from pipeline.selection.adequacy.correlated import correlated, decorrelating
 from pipeline.selection.criteria import CRITERIA
 from vjm.effects.base import Effect
 

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from pipeline.answer import ModelError, SetAside
-from pipeline.law_record import LawFound
+from pipeline.answer.law import LawFound
+from pipeline.answer.record import ModelError, SetAside
 from pipeline.record import Record
 
 

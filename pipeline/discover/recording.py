@@ -5,8 +5,10 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from pipeline.add.summary import error_of
-from pipeline.answer import ModelError, SetAside
+from pipeline.answer.law import Curve, Grouped, LawFound, Tie
+from pipeline.answer.record import ModelError, SetAside
+from pipeline.answer.summary import error_of
+from pipeline.answer.value import Value
 from pipeline.attempt import Attempts
 from pipeline.discover import criteria
 from pipeline.discover.record import Discovered, Entered
@@ -15,12 +17,10 @@ from pipeline.discover.shape import band, described
 from pipeline.discover.sites import Site
 from pipeline.discover.through import Through
 from pipeline.inference.fit import Fit, unfitted
+from pipeline.inference.load_cases import LoadCases
 from pipeline.inference.model import Model
-from pipeline.inference.program import Program
-from pipeline.law_record import Curve, Grouped, LawFound, Tie
 from pipeline.parameter_names import path_of
 from pipeline.provenance import commit, versions
-from pipeline.value import Value
 from vjm.law_sites import SITE_KINDS, SiteKind
 
 Array = NDArray[np.float64]
@@ -30,8 +30,8 @@ SEEN = 0.05
 ENDS = {"base": "at the base", "tip": "at the tip", "1": "of bar 1", "2": "of bar 2"}
 
 
-def recorded(found: Discovery, whole: Program, seconds: float) -> Discovered:
-    """whole: the program of the campaign with its held-out tests."""
+def recorded(found: Discovery, whole: LoadCases, seconds: float) -> Discovered:
+    """whole: the load cases of the campaign with its held-out tests."""
     attempts = Attempts()
     errors = [_error(found.given, whole)]
     errors += [_error(found.begin, whole)] if found.bent else []
@@ -63,7 +63,7 @@ def recorded(found: Discovery, whole: Program, seconds: float) -> Discovered:
     )
 
 
-def _error(fitted: Fit, whole: Program) -> ModelError:
+def _error(fitted: Fit, whole: LoadCases) -> ModelError:
     """What a model leaves of the fitted tests and of those that were held out."""
     return error_of(unfitted(fitted.model, whole), whole, len(fitted.model.free))
 

@@ -6,13 +6,13 @@ nature (`pipeline.discover.bodies`) and explains as much enters the model as wha
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
-from pipeline.adequacy.bad_readings import BadReading
+from pipeline.callbacks import OnProgress
 from pipeline.discover import criteria
 from pipeline.discover.bodies import Body, started
 from pipeline.discover.elements import elements
@@ -23,12 +23,12 @@ from pipeline.discover.settling import Beside, beside
 from pipeline.discover.sites import Site
 from pipeline.discover.through import Through, through
 from pipeline.inference.fit import Fit, fit, unfitted
+from pipeline.inference.load_cases import LoadCases, load_cases
 from pipeline.inference.model import Model
-from pipeline.inference.program import Program, program
+from pipeline.selection.adequacy.bad_readings import BadReading
 from vjm.effects.base import Effect
 
 Array = NDArray[np.float64]
-Say = Callable[[str], None]
 GEOMETRY = "bar_geometric_nonlinearity"
 FASTER = {"bounded": 0, "linear": 0, "power": 1, "exponential": 2}
 """Times that a form is to be better by what is preferred, by how it grows beyond the loads."""
@@ -103,35 +103,35 @@ class Discovery:
         return tuple(step for step in self.steps if isinstance(step, Law))
 
 
-def fitted_to(model: Model, cases: Program) -> Fit:
-    """A model fitted to the readings of a program; as it is where it has no numbers."""
+def fitted_to(model: Model, cases: LoadCases) -> Fit:
+    """A model fitted to the readings of load cases; as it is where it has no numbers."""
     return fit(model, cases) if model.free else unfitted(model, cases)
 
 
 def discover(
-    cases: Program, model: Model, effects: Mapping[str, Effect], say: Say = lambda _: None
+    cases: LoadCases, model: Model, effects: Mapping[str, Effect], on_progress: OnProgress = lambda _: None
 ) -> Discovery:
-    """Of a program whose tests may all be fitted. effects: those that the rig can have.
+    """Of load cases that may all be fitted. effects: those that the rig can have.
 
     ValueError for a rig without sites.
     """
-    say("the model as it is")
+    on_progress("the model as it is")
     given, begin = _begin(cases, model, effects)
     here, steps, bad = begin, list[Law | Added](), list[BadReading]()
     rounds = 0
     while True:
-        say("where the rest sits")
+        on_progress("where the rest sits")
         seen = mapped(here, effects, known=[step.group[0] for step in steps if isinstance(step, Law)])
         new = beside(seen) if rounds < criteria.SETTLED else Beside()
         settled = new.applied(cases.campaign)
         if settled is not None:
-            say("with the readings as they are")
+            on_progress("with the readings as they are")
             rounds, bad = rounds + 1, [*bad, *new.bad]
-            cases = program(settled)
+            cases = load_cases(settled)
             given, begin = (fitted_to(each.model, cases) for each in (given, begin))
             here = begin if not steps else fitted_to(here.model, cases)
             continue
-        step = _step(seen, cases, len(steps) + 1, say)
+        step = _step(seen, cases, len(steps) + 1, on_progress)
         if step is None or len(steps) >= criteria.LAWS:
             return Discovery(given, begin, tuple(steps), here, seen, step is None, tuple(bad))
         steps.append(step)
@@ -143,7 +143,7 @@ def discover(
             return Discovery(given, begin, tuple(steps), here, seen, False, tuple(bad))
 
 
-def _begin(cases: Program, model: Model, effects: Mapping[str, Effect]) -> tuple[Fit, Fit]:
+def _begin(cases: LoadCases, model: Model, effects: Mapping[str, Effect]) -> tuple[Fit, Fit]:
     """The model, and that or the one with the geometric nonlinearity of its bars where that leaves less."""
     plain = fitted_to(model, cases)
     if GEOMETRY not in effects:
@@ -153,7 +153,7 @@ def _begin(cases: Program, model: Model, effects: Mapping[str, Effect]) -> tuple
     return plain, min(plain, bent, key=lambda it: it.order)
 
 
-def _step(seen: Map, cases: Program, number: int, say: Say) -> Law | Added | None:
+def _step(seen: Map, cases: LoadCases, number: int, on_progress: OnProgress) -> Law | Added | None:
     """What is proposed next; None where nothing is."""
     body = seen.body
     if body is not None and body.value >= seen.best - criteria.ALIKE:
@@ -169,14 +169,14 @@ def _step(seen: Map, cases: Program, number: int, say: Say) -> Law | Added | Non
         return None
     if _is_column(group[0]):
         return Law(seen, group, gains, ())
-    say(f"the law at {group[0].site.name}")
+    on_progress(f"the law at {group[0].site.name}")
     for it in group:
         if _is_column(it):
             break
         first = formed(it.site, seen.rest, it.evidence.site.largest)
         if any(form.left < _unexplained(seen) for form in first):
             others = tuple(other for other in group if other is not it)
-            return Law(seen, (it, *others), gains, _ways(seen, first, cases, f"law{number}", say))
+            return Law(seen, (it, *others), gains, _ways(seen, first, cases, f"law{number}", on_progress))
     # A free function may fall with the load that a place bears, as no compliance does: that is no law.
     return None
 
@@ -225,13 +225,15 @@ def _unexplained(seen: Map) -> float:
     return seen.found.chi_square - criteria.PROPOSED
 
 
-def _ways(seen: Map, first: list[Formed], cases: Program, name: str, say: Say) -> tuple[Through, ...]:
+def _ways(
+    seen: Map, first: list[Formed], cases: LoadCases, name: str, on_progress: OnProgress
+) -> tuple[Through, ...]:
     """Forms through the mechanism: the best that explains anything there of those where influences are known, then all
     near ones about where that stands."""
     base, before = seen.found.model, _unexplained(seen)
     done: dict[str, Through] = {}
     for each in first[: criteria.FORMS]:
-        say(f"{each.form.title} through the mechanism")
+        on_progress(f"{each.form.title} through the mechanism")
         done[each.form.name] = through(each, base, cases, name)
         if done[each.form.name].cost < before:
             break
@@ -240,7 +242,7 @@ def _ways(seen: Map, first: list[Formed], cases: Program, name: str, say: Say) -
     about = list(done.values())[-1]
     for other in _about(about, seen.rest)[: criteria.FORMS]:
         if other.form.name not in done:
-            say(f"{other.form.title} through the mechanism")
+            on_progress(f"{other.form.title} through the mechanism")
             done[other.form.name] = through(other, base, cases, name)
     ordered = sorted((way for way in done.values() if way.cost < before), key=lambda way: way.cost)
     if not ordered:

@@ -5,11 +5,11 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from pipeline.adequacy.bad_readings import BadReading, bad_readings, set_aside
-from pipeline.adequacy.correlated import series_of, without_order
-from pipeline.adequacy.tails import tails_of, without_tails
 from pipeline.campaign import Campaign
 from pipeline.discover.locating import Map, without_best
+from pipeline.selection.adequacy.bad_readings import BadReading, bad_readings, set_aside
+from pipeline.selection.adequacy.correlated import series_of, without_order
+from pipeline.selection.adequacy.tails import tails_of, without_tails
 from pipeline.selection.criteria import CRITERIA
 
 

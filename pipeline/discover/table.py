@@ -9,10 +9,10 @@ from rich.markup import escape
 from rich.table import Table
 from rich.text import Text
 
-from pipeline.add.table import NAME
+from pipeline.answer.law import LawFound
+from pipeline.answer.tables.added import NAME
 from pipeline.discover.record import Discovered
 from pipeline.discover.search import GEOMETRY
-from pipeline.law_record import LawFound
 from pipeline.terminal import cell, lean, one_line, terminal
 from reports.quantities import short, sigma
 

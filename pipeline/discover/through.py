@@ -9,8 +9,8 @@ from numpy.typing import NDArray
 
 from pipeline.discover.forming import Formed
 from pipeline.inference.fit import Fit, fit
+from pipeline.inference.load_cases import LoadCases
 from pipeline.inference.model import Model, Term
-from pipeline.inference.program import Program
 from pipeline.inference.solvers import Effort
 from vjm.site_law import SiteLaw, parameters_of
 
@@ -83,7 +83,7 @@ def with_law(model: Model, law: SiteLaw, it: Formed) -> Model:
     return replace(model, terms=(*model.terms, Term(law, values)))
 
 
-def through(it: Formed, model: Model, cases: Program, name: str) -> Through:
+def through(it: Formed, model: Model, cases: LoadCases, name: str) -> Through:
     """A form fitted through the mechanism beside the effects of a model."""
     law = law_of(it, name)
     # A fit that does not come near what the form leaves where influences are known decides nothing.

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from pipeline.answer.law import LawFound
 from pipeline.discover import criteria
 from pipeline.discover.record import Discovered
-from pipeline.law_record import LawFound
 from reports.quantities import estimate, phrase, short, sigma
 
 MANY = 4

@@ -9,10 +9,10 @@ from numpy.typing import NDArray
 
 from pipeline.campaign.names import COORDINATES
 from pipeline.compare.error import Discrepancy
+from pipeline.compare.misfit import direction
 from pipeline.inference.driving import driving
+from pipeline.inference.load_cases import LoadCases
 from pipeline.inference.predicted import Prediction
-from pipeline.inference.program import Program
-from pipeline.misfit import direction
 
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
@@ -31,7 +31,7 @@ NAMES = (
 """Of the columns of regressors."""
 
 
-def regressors(cases: Program) -> tuple[Array, Array]:
+def regressors(cases: LoadCases) -> tuple[Array, Array]:
     """(R, 21) of every row, and the range (21,) above which a column says more than noise.
 
     Angle, prescribed displacements (6) and forces (6), zero where the other is prescribed, temperature, direction of
@@ -80,7 +80,7 @@ def scaling(table: Array, noise: Array) -> Scaling:
     return Scaling(columns, table[:, columns].mean(axis=0), table[:, columns].std(axis=0))
 
 
-def samples(cases: Program, base: Prediction) -> dict[int, tuple[Samples, Scaling]]:
+def samples(cases: LoadCases, base: Prediction) -> dict[int, tuple[Samples, Scaling]]:
     """What a base model leaves of a campaign, by channel; rows without a prediction are left out.
 
     Whitened: what the noise of an input does to several channels at once is taken apart, channel after channel, so

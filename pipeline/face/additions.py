@@ -12,10 +12,9 @@ from rich.console import RenderableType
 from pipeline.add.fitting import Added
 from pipeline.add.fitting import add as fit_with
 from pipeline.add.fitting import remove as fit_without
-from pipeline.add.headline import headline
-from pipeline.add.table import error_table, parameter_table
-from pipeline.answer import Answer
-from pipeline.diagnose.diagnosis import diagnose as search
+from pipeline.answer.record import Answer
+from pipeline.answer.tables.added import error_table, parameter_table
+from pipeline.answer.tables.headline import headline
 from pipeline.errors import InputError
 from pipeline.face.about import AboutBench, Given, effects_of, subject_of
 from pipeline.face.comparisons import Comparison, compare
@@ -29,6 +28,7 @@ from pipeline.inference.model import Model
 from pipeline.inference.model_file import NAME, ModelFile, Uncertainty, write_model
 from pipeline.parameter_names import parted
 from pipeline.provenance import commit, versions
+from pipeline.selection.diagnosis import diagnose as search
 from vjm.effects import shipped
 from vjm.effects.base import Effect
 

@@ -8,13 +8,12 @@ from typing import TYPE_CHECKING
 
 from rich.console import RenderableType
 
-from pipeline.add.headline import headline
-from pipeline.add.table import parameter_table
-from pipeline.answer import Answer
-from pipeline.diagnose.diagnosis import Diagnosis as Found
-from pipeline.diagnose.diagnosis import diagnose as search
-from pipeline.diagnose.table import candidate_table, waterfall
-from pipeline.diagnose.words import answered
+from pipeline.answer.law import LawFound
+from pipeline.answer.record import Answer
+from pipeline.answer.tables.added import parameter_table
+from pipeline.answer.tables.diagnosis import candidate_table, waterfall
+from pipeline.answer.tables.headline import headline
+from pipeline.answer.wording.diagnosis import answered
 from pipeline.discover.beyond_catalogue import with_laws
 from pipeline.discover.table import law_table
 from pipeline.discover.words import said_of
@@ -23,8 +22,9 @@ from pipeline.face.about import AboutBench, Given, subject_of
 from pipeline.face.plans import Plan, plan
 from pipeline.face.predictions import At, Prediction, predict
 from pipeline.inference.model import Model
-from pipeline.law_record import LawFound
 from pipeline.parameter_names import path_of
+from pipeline.selection.diagnosis import Diagnosis as Found
+from pipeline.selection.diagnosis import diagnose as search
 from reports.quantities import estimate, phrase
 
 if TYPE_CHECKING:
@@ -227,4 +227,4 @@ def diagnose(bench: Given) -> Diagnosis:
 def _models(found: Found) -> Iterator[Model]:
     """The fitted model of each possible set; of the first without numbers that nothing determines."""
     for k, names in enumerate(found.possible):
-        yield found.model if k == 0 else found.shelf.fit(frozenset(names)).model
+        yield found.model if k == 0 else found.cache.fit(frozenset(names)).model

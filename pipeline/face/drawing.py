@@ -6,10 +6,10 @@ from collections.abc import Mapping
 
 from pipeline.compare.error import Discrepancy
 from pipeline.face.subject import Subject
+from pipeline.inference.estimated_sigmas import completed
 from pipeline.inference.fit import unfitted
+from pipeline.inference.load_cases import load_cases
 from pipeline.inference.model import Model
-from pipeline.inference.program import program
-from pipeline.inference.sigmas import completed
 from pipeline.page.curves import tests_of
 from pipeline.page.record import Curve, TestPage
 from reports.first_screen.figures import Line, Measured
@@ -21,7 +21,7 @@ MOST = 3
 def worst_curve(subject: Subject, models: Mapping[str, Model]) -> Measured | None:
     """The channel of a test that the first of these models misses most in its sigmas, measured and by every model;
     None where nothing is compared. Units are those of the columns: mm, rad, N, N·mm."""
-    cases = program(completed(subject.campaign))
+    cases = load_cases(completed(subject.campaign))
     gaps = {name: Discrepancy(cases, unfitted(it, cases).prediction) for name, it in models.items()}
     first, *others = list(gaps)[: MOST + 1]
     pages = {name: tests_of(gaps[first], gaps[name]) for name in others or [first]}

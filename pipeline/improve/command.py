@@ -8,11 +8,10 @@ from pathlib import Path
 from rich.live import Live
 
 from pipeline.add.command import starting_model
-from pipeline.answer import Answer
+from pipeline.answer.record import Answer
+from pipeline.answer.wording.diagnosis import answered
 from pipeline.campaign import Campaign, read
 from pipeline.command import usable
-from pipeline.diagnose.diagnosis import Diagnosis, diagnose
-from pipeline.diagnose.words import answered
 from pipeline.discover.beyond_catalogue import with_laws
 from pipeline.improve.steps import Step, steps
 from pipeline.improve.table import closing, following, waterfall
@@ -21,6 +20,7 @@ from pipeline.inference.model_file import NAME, ModelFile, Uncertainty, write_mo
 from pipeline.inference.suitable import Known, known_effects
 from pipeline.progress import Progress
 from pipeline.provenance import commit, versions
+from pipeline.selection.diagnosis import Diagnosis, diagnose
 from pipeline.terminal import terminal
 
 
@@ -50,7 +50,7 @@ def improve_campaign(
     progress = Progress(quiet)
     with progress.stage("looking for what is missing") as stage:
         found = with_laws(diagnose(campaign, began, known.effects, stage.say), stage.say)
-        stage.note = f"{len(found.shelf.fits)} models fitted"
+        stage.note = f"{len(found.cache.fits)} models fitted"
     done = _watched(found, quiet)
     last = done[-1].fit
     answer = improved(found, began, done).model_copy(update={"seed": seed})

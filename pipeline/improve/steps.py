@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from pipeline.add.summary import error_of
-from pipeline.answer import ModelError
-from pipeline.diagnose.diagnosis import Diagnosis
-from pipeline.diagnose.shelf import Names
+from pipeline.answer.record import ModelError
+from pipeline.answer.summary import error_of
 from pipeline.inference.fit import Fit
+from pipeline.selection.diagnosis import Diagnosis
+from pipeline.selection.fit_cache import Names
 
 
 @dataclass(frozen=True, eq=False)
@@ -30,24 +30,24 @@ def certain(it: Diagnosis) -> Names:
 
 def steps(it: Diagnosis) -> Iterator[Step]:
     """The model as it was, then with one certain effect more at a time."""
-    shelf, goal = it.shelf, certain(it)
+    cache, goal = it.cache, certain(it)
     here: Names = frozenset()
     yield _step(it, "", here)
     while here != goal:
         ahead = [here | {name} for name in goal - here if _possible(it, name, here)]
-        best = min(ahead or [goal], key=lambda names: shelf.fit(names).chi_square)
-        yield _step(it, " + ".join(shelf.order(best - here)), best)
+        best = min(ahead or [goal], key=lambda names: cache.fit(names).chi_square)
+        yield _step(it, " + ".join(cache.order(best - here)), best)
         here = best
 
 
 def _possible(it: Diagnosis, name: str, here: Names) -> bool:
     """Whether an effect may be added now: what it cannot be without is there."""
-    needed = set(it.shelf.candidates[name].includes)
-    return needed <= here | set(it.shelf.base.names)
+    needed = set(it.cache.candidates[name].includes)
+    return needed <= here | set(it.cache.base.names)
 
 
 def _step(it: Diagnosis, added: str, names: Names) -> Step:
     # Of what was identified, numbers that nothing determines are no part.
-    settled = it.verdict == "identified" and names == it.ruling.sets[0]
-    found = it.fit if settled else it.shelf.fit(names)
-    return Step(added, found, error_of(found, it.shelf.whole, len(found.model.free)))
+    settled = it.verdict == "identified" and names == it.decision.sets[0]
+    found = it.fit if settled else it.cache.fit(names)
+    return Step(added, found, error_of(found, it.cache.whole, len(found.model.free)))

@@ -9,12 +9,12 @@ from rich.markup import escape
 from rich.table import Table
 from rich.text import Text
 
-from pipeline.add.headline import headline
-from pipeline.add.table import BAR, bar, parameter_table, scale
-from pipeline.answer import Answer, Verdict
-from pipeline.diagnose.diagnosis import Diagnosis
-from pipeline.diagnose.table import STEP
+from pipeline.answer.record import Answer, Verdict
+from pipeline.answer.tables.added import BAR, bar, parameter_table, scale
+from pipeline.answer.tables.diagnosis import STEP
+from pipeline.answer.tables.headline import headline
 from pipeline.improve.steps import Step
+from pipeline.selection.diagnosis import Diagnosis
 from pipeline.terminal import cell, lean, terminal
 from pipeline.typed import command
 from reports.quantities import sigma

@@ -22,13 +22,13 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.stats import chi2
 
+from pipeline.inference.load_cases import LoadCases
 from pipeline.inference.model import Model
-from pipeline.inference.parts import ARRAYS, states_at, states_with
 from pipeline.inference.predicted import Prediction
 from pipeline.inference.prediction import predict
-from pipeline.inference.program import Program
 from pipeline.inference.residual import Residual, residual
 from pipeline.inference.stops import Bounds, sided
+from pipeline.inference.subsets import ARRAYS, states_at, states_with
 from vjm.mechanism import initial_memory
 
 Array = NDArray[np.float64]
@@ -45,7 +45,7 @@ WORTH = 1e-3
 """Of chi-square: a row that a stop charges with less stays."""
 
 
-def on_best_sides(model: Model, cases: Program, start: Prediction | None = None) -> Prediction:
+def on_best_sides(model: Model, cases: LoadCases, start: Prediction | None = None) -> Prediction:
     """Readings of a model with kinks, each row on the side of its stops that leaves the least chi-square; without
     derivatives by the free parameters.
 
@@ -63,7 +63,7 @@ def on_best_sides(model: Model, cases: Program, start: Prediction | None = None)
     return predict(model, cases, slopes=False, start=here, shift=here.shift) if held else here
 
 
-def _crossed(model: Model, cases: Program, here: Prediction) -> Prediction:
+def _crossed(model: Model, cases: LoadCases, here: Prediction) -> Prediction:
     """Rows that a stop charges on its other side where that is better, from there on too."""
     new = np.ones(len(cases.test), dtype=bool)
     for _ in range(CROSSINGS):
@@ -77,7 +77,7 @@ def _crossed(model: Model, cases: Program, here: Prediction) -> Prediction:
     return here
 
 
-def _misplaced(cases: Program, here: Prediction) -> Iterator[tuple[Mask, Array]]:
+def _misplaced(cases: LoadCases, here: Prediction) -> Iterator[tuple[Mask, Array]]:
     """For each stop rows (R,) that fit badly and are near it, and the inputs (R, 7) just beyond it; none where half of
     all rows fit badly: there the model is wrong, not a side missed."""
     bounds, sigma = Bounds.of(here, cases.input_sigma), cases.input_sigma
@@ -88,7 +88,7 @@ def _misplaced(cases: Program, here: Prediction) -> Iterator[tuple[Mask, Array]]
             yield bad & (far < WITHIN), here.shift + sigma * way
 
 
-def _reached(model: Model, cases: Program, start: Prediction | None, held: bool) -> Prediction:
+def _reached(model: Model, cases: LoadCases, start: Prediction | None, held: bool) -> Prediction:
     """At the measured inputs or, where that is better, where the platform was: there with the forces that take it."""
     swapped = cases.by_displacement
     if swapped is None:
@@ -102,7 +102,7 @@ def _reached(model: Model, cases: Program, start: Prediction | None, held: bool)
 
 def _better(
     model: Model,
-    cases: Program,
+    cases: LoadCases,
     here: Prediction,
     rows: NDArray[np.int64],
     shift: Array,
@@ -125,7 +125,7 @@ def kinked(model: Model) -> bool:
     return any(sided(term.effect) for term in model.terms)
 
 
-def begun(model: Model, cases: Program, start: Prediction | None) -> Array | None:
+def begun(model: Model, cases: LoadCases, start: Prediction | None) -> Array | None:
     """Shift (R, 7) at which a fit from a start is first linearised: that of the start, none where laws begin to
     remember. There the inputs of the start have taken up what the laws will explain, such as a loop, each a little, and
     what is remembered follows them: the fit would end near them.
@@ -155,7 +155,7 @@ def _elsewhere(one: Prediction, other: Prediction) -> Mask:
     return np.asarray(np.any(np.sign(one.stops[..., 0]) != np.sign(other.stops[..., 0]), axis=1))
 
 
-def _whole(cases: Program, chosen: Mask) -> NDArray[np.int64]:
+def _whole(cases: LoadCases, chosen: Mask) -> NDArray[np.int64]:
     """Numbers of the chosen rows; of a test that was zeroed at its first row all, or none."""
     chosen = chosen.copy()
     for number, test in enumerate(cases.campaign.tests):
@@ -165,7 +165,7 @@ def _whole(cases: Program, chosen: Mask) -> NDArray[np.int64]:
     return np.flatnonzero(chosen)
 
 
-def _shift_to(reached: Prediction, swapped: Program, cases: Program) -> Array:
+def _shift_to(reached: Prediction, swapped: LoadCases, cases: LoadCases) -> Array:
     """(R, 7) from the measured inputs to those at which the measured displacements are reached."""
     read = np.take_along_axis(reached.values, cases.channels, axis=1)
     given = np.take_along_axis(cases.measured, cases.channels, axis=1)

@@ -14,7 +14,7 @@ TYPICAL = {"mm": 1e-3, "rad": 2e-5, "N": 1.0, "Nmm": 50.0}
 
 
 def column_name(channel: int, gauges: tuple[Gauge, ...]) -> str:
-    """Channel of a `Program` as in campaign.toml: a coordinate, a force or a gauge, without its unit."""
+    """Channel of a `LoadCases` as in campaign.toml: a coordinate, a force or a gauge, without its unit."""
     names = [name.rpartition("_")[0] for name in (*DISPLACEMENTS, *WRENCHES)]
     return [*names, *(gauge.name for gauge in gauges)][channel]
 

@@ -10,15 +10,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pipeline.inference.levenberg_marquardt import levenberg_marquardt
-from pipeline.inference.lines import along_a_line, with_line
+from pipeline.inference.load_cases import LoadCases
 from pipeline.inference.model import Model
-from pipeline.inference.nominals import lined, nominals
+from pipeline.inference.nuisance_line import along_a_line, with_line
+from pipeline.inference.nuisances import lined, nominals
 from pipeline.inference.objective import Objective
-from pipeline.inference.parts import at_rows, joined
 from pipeline.inference.predicted import Prediction
-from pipeline.inference.program import Program
 from pipeline.inference.residual import Residual, residual
 from pipeline.inference.solvers import ALL, Effort, End, Solver, Watch, far
+from pipeline.inference.subsets import at_rows, joined
 
 Array = NDArray[np.float64]
 LOG = logging.getLogger(__name__)
@@ -60,13 +60,13 @@ class Fit:
         """Residuals less fitted numbers and unknown zeros."""
         zeros = self.residual.zeros.shape[1]
         # Rows that a model loses have no column of their zero, but it is still there to be spent.
-        zeros = max(zeros, self.residual.program.unknown_zeros)
+        zeros = max(zeros, self.residual.load_cases.unknown_zeros)
         return int(self.whitened.size - zeros - len(self.model.free))
 
     @cached_property
     def lost(self) -> int:
         """Rows of the fitted tests without a prediction."""
-        return int(np.sum(self.prediction.lost & self.residual.program.fitted))
+        return int(np.sum(self.prediction.lost & self.residual.load_cases.fitted))
 
     @property
     def order(self) -> tuple[int, float]:
@@ -120,7 +120,7 @@ class Fit:
 
 def fit(
     model: Model,
-    program: Program,
+    load_cases: LoadCases,
     start: Prediction | None = None,
     watch: Watch | None = None,
     plausible: float = np.inf,
@@ -134,27 +134,27 @@ def fit(
     `pipeline.inference.solvers`. What was written about the rig is eliminated along the line of the start; without one
     along the fit's own.
     """
-    known = (start is not None and start.nominal.size > 0) or not nominals(program.campaign)
-    begin = start if known else lined(model, program, start)
-    found = _fit(model, program, begin, watch, plausible, effort, solver)
+    known = (start is not None and start.nominal.size > 0) or not nominals(load_cases.campaign)
+    begin = start if known else lined(model, load_cases, start)
+    found = _fit(model, load_cases, begin, watch, plausible, effort, solver)
     if known or far(found.chi_square, found.whitened.size):
         # No verdict hangs on the error bars of a model that is far off.
         return found
-    own = with_own_line(found, program, plausible, solver)
+    own = with_own_line(found, load_cases, plausible, solver)
     return replace(own, evaluations=own.evaluations + 2)
 
 
 def _fit(
     model: Model,
-    program: Program,
+    load_cases: LoadCases,
     start: Prediction | None,
     watch: Watch | None,
     plausible: float,
     effort: Effort,
     solver: Solver,
 ) -> Fit:
-    (rows, own), *others = program.by_role
-    begin = start if start is None or not others else at_rows(start, program, own, rows)
+    (rows, own), *others = load_cases.by_role
+    begin = start if start is None or not others else at_rows(start, load_cases, own, rows)
 
     def solve(aim: Objective, begin: Prediction | None) -> End:
         if aim.model.free:
@@ -172,23 +172,23 @@ def _fit(
         return Fit(model.at(values), there.prediction, there.residual, end.evaluations, end.ended)
     pieces = [(rows, own, there.prediction)]
     for rest, apart in others:
-        near = None if start is None else at_rows(start, program, apart, rest)
+        near = None if start is None else at_rows(start, load_cases, apart, rest)
         # Tests that are held out say nothing of what was written: it is where the others leave it.
         found = Objective(model, apart).at(values, near).with_slopes.prediction
         pieces.append((rest, apart, with_line(model.at(values), found, near, apart)))
-    whole = joined(program, pieces)
-    return Fit(model.at(values), whole, residual(program, whole), end.evaluations, end.ended)
+    whole = joined(load_cases, pieces)
+    return Fit(model.at(values), whole, residual(load_cases, whole), end.evaluations, end.ended)
 
 
 def with_own_line(
-    found: Fit, program: Program, plausible: float = np.inf, solver: Solver = levenberg_marquardt
+    found: Fit, load_cases: LoadCases, plausible: float = np.inf, solver: Solver = levenberg_marquardt
 ) -> Fit:
     """A fit along its own line, from where it is; the same where all is exact."""
     if not found.prediction.nominal.size or found.own_line:
         return found
-    line = lined(found.model, program, found.prediction)
+    line = lined(found.model, load_cases, found.prediction)
     start = replace(found.prediction, by_nominal=line.by_nominal)
-    new = _fit(found.model, program, start, None, plausible, ALL, solver)
+    new = _fit(found.model, load_cases, start, None, plausible, ALL, solver)
     count, ended = found.evaluations + new.evaluations + 2, found.ended or new.ended
     return replace(new, evaluations=count, ended=ended, own_line=True)
 
@@ -203,7 +203,7 @@ def at_null(model: Model, smaller: Fit) -> Fit:
     return Fit(absent, smaller.prediction, smaller.residual, 0)
 
 
-def unfitted(model: Model, cases: Program, start: Prediction | None = None) -> Fit:
+def unfitted(model: Model, cases: LoadCases, start: Prediction | None = None) -> Fit:
     """A model as it is: nothing is fitted but the inputs, which were measured as well, and what was written about the
     rig. start: a prediction of a like model."""
     fixed = replace(model, fixed=frozenset(each.name for each in model.free) | model.fixed)

@@ -12,13 +12,13 @@ from fem.frame import bench
 from fem.frame.errors import Errors
 from fem.frame.history import AFTER_FAILURE
 from fem.frame.newton import REASONS, SINGULAR
+from pipeline.assessment.virtual import loaded_at
+from pipeline.assessment.virtual.bench import frame_rig
 from pipeline.campaign import ManipulatorRig, Rig, RigOfBars
 from pipeline.campaign.names import DISPLACEMENT, SUPPORT
+from pipeline.inference.load_cases import INPUTS, Group, LoadCases
 from pipeline.inference.predicted import Prediction, moved_along, no_slides, no_stops, zeroed
-from pipeline.inference.program import INPUTS, Group, Program
 from pipeline.manipulator.frame import frame_stiffness
-from pipeline.virtual import loaded_at
-from pipeline.virtual.bench import frame_rig
 from vjm.reasons import Reason
 
 Array = NDArray[np.float64]
@@ -27,7 +27,7 @@ _SAID = {AFTER_FAILURE: Reason.ENDED, REASONS[SINGULAR]: Reason.NOT_HELD}
 
 
 def predict_frame(
-    program: Program, tangent: Callable[[], Prediction], shift: Array | None = None
+    load_cases: LoadCases, tangent: Callable[[], Prediction], shift: Array | None = None
 ) -> Prediction:
     """Readings of geometrically exact frame elements without any error of the bench.
 
@@ -35,19 +35,23 @@ def predict_frame(
     added to the measured inputs. ValueError for a rig that the frame refuses. `states` is empty. Of a whole manipulator
     the frame is linear, at rest.
     """
-    moved = np.zeros((len(program.test), INPUTS)) if shift is None else shift
-    return zeroed(by_elements(program.campaign.rig, program, tangent, moved), program)
+    moved = np.zeros((len(load_cases.test), INPUTS)) if shift is None else shift
+    return zeroed(by_elements(load_cases.campaign.rig, load_cases, tangent, moved), load_cases)
 
 
 @singledispatch
-def by_elements(rig: Rig, program: Program, tangent: Callable[[], Prediction], moved: Array) -> Prediction:
+def by_elements(
+    rig: Rig, load_cases: LoadCases, tangent: Callable[[], Prediction], moved: Array
+) -> Prediction:
     """Readings of finite elements of this kind of rig, zeros not yet taken out. ValueError where there are none."""
     raise ValueError(f"finite elements of a {rig.kind} are not to be had")
 
 
 @by_elements.register
-def _of_bars(rig: RigOfBars, program: Program, tangent: Callable[[], Prediction], moved: Array) -> Prediction:
-    campaign = program.campaign
+def _of_bars(
+    rig: RigOfBars, load_cases: LoadCases, tangent: Callable[[], Prediction], moved: Array
+) -> Prediction:
+    campaign = load_cases.campaign
     trials, rigs = [], []
     for number, test in enumerate(campaign.tests):
         assert isinstance(test.rig, RigOfBars)
@@ -55,7 +59,7 @@ def _of_bars(rig: RigOfBars, program: Program, tangent: Callable[[], Prediction]
             bench.Trial(
                 test.q,
                 tuple(DISPLACEMENT if by == SUPPORT else by for by in test.control),
-                test.inputs(campaign.gauges) + moved[program.test == number, :6],
+                test.inputs(campaign.gauges) + moved[load_cases.test == number, :6],
                 None,
                 frame_rig(test.rig),
             )
@@ -86,13 +90,13 @@ def _of_bars(rig: RigOfBars, program: Program, tangent: Callable[[], Prediction]
 
 @by_elements.register
 def _of_a_manipulator(
-    rig: ManipulatorRig, program: Program, tangent: Callable[[], Prediction], moved: Array
+    rig: ManipulatorRig, load_cases: LoadCases, tangent: Callable[[], Prediction], moved: Array
 ) -> Prediction:
     """F = K t at every posture, K of frame elements at rest and known weights in place, solved for the control."""
-    rows, channels = program.measured.shape
+    rows, channels = load_cases.measured.shape
     values, by_inputs = np.zeros((rows, channels)), np.zeros((rows, channels, INPUTS))
-    for group in program.groups:
-        place, real = program.rows_of(group), group.real
+    for group in load_cases.groups:
+        place, real = load_cases.rows_of(group), group.real
         predicted, own = _constant(group, _stiffness(group.rig))
         values[place] = predicted[real]
         by_inputs[place, :, :6] = np.broadcast_to(own[:, None], (*real.shape, channels, 6))[real]

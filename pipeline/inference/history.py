@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pipeline.campaign.rig import Solvable
-from pipeline.inference.program import Group
+from pipeline.inference.load_cases import Group
 from vjm.equilibrium import Equilibrium, equilibrium, nearby
 from vjm.mechanism import initial_memory
 from vjm.reasons import Reason

@@ -19,14 +19,14 @@ from numpy.typing import NDArray
 from scipy.stats import norm
 
 from pipeline.inference.fit import Fit
-from pipeline.inference.landscape import BLIND, CLOSE, NEARLY, RISE, STEPS, Landscape, Range
+from pipeline.inference.load_cases import LoadCases
 from pipeline.inference.model import Free
 from pipeline.inference.objective import Objective
-from pipeline.inference.parts import at_rows
 from pipeline.inference.predicted import Prediction
-from pipeline.inference.program import Program
+from pipeline.inference.profile_likelihood import BLIND, CLOSE, NEARLY, RISE, STEPS, ProfileLikelihood, Range
 from pipeline.inference.solvers import WORK, allowance
 from pipeline.inference.stops import sided
+from pipeline.inference.subsets import at_rows
 from pipeline.processors import at_once
 from vjm.work import at_most
 
@@ -66,16 +66,16 @@ class Interval:
         return self.std if end is None or end == self.value else abs(end - self.value) / Z
 
 
-def landscape(best: Fit, program: Program) -> Landscape:
+def profile_likelihood(best: Fit, load_cases: LoadCases) -> ProfileLikelihood:
     """The sum of squares about a best fit."""
     kinks = {term.effect.name for term in best.model.terms if sided(term.effect)}
     doubt = best.residual.doubt + best.residual.spread
     ranges = [_range(each, doubt if each.effect in kinks else 0.0) for each in best.model.free]
-    rows, own = program.by_role[0]
-    near = at_rows(best.prediction, program, own, rows)
+    rows, own = load_cases.by_role[0]
+    near = at_rows(best.prediction, load_cases, own, rows)
     if near.nominal.size:
         own = replace(own, by_nominal=near.by_nominal)
-    return Landscape(
+    return ProfileLikelihood(
         _Near(Objective(best.model, own), near),
         best.model.values,
         ranges,
@@ -106,13 +106,13 @@ class _Near:
         return found.residuals, found.jacobian
 
 
-def intervals(land: Landscape) -> tuple[Interval, ...]:
+def intervals(land: ProfileLikelihood) -> tuple[Interval, ...]:
     """The interval of every number. TooMuch where they take more work than `land.most`."""
     with at_most(land.most):
         return _intervals(land)
 
 
-def _intervals(land: Landscape) -> tuple[Interval, ...]:
+def _intervals(land: ProfileLikelihood) -> tuple[Interval, ...]:
     looks = _at_once(land, [partial(_looked, land, k) for k in range(land.values.size)])
     sides = [
         (k, *side) for k, look in enumerate(looks) if not isinstance(look, Interval) for side in look.items()
@@ -125,13 +125,13 @@ def _intervals(land: Landscape) -> tuple[Interval, ...]:
     )
 
 
-def straight(land: Landscape) -> tuple[Interval, ...]:
+def straight(land: ProfileLikelihood) -> tuple[Interval, ...]:
     """As if the sum of squares were a parabola: for a model that leaves more than noise, of which a rise by 3.841 says
     nothing that many solutions would be worth."""
     return tuple(_straight(land, k) for k in range(land.values.size))
 
 
-def _straight(land: Landscape, k: int) -> Interval:
+def _straight(land: ProfileLikelihood, k: int) -> Interval:
     value, span = float(land.values[k]), land.ranges[k]
     std = float(np.sqrt(land.ridge(k)[1]))
     low, high = (value + side * Z * std for side in (-1, 1))
@@ -146,20 +146,20 @@ def _straight(land: Landscape, k: int) -> Interval:
     )
 
 
-def _at_once(land: Landscape, calls: Sequence[Callable[[], Out]]) -> list[Out]:
-    """What calls that look at a landscape return; it counts what they took wherever they were made."""
+def _at_once(land: ProfileLikelihood, calls: Sequence[Callable[[], Out]]) -> list[Out]:
+    """What calls that look at a profile likelihood return; it counts what they took wherever they were made."""
     before = land.evaluations
     found = at_once([partial(_counted, land, call) for call in calls])
     land.evaluations = before + sum(count for _, count in found)
     return [each for each, _ in found]
 
 
-def _counted(land: Landscape, call: Callable[[], Out]) -> tuple[Out, int]:
+def _counted(land: ProfileLikelihood, call: Callable[[], Out]) -> tuple[Out, int]:
     before = land.evaluations
     return call(), land.evaluations - before
 
 
-def _looked(land: Landscape, k: int) -> Interval | dict[int, float]:
+def _looked(land: ProfileLikelihood, k: int) -> Interval | dict[int, float]:
     """The interval of a number where no end must be looked for; else the sides, -1 and 1, on which one must, and how
     far away it may be."""
     value, span = float(land.values[k]), land.ranges[k]
@@ -178,7 +178,7 @@ def _looked(land: Landscape, k: int) -> Interval | dict[int, float]:
     return {side: reach * _farther(rise) for side, rise in zip(sides, rises, strict=True)}
 
 
-def _distance(land: Landscape, k: int, side: int, variance: float) -> float:
+def _distance(land: ProfileLikelihood, k: int, side: int, variance: float) -> float:
     """At which a parabola has risen by 3.841, from a bound where that stops the number."""
     slope = 2.0 * side * float(land.jacobian[:, k] @ land.residuals) if land.active[k] else 0.0
     return float(0.5 * (np.hypot(slope * variance, 2.0 * np.sqrt(RISE * variance)) - slope * variance))
@@ -191,7 +191,7 @@ def _farther(rise: float) -> float:
     return 1.0 if times < 1.0 / FARTHER else min(times, FARTHER)
 
 
-def _profile(land: Landscape, k: int, ends: dict[int, float | None]) -> Interval:
+def _profile(land: ProfileLikelihood, k: int, ends: dict[int, float | None]) -> Interval:
     """ends: of the sides on which they were looked for."""
     span, std = land.ranges[k], float(np.sqrt(land.ridge(k)[1]))
     low, high = (ends.get(side, span.end(side)) for side in (-1, 1))
@@ -199,7 +199,7 @@ def _profile(land: Landscape, k: int, ends: dict[int, float | None]) -> Interval
     return Interval(float(land.values[k]), std, low, high, "undetermined" if open_ends else "profile")
 
 
-def _null_in_doubt(land: Landscape, k: int, side: int, way: Array) -> bool:
+def _null_in_doubt(land: ProfileLikelihood, k: int, side: int, way: Array) -> bool:
     """Whether the number has its null on that side, and what speaks against null may be choices of sides."""
     span = land.ranges[k]
     if not span.doubt or span.end(side) is None:
@@ -208,7 +208,7 @@ def _null_in_doubt(land: Landscape, k: int, side: int, way: Array) -> bool:
     return room <= 0.0 or land.rise(k, side * room, way, most)[0] < most
 
 
-def _end(land: Landscape, k: int, side: int, guess: float) -> float | None:
+def _end(land: ProfileLikelihood, k: int, side: int, guess: float) -> float | None:
     """The value at which the profile has risen by 3.841 on that side, looked for at first at a distance; what the
     interval says if the bound comes first."""
     value, span = float(land.values[k]), land.ranges[k]
@@ -216,7 +216,7 @@ def _end(land: Landscape, k: int, side: int, guess: float) -> float | None:
     return span.end(side) if shift is None else value + side * shift
 
 
-def _shift(land: Landscape, k: int, side: int, guess: float, room: float, way: Array) -> float | None:
+def _shift(land: ProfileLikelihood, k: int, side: int, guess: float, room: float, way: Array) -> float | None:
     """Distance from the value at which the profile has risen by 3.841; None if the bound comes first."""
     if room <= 1e-6 * (land.ranges[k].high - land.ranges[k].low):
         return None
@@ -244,7 +244,7 @@ def _shift(land: Landscape, k: int, side: int, guess: float, room: float, way: A
     return step
 
 
-def has_an_end(land: Landscape, k: int) -> bool:
+def has_an_end(land: ProfileLikelihood, k: int) -> bool:
     """Whether the interval of a number ends before its bounds on any side, without a search for where."""
     value, span = float(land.values[k]), land.ranges[k]
     way, variance = land.ridge(k)
@@ -261,7 +261,7 @@ def has_an_end(land: Landscape, k: int) -> bool:
     return False
 
 
-def holds_null(land: Landscape, k: int) -> bool:
+def holds_null(land: ProfileLikelihood, k: int) -> bool:
     """Whether the interval of a number holds its null, without a search for the ends: by the rise there."""
     span = land.ranges[k]
     way, variance = land.ridge(k)
@@ -272,7 +272,7 @@ def holds_null(land: Landscape, k: int) -> bool:
     return land.rise(k, shift, way, most)[0] < most
 
 
-def correlations(land: Landscape, least: float = 0.9) -> list[tuple[int, int, float]]:
+def correlations(land: ProfileLikelihood, least: float = 0.9) -> list[tuple[int, int, float]]:
     """Pairs of numbers whose errors go together, strongest first: (i, j, correlation) of at least this size."""
     free = np.flatnonzero(~land.active)
     slopes = land.jacobian[:, free]
@@ -299,7 +299,7 @@ def correlations(land: Landscape, least: float = 0.9) -> list[tuple[int, int, fl
     return sorted(pairs, key=lambda pair: -abs(pair[2]))
 
 
-def only_together(land: Landscape) -> list[tuple[int, ...]]:
+def only_together(land: ProfileLikelihood) -> list[tuple[int, ...]]:
     """Sets of numbers of which the data see only combinations: each is visible, none is determined."""
     sizes = np.linalg.norm(land.jacobian, axis=0)
     free = np.flatnonzero(~land.active & (sizes > 0.0))

@@ -59,7 +59,7 @@ def levenberg_marquardt(
     pulled = Pulled.of(aim, plausible)
     scale, damping, least = pulled.scale, 0.0, 0.0
     refused, losses, past, given_up = np.inf, 0, list[float](), False
-    ends = spent() + effort.share * WORK * allowance(aim.program)
+    ends = spent() + effort.share * WORK * allowance(aim.load_cases)
     there = aim.at(np.clip(aim.model.values, *bounds), start, within=np.inf)
     here, slopes, count = pulled.residuals(there), pulled.jacobian(there), there.rounds
     for left in reversed(range(STEPS)):

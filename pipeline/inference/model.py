@@ -60,7 +60,7 @@ class Model:
     """The plain virtual-joint model of a rig with these effects, applied in turn.
 
     fixed: names effect.parameter that a fit leaves alone. nominals: what was written down about the rig, at the values
-    at which it is predicted (`pipeline.inference.nominals`); none where all of it is exact.
+    at which it is predicted (`pipeline.inference.nuisances`); none where all of it is exact.
     """
 
     terms: tuple[Term, ...] = ()

@@ -4,7 +4,8 @@ At given parameters the true inputs of every row are those that fit best (`pipel
 Gauss-Newton steps row by row until they settle. The same parameters give the same sum of squares wherever an
 evaluation begins: where it begins saves iterations, no more. At the inputs that fit best the derivatives that the
 weights have by the parameters cancel (envelope theorem), so the gradient of chi-square is that of the residual alone.
-What was written about the rig is eliminated along the line that the program has of it (`pipeline.inference.marginal`).
+What was written about the rig is eliminated along the line that the load cases have of it
+(`pipeline.inference.eliminated`).
 """
 
 from __future__ import annotations
@@ -16,11 +17,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pipeline.inference.contact_branches import begun, kinked, on_best_sides
+from pipeline.inference.load_cases import LoadCases
 from pipeline.inference.model import Model
-from pipeline.inference.nominals import departures, nominals
+from pipeline.inference.nuisances import departures, nominals
 from pipeline.inference.predicted import Prediction
 from pipeline.inference.prediction import predict
-from pipeline.inference.program import Program
 from pipeline.inference.residual import Residual, residual
 
 Array = NDArray[np.float64]
@@ -70,10 +71,10 @@ class Evaluation:
             return self
         it = self.objective
         there = predict(
-            it.model.at(self.values), it.program, start=self.prediction, shift=self.prediction.shift
+            it.model.at(self.values), it.load_cases, start=self.prediction, shift=self.prediction.shift
         )
         there = it.about(there)
-        return replace(self, prediction=there, residual=residual(it.program, there))
+        return replace(self, prediction=there, residual=residual(it.load_cases, there))
 
     def settle(self, within: float = 0.0) -> Evaluation:
         """The same with inputs that are settled, or known as far as chi-square is wanted: `within` how much."""
@@ -85,18 +86,18 @@ class Evaluation:
             settled = off.max(initial=0.0) <= NEAR or same <= SAME * max(1.0, total / found.aimed.size)
             if settled or rounds >= self.rounds + ROUNDS or float(np.sum(off**2)) <= within:
                 return Evaluation(it, self.values, here, found, bool(settled), rounds)
-            here = it.about(predict(model, it.program, slopes, start=here, shift=found.shift))
-            found = residual(it.program, here)
+            here = it.about(predict(model, it.load_cases, slopes, start=here, shift=found.shift))
+            found = residual(it.load_cases, here)
             before, total, rounds = total, float(found.aimed @ found.aimed), rounds + 1
             same = abs(total - before)
 
 
 @dataclass(frozen=True, eq=False)
 class Objective:
-    """Whitened residuals of the rows of a program as a function of the free parameters of a model."""
+    """Whitened residuals of the rows of load cases as a function of the free parameters of a model."""
 
     model: Model
-    program: Program
+    load_cases: LoadCases
 
     def at(
         self, values: Array, near: Prediction | None = None, slopes: bool = True, within: float = 0.0
@@ -107,29 +108,29 @@ class Objective:
         """
         model = self.model.at(values)
         if kinked(model):
-            here = on_best_sides(model, self.program, near)
+            here = on_best_sides(model, self.load_cases, near)
         else:
-            shift = begun(model, self.program, near)
-            here = predict(model, self.program, slopes, start=near, shift=shift)
+            shift = begun(model, self.load_cases, near)
+            here = predict(model, self.load_cases, slopes, start=near, shift=shift)
         here = self.about(here)
-        found = residual(self.program, here)
+        found = residual(self.load_cases, here)
         return Evaluation(self, values, here, found, settled=False, rounds=1).settle(within)
 
     def about(self, here: Prediction) -> Prediction:
-        """The prediction with what was written about the rig, along the line of the program."""
-        if self.program.by_nominal is None:
+        """The prediction with what was written about the rig, along the line of the load cases."""
+        if self.load_cases.by_nominal is None:
             return here
-        return replace(here, nominal=self.departure, by_nominal=self.program.by_nominal)
+        return replace(here, nominal=self.departure, by_nominal=self.load_cases.by_nominal)
 
     @cached_property
     def departure(self) -> Array:
         """(K,) standard deviations from what was written at which the model is."""
-        return departures(self.model, nominals(self.program.campaign))
+        return departures(self.model, nominals(self.load_cases.campaign))
 
 
 def _off(here: Prediction, found: Residual) -> Array:
     """(R,) by how many of its sigmas an input that fits best is off the one near which a row was linearised, at
     most."""
-    sigma = found.program.input_sigma
+    sigma = found.load_cases.input_sigma
     off = np.divide(np.abs(found.shift - here.shift), sigma, out=np.zeros_like(sigma), where=sigma > 0.0)
     return np.asarray(off.max(axis=1, initial=0.0))

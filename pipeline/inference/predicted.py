@@ -7,7 +7,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from pipeline.inference.program import INPUTS, Program
+from pipeline.inference.load_cases import INPUTS, LoadCases
 from vjm.equilibrium import Equilibrium
 
 Array = NDArray[np.float64]
@@ -17,7 +17,7 @@ PLAYS = 2
 
 @dataclass(frozen=True, eq=False)
 class Prediction:
-    """Readings of a model, rows and channels as in `Program`.
+    """Readings of a model, rows and channels as in `LoadCases`.
 
     values: (R, C); pose channels are displacements. by_inputs: (R, C, 7) derivative by what is prescribed at the
     same step, and by its temperature. by_free: (R, C, P), empty where not asked for. shift: (R, 7) by which
@@ -66,16 +66,16 @@ def no_slides(rows: int, plays: int = PLAYS) -> Array:
     return out
 
 
-def zeroed(prediction: Prediction, program: Program) -> Prediction:
+def zeroed(prediction: Prediction, load_cases: LoadCases) -> Prediction:
     """Readings less those of the first row, in tests that were zeroed there; what is prescribed stays."""
     values = prediction.values.copy()
     by_free = prediction.by_free.copy()
-    for k, test in enumerate(program.campaign.tests):
+    for k, test in enumerate(load_cases.campaign.tests):
         if test.zero != "first_row":
             continue
-        rows = slice(int(program.first[k]), int(program.first[k + 1]))
+        rows = slice(int(load_cases.first[k]), int(load_cases.first[k + 1]))
         out = np.ones(values.shape[1], dtype=bool)
-        out[program.channels[rows.start]] = False
+        out[load_cases.channels[rows.start]] = False
         for array in (values, by_free):
             array[rows] -= np.where(out.reshape(-1, *[1] * (array.ndim - 2)), array[rows.start], 0.0)
     return replace(prediction, values=values, by_free=by_free)

@@ -12,11 +12,11 @@ from numpy.typing import NDArray
 
 from pipeline.campaign.names import COORDINATES
 from pipeline.campaign.rig import Solvable
-from pipeline.inference.branches import Sight, branched
+from pipeline.inference.bifurcation import Sight, branched
 from pipeline.inference.history import history
+from pipeline.inference.load_cases import INPUTS, Group, LoadCases
 from pipeline.inference.model import Model
 from pipeline.inference.predicted import Prediction, no_slides, no_stops, zeroed
-from pipeline.inference.program import INPUTS, Group, Program
 from pipeline.inference.sensor_faults import faulted, in_mechanism, inputs_off
 from vjm.effects.bar_initial_bow import BarInitialBow
 from vjm.effects.thermal_expansion import DRIVE
@@ -65,7 +65,7 @@ class _Part:
 
 def predict(
     model: Model,
-    program: Program,
+    load_cases: LoadCases,
     slopes: bool = True,
     start: Prediction | None = None,
     shift: Array | None = None,
@@ -82,7 +82,7 @@ def predict(
     ValueError for an effect that the rig cannot have.
     """
     count = len(model.free) if slopes else 0
-    rows, channels = program.measured.shape
+    rows, channels = load_cases.measured.shape
     out = Prediction(
         np.zeros((rows, channels)),
         np.zeros((rows, channels, INPUTS)),
@@ -94,12 +94,12 @@ def predict(
         {},
         (),
     )
-    states, off = [], out.shift + inputs_off(model, program)
-    for number, group in enumerate(program.groups):
+    states, off = [], out.shift + inputs_off(model, load_cases)
+    for number, group in enumerate(load_cases.groups):
         begin = None if start is None else start.states[number]
-        place, real = program.rows_of(group), group.real
+        place, real = load_cases.rows_of(group), group.real
         stood = _shifted(group.turned(model.turn), off[place])
-        part = _group(model, program, stood, slopes, begin, order, held, bent)
+        part = _group(model, load_cases, stood, slopes, begin, order, held, bent)
         out.values[place], out.by_inputs[place] = part.values, part.by_inputs
         out.by_free[place] = part.by_free
         count = part.stops.shape[-2]
@@ -111,8 +111,8 @@ def predict(
         for row, reason in zip(place[lost[real]], part.state.reason[real][lost[real]], strict=True):
             out.reasons[int(row)] = Reason.UNSTABLE if reason == CONVERGED else Reason.of(reason)
         states.append(part.state)
-    read = faulted(model, program, _finite(out))
-    return replace(zeroed(read, program), states=tuple(states))
+    read = faulted(model, load_cases, _finite(out))
+    return replace(zeroed(read, load_cases), states=tuple(states))
 
 
 def _finite(found: Prediction) -> Prediction:
@@ -137,7 +137,7 @@ def _finite(found: Prediction) -> Prediction:
 
 def _group(
     model: Model,
-    program: Program,
+    load_cases: LoadCases,
     group: Group,
     slopes: bool,
     start: Equilibrium | None,
@@ -145,20 +145,20 @@ def _group(
     held: bool,
     bent: bool,
 ) -> _Part:
-    mechanism, rows = model.mechanism(group.rig, program.campaign.gauges), program.rows_of(group)
+    mechanism, rows = model.mechanism(group.rig, load_cases.campaign.gauges), load_cases.rows_of(group)
     if held or not initial_memory(mechanism).size:
         # Filling would be solved for nothing; it gets the state that it repeats.
         alone = group.by_steps
         begin = None if start is None else start.member(np.nonzero(group.real)).reshaped(len(alone.q), 1)
-        part = _solved(model, program, alone, rows[:, None], mechanism, slopes, begin, order, held, bent)
+        part = _solved(model, load_cases, alone, rows[:, None], mechanism, slopes, begin, order, held, bent)
         state = part.state.member((group.places, np.zeros_like(group.places)))
         return replace(part, state=state)
-    return _solved(model, program, group, rows[group.places], mechanism, slopes, start, order, held, bent)
+    return _solved(model, load_cases, group, rows[group.places], mechanism, slopes, start, order, held, bent)
 
 
 def _solved(
     model: Model,
-    program: Program,
+    load_cases: LoadCases,
     group: Group,
     rows: NDArray[np.int64],
     mechanism: Solvable,
@@ -168,7 +168,7 @@ def _solved(
     held: bool,
     bent: bool,
 ) -> _Part:
-    """rows: (T, S) of the steps of the group in the program."""
+    """rows: (T, S) of the steps of the group in the load cases."""
     drives = layout(mechanism).drives
     inputs = {"q": np.broadcast_to(group.q[:, None], group.rise.shape), DRIVE: group.rise}
     inputs = {name: value for name, value in inputs.items() if name in drives}
@@ -176,7 +176,7 @@ def _solved(
     moving = in_mechanism(model)[:count]
     asked: list[AnyDirection] = []
     if order:
-        asked += [*TARGETS, *(_direction(model, k, group, program) for k in moving)]
+        asked += [*TARGETS, *(_direction(model, k, group, load_cases) for k in moving)]
         asked += [DriveDirection(DRIVE, _KELVIN)] if DRIVE in drives else []
     begin = _begin(mechanism, group, inputs, start)
     if held and begin is not None:
@@ -190,7 +190,7 @@ def _solved(
         state = equilibrium(mechanism, group.targets, group.channels[:, None], begin, drives=inputs)
         state = _branched(mechanism, group, inputs, state)
         if bent:
-            state = branched(mechanism, group, Sight.of(program, rows), inputs, state, begin)
+            state = branched(mechanism, group, Sight.of(load_cases, rows), inputs, state, begin)
         by, change = _changes(by_parameters, state, asked, order)
     stops, slides = _stops(state, change, DRIVE in drives)
     values = state.readings.copy()
@@ -284,7 +284,7 @@ def _shifted(group: Group, shift: Array) -> Group:
     return replace(group, targets=group.targets + whole[..., :6], rise=group.rise + whole[..., 6])
 
 
-def _direction(model: Model, number: int, group: Group, program: Program) -> Direction | SensorDirection:
+def _direction(model: Model, number: int, group: Group, load_cases: LoadCases) -> Direction | SensorDirection:
     each = model.free[number]
     parameter = each.parameter
     # Differences stay on the same side of a bound as the value; of one at a bound they are taken beside it.
@@ -294,7 +294,7 @@ def _direction(model: Model, number: int, group: Group, program: Program) -> Dir
     # Differences that reach across a kink are no derivative of either side: few states are so near to one.
     smooth = next(t.effect.smooth for t in model.terms if t.effect.name == each.effect)
     size *= 1.0 if smooth else NEAR_KINKS
-    gauges = program.campaign.gauges
+    gauges = load_cases.campaign.gauges
 
     @cache
     def moved(other: float) -> Solvable:
@@ -309,7 +309,7 @@ def _direction(model: Model, number: int, group: Group, program: Program) -> Dir
     return Direction(moved, value, size)
 
 
-def coordinate_names(program: Program) -> tuple[str, ...]:
+def coordinate_names(load_cases: LoadCases) -> tuple[str, ...]:
     """Names of the channels as columns of measurements.csv without units."""
     wrench = tuple(f"{'f' if k < 3 else 'm'}{'xyz'[k % 3]}" for k in range(6))
-    return (*COORDINATES, *wrench, *(g.name for g in program.campaign.gauges))
+    return (*COORDINATES, *wrench, *(g.name for g in load_cases.campaign.gauges))

@@ -22,10 +22,10 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from pipeline.inference.marginal import Marginal
+from pipeline.inference.eliminated import Marginal
+from pipeline.inference.load_cases import LOST, LoadCases
+from pipeline.inference.orthonormal_basis import basis
 from pipeline.inference.predicted import Prediction
-from pipeline.inference.program import LOST, Program
-from pipeline.inference.span import basis
 from pipeline.inference.stops import SIDE, SPREAD, on_their_sides
 
 Array = NDArray[np.float64]
@@ -49,11 +49,11 @@ class Whitening:
         return np.einsum("rij,rj...->ri...", self.factors, kept)
 
 
-def whitening(program: Program, prediction: Prediction) -> Whitening:
+def whitening(load_cases: LoadCases, prediction: Prediction) -> Whitening:
     """That of a prediction's own tangent."""
-    used = program.predicted
-    through = _through(program, prediction) * program.input_sigma[:, None, :]
-    scale = np.where(used, program.spread, 1.0)
+    used = load_cases.predicted
+    through = _through(load_cases, prediction) * load_cases.input_sigma[:, None, :]
+    scale = np.where(used, load_cases.spread, 1.0)
     through = through / scale[..., None]
     return Whitening(_inverse_root(through) / scale[:, None, :], used)
 
@@ -77,9 +77,9 @@ def _inverse_root(through: Array) -> Array:
     return np.asarray(np.linalg.inv(factors))
 
 
-def _through(program: Program, prediction: Prediction) -> Array:
+def _through(load_cases: LoadCases, prediction: Prediction) -> Array:
     """(R, C, 7) derivative by the inputs of the channels that are compared; none of a lost row."""
-    kept = program.predicted & ~prediction.lost[:, None]
+    kept = load_cases.predicted & ~prediction.lost[:, None]
     return np.where(kept[..., None], prediction.by_inputs, 0.0)
 
 
@@ -94,7 +94,7 @@ class Residual:
     undecided: as in `pipeline.inference.stops.Sides`.
     """
 
-    program: Program
+    load_cases: LoadCases
     values: Array
     slopes: Array
     offsets: Array
@@ -108,22 +108,22 @@ class Residual:
     @cached_property
     def rows(self) -> np.ndarray:
         """(N, 2) row and channel of every residual of the tests that may be fitted."""
-        return np.argwhere(self.program.predicted & self.program.fitted[:, None])
+        return np.argwhere(self.load_cases.predicted & self.load_cases.fitted[:, None])
 
     @cached_property
     def charged(self) -> float:
         """Chi-square of the charges of the tests that may be fitted."""
-        return float(np.sum(self.charge[self.program.fitted]))
+        return float(np.sum(self.charge[self.load_cases.fitted]))
 
     @property
     def doubt(self) -> float:
         """Chi-square that the choice of sides may have taken up in the tests that may be fitted."""
-        return SIDE * float(np.sum(self.undecided[self.program.fitted]))
+        return SIDE * float(np.sum(self.undecided[self.load_cases.fitted]))
 
     @property
     def spread(self) -> float:
         """By how much more than that, two standard deviations."""
-        return SPREAD * float(np.sqrt(np.sum(self.undecided[self.program.fitted])))
+        return SPREAD * float(np.sqrt(np.sum(self.undecided[self.load_cases.fitted])))
 
     def flat(self, array: Array) -> Array:
         """(N, ...) of the tests that may be fitted."""
@@ -194,15 +194,15 @@ class Residual:
         return np.vstack([-slopes, np.zeros((1, slopes.shape[1]))])
 
 
-def residual(program: Program, prediction: Prediction) -> Residual:
+def residual(load_cases: LoadCases, prediction: Prediction) -> Residual:
     """The residual of a prediction with the weights of its own tangent."""
-    weights, through = whitening(program, prediction), _through(program, prediction)
+    weights, through = whitening(load_cases, prediction), _through(load_cases, prediction)
     carried = np.einsum("rci,ri->rc", through, prediction.shift)
-    difference = np.where(program.predicted, program.measured - prediction.values + carried, 0.0)
+    difference = np.where(load_cases.predicted, load_cases.measured - prediction.values + carried, 0.0)
     values = weights.apply(difference)
-    slopes, offsets = weights.apply(prediction.by_free), weights.apply(_unknown_zeros(program, prediction))
+    slopes, offsets = weights.apply(prediction.by_free), weights.apply(_unknown_zeros(load_cases, prediction))
     gain = np.einsum("rij,rjk->rik", weights.factors, through)
-    values[prediction.lost] = np.where(program.predicted[prediction.lost], LOST, 0.0)
+    values[prediction.lost] = np.where(load_cases.predicted[prediction.lost], LOST, 0.0)
     slopes[prediction.lost] = 0.0
     offsets[prediction.lost] = 0.0
     nominal = np.zeros((*values.shape, 0))
@@ -211,12 +211,12 @@ def residual(program: Program, prediction: Prediction) -> Residual:
         nominal[prediction.lost] = 0.0
     none, nothing = np.zeros_like(prediction.shift), np.zeros(len(values))
     it = Residual(
-        program, values, slopes, offsets, nominal, prediction.nominal, none, none, nothing, nothing > 0.0
+        load_cases, values, slopes, offsets, nominal, prediction.nominal, none, none, nothing, nothing > 0.0
     )
     # True inputs are those that fit best with what was written as it fits best.
-    shift = program.input_sigma**2 * np.einsum("rik,ri->rk", gain, it.left)
-    sides = on_their_sides(prediction, shift, program.input_sigma, gain)
-    shift, across = (_near(each, program.input_sigma) for each in (sides.shift, sides.across))
+    shift = load_cases.input_sigma**2 * np.einsum("rik,ri->rk", gain, it.left)
+    sides = on_their_sides(prediction, shift, load_cases.input_sigma, gain)
+    shift, across = (_near(each, load_cases.input_sigma) for each in (sides.shift, sides.across))
     return replace(it, shift=shift, across=across, charge=sides.charge, undecided=sides.undecided)
 
 
@@ -229,25 +229,25 @@ def _near(shift: Array, sigma: Array) -> Array:
     return shift * (FARTHEST / np.maximum(size, FARTHEST))
 
 
-def _unknown_zeros(program: Program, prediction: Prediction) -> Array:
+def _unknown_zeros(load_cases: LoadCases, prediction: Prediction) -> Array:
     """(R, C, O) what an unknown zero of each sensor does in the tests that ask for it."""
     columns = []
-    channels = program.measured.shape[1]
-    for k, test in enumerate(program.campaign.tests):
+    channels = load_cases.measured.shape[1]
+    for k, test in enumerate(load_cases.campaign.tests):
         if test.zero != "fitted":
             continue
-        rows = slice(int(program.first[k]), int(program.first[k + 1]))
-        control = program.channels[rows.start]
+        rows = slice(int(load_cases.first[k]), int(load_cases.first[k + 1]))
+        control = load_cases.channels[rows.start]
         for channel in range(channels):
-            column = np.zeros((len(program.test), channels))
+            column = np.zeros((len(load_cases.test), channels))
             if channel in control:
                 # A zero of a prescribed quantity acts through the mechanism.
-                if not np.any(program.input_sigma[rows, :6][:, control == channel]):
+                if not np.any(load_cases.input_sigma[rows, :6][:, control == channel]):
                     continue
                 column[rows] = -prediction.by_inputs[rows][..., np.flatnonzero(control == channel)[0]]
-            elif np.any(program.predicted[rows, channel]):
+            elif np.any(load_cases.predicted[rows, channel]):
                 column[rows, channel] = 1.0
             else:
                 continue
             columns.append(column)
-    return np.stack(columns, axis=-1) if columns else np.zeros((len(program.test), channels, 0))
+    return np.stack(columns, axis=-1) if columns else np.zeros((len(load_cases.test), channels, 0))

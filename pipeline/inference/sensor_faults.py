@@ -14,9 +14,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pipeline.campaign.names import SUPPORT
+from pipeline.inference.load_cases import LoadCases
 from pipeline.inference.model import Model, Term
 from pipeline.inference.predicted import Prediction
-from pipeline.inference.program import Program
 from vjm.effects.sensor_fault import SensorFault
 
 Array = NDArray[np.float64]
@@ -38,30 +38,32 @@ def in_mechanism(model: Model) -> list[int]:
     return [number for number, each in enumerate(model.free) if each.effect not in names]
 
 
-def inputs_off(model: Model, program: Program) -> Array:
+def inputs_off(model: Model, load_cases: LoadCases) -> Array:
     """(R, 7) by which what was really prescribed differs from what was read of it."""
-    out = np.zeros((len(program.test), 7))
+    out = np.zeros((len(load_cases.test), 7))
     for term in faults(model):
-        rows, coordinates = _controlled(program, term)
+        rows, coordinates = _controlled(load_cases, term)
         if rows.size:
-            out[rows, coordinates] -= _error_of_input(term, np.nan_to_num(program.measured), program)[rows]
+            out[rows, coordinates] -= _error_of_input(term, np.nan_to_num(load_cases.measured), load_cases)[
+                rows
+            ]
     return out
 
 
-def faulted(model: Model, program: Program, found: Prediction) -> Prediction:
+def faulted(model: Model, load_cases: LoadCases, found: Prediction) -> Prediction:
     """A prediction as faulty sensors read it; the prediction is of what was really prescribed."""
     terms = faults(model)
     if not terms:
         return found
-    read = _as_read(program, found)
+    read = _as_read(load_cases, found)
     values, by_free = found.values.copy(), found.by_free.copy()
     for term in terms:
-        channel = _channel(program, term)
-        rows, coordinates = _controlled(program, term)
+        channel = _channel(load_cases, term)
+        rows, coordinates = _controlled(load_cases, term)
         free = np.ones(len(values), dtype=bool)
         free[rows] = False
-        values[free, channel] += _error(term, read, program)[free]
-        for number, column, done in _slopes(term, read, program, model) if by_free.shape[-1] else ():
+        values[free, channel] += _error(term, read, load_cases)[free]
+        for number, column, done in _slopes(term, read, load_cases, model) if by_free.shape[-1] else ():
             by_free[..., number] = 0.0
             by_free[free, channel, number] = column[free]
             through = found.by_inputs[rows, :, coordinates] * done[rows][:, None]
@@ -71,40 +73,44 @@ def faulted(model: Model, program: Program, found: Prediction) -> Prediction:
     return replace(found, values=values, by_free=by_free)
 
 
-def _channel(program: Program, term: Term) -> int:
+def _channel(load_cases: LoadCases, term: Term) -> int:
     assert isinstance(term.effect, SensorFault)
-    return program.rows.columns.index(term.effect.column)
+    return load_cases.rows.columns.index(term.effect.column)
 
 
-def _controlled(program: Program, term: Term) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+def _controlled(load_cases: LoadCases, term: Term) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
     """Rows in which the sensor of a fault controls a coordinate, and which."""
-    held = np.array([[by == SUPPORT for by in test.control] for test in program.campaign.tests])[program.test]
+    held = np.array([[by == SUPPORT for by in test.control] for test in load_cases.campaign.tests])[
+        load_cases.test
+    ]
     # What a support holds is where it is, whatever a sensor says.
-    return np.nonzero((program.channels == _channel(program, term)) & ~held)  # type: ignore[return-value]
+    return np.nonzero((load_cases.channels == _channel(load_cases, term)) & ~held)  # type: ignore[return-value]
 
 
-def _as_read(program: Program, found: Prediction) -> Array:
+def _as_read(load_cases: LoadCases, found: Prediction) -> Array:
     """(R, C) what is there: predicted, and prescribed where it is that."""
     out = found.values.copy()
-    given = np.take_along_axis(np.nan_to_num(program.measured), program.channels, axis=1)
-    np.put_along_axis(out, program.channels, given + found.shift[:, :6], axis=1)
+    given = np.take_along_axis(np.nan_to_num(load_cases.measured), load_cases.channels, axis=1)
+    np.put_along_axis(out, load_cases.channels, given + found.shift[:, :6], axis=1)
     return out
 
 
-def _error(term: Term, read: Array, program: Program) -> Array:
+def _error(term: Term, read: Array, load_cases: LoadCases) -> Array:
     assert isinstance(term.effect, SensorFault)
-    return term.effect.error(read, program.rows, term.values)
+    return term.effect.error(read, load_cases.rows, term.values)
 
 
-def _error_of_input(term: Term, read: Array, program: Program) -> Array:
+def _error_of_input(term: Term, read: Array, load_cases: LoadCases) -> Array:
     """(R,) what its column read too much where it controls a coordinate."""
-    done, channel = read.copy(), _channel(program, term)
+    done, channel = read.copy(), _channel(load_cases, term)
     for _ in range(TURNS):
-        done[:, channel] = read[:, channel] - _error(term, done, program)
+        done[:, channel] = read[:, channel] - _error(term, done, load_cases)
     return np.asarray(read[:, channel] - done[:, channel])
 
 
-def _slopes(term: Term, read: Array, program: Program, model: Model) -> Iterator[tuple[int, Array, Array]]:
+def _slopes(
+    term: Term, read: Array, load_cases: LoadCases, model: Model
+) -> Iterator[tuple[int, Array, Array]]:
     """Number of each free parameter of a fault, and (R,) derivatives by it: of its error where it is only read, and
     where it controls a coordinate. read: without the noise of what was prescribed, which a slope would follow."""
     for number, each in enumerate(model.free):
@@ -114,6 +120,6 @@ def _slopes(term: Term, read: Array, program: Program, model: Model) -> Iterator
         ends = [
             replace(term, values={**term.values, name: term.values[name] + step}) for step in (-size, size)
         ]
-        low, high = (_error(end, read, program) for end in ends)
-        less, more = (_error_of_input(end, read, program) for end in ends)
+        low, high = (_error(end, read, load_cases) for end in ends)
+        less, more = (_error_of_input(end, read, load_cases) for end in ends)
         yield number, (high - low) / (2.0 * size), (more - less) / (2.0 * size)

@@ -10,9 +10,9 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import least_squares
 
+from pipeline.inference.load_cases import LoadCases
 from pipeline.inference.objective import Evaluation, Objective
 from pipeline.inference.predicted import Prediction
-from pipeline.inference.program import Program
 from vjm.work import spent
 
 Array = NDArray[np.float64]
@@ -113,7 +113,7 @@ def trust_region(
     bounds = np.array([each.bounds for each in aim.model.free]).T
     pulled = Pulled.of(aim, plausible)
     wide = np.clip((bounds - pulled.null) / pulled.scale, -LARGEST, LARGEST)
-    ends = spent() + effort.share * WORK * allowance(aim.program)
+    ends = spent() + effort.share * WORK * allowance(aim.load_cases)
     here = aim.at(np.clip(aim.model.values, *bounds), start)
     count = here.rounds
 
@@ -156,6 +156,6 @@ def idle(total: float, count: int) -> float:
     return 0.1 * DRAGGING * (total - count) if far(total, count) else 0.0
 
 
-def allowance(program: Program) -> float:
+def allowance(load_cases: LoadCases) -> float:
     """Work that a campaign may take, as a multiple of that of a parallelogram without any rows."""
-    return program.unknowns + float(program.fitted.sum()) / ROWS
+    return load_cases.unknowns + float(load_cases.fitted.sum()) / ROWS

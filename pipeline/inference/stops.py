@@ -14,8 +14,8 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import nnls
 
+from pipeline.inference.load_cases import LOST
 from pipeline.inference.predicted import Prediction
-from pipeline.inference.program import LOST
 from vjm.effects.base import Effect
 
 Array = NDArray[np.float64]

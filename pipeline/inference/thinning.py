@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from pipeline.inference.parts import at_rows
+from pipeline.inference.load_cases import LoadCases
 from pipeline.inference.predicted import Prediction
-from pipeline.inference.program import Program
+from pipeline.inference.subsets import at_rows
 
 MOVES = 20.0
 """Sigmas of its noise: an input that moves more is driven."""
@@ -15,7 +15,7 @@ ENOUGH = 100
 """Fitted rows that a look takes; a campaign of fewer is taken as it is."""
 
 
-def thinned(cases: Program, start: Prediction | None) -> tuple[Program, Prediction | None]:
+def thinned(cases: LoadCases, start: Prediction | None) -> tuple[LoadCases, Prediction | None]:
     """About `ENOUGH` of the fitted rows, and the start at them.
 
     What a law remembers depends on where a loading turned: of each test the first and the last row stay, and all turns.

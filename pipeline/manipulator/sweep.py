@@ -1,4 +1,4 @@
-"""Sweep over a grid of platform points: in chunks, by any executor, interrupted and resumed without a trace.
+"""Sweep over a grid of platform points: in chunks, by any pool, interrupted and resumed without a trace.
 
 Every chunk is one file, written whole or not at all. What is there is not computed again; when all are there they are
 joined to `sweep.npy`, (points, columns) in the order of the grid. Only the chunks under way are in memory.
@@ -7,9 +7,9 @@ joined to `sweep.npy`, (points, columns) in the order of the grid. Only the chun
 import hashlib
 import json
 import os
-from collections.abc import Callable, Iterator
-from concurrent.futures import FIRST_COMPLETED, Executor, Future, wait
+from collections.abc import Callable
 from dataclasses import asdict, dataclass
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -20,11 +20,12 @@ from pipeline.manipulator.grid import Grid
 from pipeline.manipulator.mapping import CriticalMap, chunk_of, coarse, critical_map, nodes_of
 from pipeline.manipulator.question import Array, Question
 from pipeline.manipulator.reasons import reasons_of
+from pipeline.pools import Pool, one_after_another
 
 CHUNK = 2000
 """Points of a chunk: about 20 MB of work space."""
 HEAD, RESULT, CHUNKS, CRITICAL = "sweep.json", "sweep.npy", "chunks", "critical.npy"
-_AHEAD, _NODES = 2, 5
+_NODES = 5
 
 
 @dataclass(frozen=True, eq=False)
@@ -50,15 +51,14 @@ def sweep(
     description: Description,
     grid: Grid,
     folder: Path,
-    executor: Executor,
-    workers: int = 1,
+    pool: Pool = one_after_another,
     chunk: int = CHUNK,
     progress: Callable[[int, int], None] = lambda done, all: None,
     question: Question | None = None,
 ) -> Sweep:
     """Sweep into a folder, or go on with what is there; progress is told the finished chunks and all of them.
 
-    workers: calls that the executor runs at once. question: what is asked beside the stiffness at rest. InputError
+    question: what is asked beside the stiffness at rest. InputError
     for a folder that holds another sweep.
     """
     asked = question or Question()
@@ -70,37 +70,16 @@ def sweep(
     missing = [] if (folder / RESULT).exists() else [k for k in range(total) if not _file(folder, k).exists()]
     progress(total - len(missing), total)
     if missing:
-        critical = _critical(description, grid, folder, executor, _AHEAD * workers)
+        critical = _critical(description, grid, folder, pool)
         todo = ((k, k * chunk, min((k + 1) * chunk, grid.size)) for k in missing)
-        calls = ((chunk_of, (description.manipulator, asked, critical, grid, *one)) for one in todo)
-        for done, (number, values) in enumerate(_bounded(executor, calls, _AHEAD * workers), start=1):
+        calls = (partial(chunk_of, description.manipulator, asked, critical, grid, *one) for one in todo)
+        for done, (number, values) in enumerate(pool(calls), start=1):
             _write(_file(folder, number), values)
             progress(total - len(missing) + done, total)
     _join(folder, grid, total, len(asked.columns))
     postures = sum(min(chunk, grid.size - k * chunk) for k in missing)
     reasons = reasons_of(description.manipulator)
     return Sweep(folder, grid, asked.columns, len(missing), total - len(missing), postures, reasons)
-
-
-def _bounded(
-    executor: Executor,
-    calls: Iterator[tuple[Callable[..., tuple[int, Array]], tuple[object, ...]]],
-    ahead: int,
-) -> Iterator[tuple[int, Array]]:
-    """Results as they come, with never more than `ahead` calls under way."""
-    running: set[Future[tuple[int, Array]]] = set()
-    try:
-        for function, arguments in calls:
-            running.add(executor.submit(function, *arguments))
-            if len(running) >= ahead:
-                done, running = wait(running, return_when=FIRST_COMPLETED)
-                yield from (future.result() for future in done)
-        while running:
-            done, running = wait(running, return_when=FIRST_COMPLETED)
-            yield from (future.result() for future in done)
-    finally:
-        for future in running:
-            future.cancel()
 
 
 def _claim(folder: Path, description: Description, grid: Grid, chunk: int, question: Question) -> None:
@@ -124,18 +103,16 @@ def _claim(folder: Path, description: Description, grid: Grid, chunk: int, quest
         )
 
 
-def _critical(
-    description: Description, grid: Grid, folder: Path, executor: Executor, ahead: int
-) -> CriticalMap:
+def _critical(description: Description, grid: Grid, folder: Path, pool: Pool) -> CriticalMap:
     """The legs' critical forces on coarse nodes, with why there is none, kept beside the chunks."""
     nodes, file = coarse(grid), folder / CRITICAL
     if not file.exists():
         calls = (
-            (nodes_of, (description.manipulator, nodes, k, min(k + _NODES, nodes.size)))
+            partial(nodes_of, description.manipulator, nodes, k, min(k + _NODES, nodes.size))
             for k in range(0, nodes.size, _NODES)
         )
         found = np.zeros((nodes.size, len(description.manipulator.legs), 2))
-        for start, part in _bounded(executor, calls, ahead):
+        for start, part in pool(calls):
             found[start : start + len(part)] = part
         _write(file, found)
     force, reason = np.moveaxis(np.load(file), -1, 0)

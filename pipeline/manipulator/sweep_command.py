@@ -7,18 +7,18 @@ from time import perf_counter
 
 from pipeline.command import usable
 from pipeline.errors import InputError
-from pipeline.executors import executor
 from pipeline.manipulator.box import box
 from pipeline.manipulator.description import read
 from pipeline.manipulator.question_options import question_of
 from pipeline.manipulator.sweep import CHUNK, HEAD, RESULT, Sweep, sweep
 from pipeline.manipulator.sweep_summary import summary
+from pipeline.pools import pool
 from pipeline.progress import Progress, Stage
 
 
 @dataclass(frozen=True)
 class Asked:
-    """What was typed: corners and points as in `pipeline.manipulator.box`, workers and dask as in `executor`, effects,
+    """What was typed: corners and points as in `pipeline.manipulator.box`, workers and dask as in `pool`, effects,
     wrench and rise as in `pipeline.manipulator.question_options`."""
 
     file: str
@@ -44,16 +44,14 @@ def run_sweep(asked: Asked) -> Sweep:
     question = question_of(
         description.manipulator, asked.effects, asked.wrench, asked.rise, asked.effects_from
     )
-    if asked.effects_from and (asked.workers > 1 or asked.dask):
-        raise InputError("effects of your own are known to this process only, allowed is --workers 1")
     _free(asked.out)
     if asked.chunk < 1:
         raise InputError(f"--chunk is {asked.chunk}, allowed are 1 or more points")
     progress = Progress(asked.quiet)
     start = perf_counter()
-    with progress.stage("sweep") as stage, executor(asked.workers, asked.dask) as (pool, count):
+    with progress.stage("sweep") as stage, pool(asked.workers, asked.dask) as computed:
         teller = _Teller(stage, grid.size, asked.chunk)
-        done = sweep(description, grid, asked.out, pool, count, asked.chunk, teller.tell, question)
+        done = sweep(description, grid, asked.out, computed, asked.chunk, teller.tell, question)
         stage.note = f"{done.computed} chunks computed, {done.found} found"
     print("\n".join(summary(done, perf_counter() - start)))
     if asked.pictures:

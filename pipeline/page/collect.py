@@ -2,20 +2,22 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from typing import Literal
 
 import numpy as np
 
-from pipeline.add.sentences import verdict_sentence
-from pipeline.answer import Answer
+from pipeline.answer.record import Answer
+from pipeline.answer.value import Value
+from pipeline.answer.wording.added import verdict_sentence
+from pipeline.callbacks import OnProgress
 from pipeline.campaign import Campaign
 from pipeline.inference.driving import column_name, unit_of
+from pipeline.inference.estimated_sigmas import completed
+from pipeline.inference.load_cases import LoadCases, load_cases
 from pipeline.inference.model import Model, Term
 from pipeline.inference.model_file import Uncertainty
-from pipeline.inference.program import Program, program
-from pipeline.inference.sigmas import completed
 from pipeline.inference.suitable import Known, check_suitable
 from pipeline.page.curves import rig_of, tests_of
 from pipeline.page.dossier import dossier
@@ -24,12 +26,9 @@ from pipeline.page.stages import Stages, stages
 from pipeline.page.words import SOURCES, assumptions, following, reading, tolerances_of, why
 from pipeline.parameter_names import path_of
 from pipeline.provenance import commit, versions
-from pipeline.value import Value
 from reports.quantities import sigma
 from vjm.effects import effect_of
 from vjm.effects.base import Effect
-
-Say = Callable[[str], None]
 
 
 @dataclass(frozen=True, eq=False)
@@ -50,14 +49,14 @@ class Subject:
     fitted: Model | None = None
 
 
-def collect(it: Subject, commands: tuple[str, ...] = (), say: Say = lambda _: None) -> Page:
+def collect(it: Subject, commands: tuple[str, ...] = (), on_progress: OnProgress = lambda _: None) -> Page:
     """The page of a model that is as saved, or as the diagnosis leaves it. InputError for what does not fit."""
     whole = completed(it.campaign)
     model = shown_model(it)
     check_suitable([term.effect for term in model.terms], whole)
-    cases = program(whole)
-    found = stages(model, cases, say)
-    record, failed = _dossier(it, model, cases, say)
+    cases = load_cases(whole)
+    found = stages(model, cases, on_progress)
+    record, failed = _dossier(it, model, cases, on_progress)
     answer = it.answer or _plain_answer(it, model, found)
     known = it.known.effects
     catalogue = [effect_of(name, known) for name in model.names]
@@ -104,11 +103,13 @@ def collect(it: Subject, commands: tuple[str, ...] = (), say: Say = lambda _: No
     )
 
 
-def _dossier(it: Subject, model: Model, cases: Program, say: Say) -> tuple[Dossier | None, tuple[str, ...]]:
+def _dossier(
+    it: Subject, model: Model, cases: LoadCases, on_progress: OnProgress
+) -> tuple[Dossier | None, tuple[str, ...]]:
     """Where it was looked for what is missing, the model's predictions beside the readings; and why not, if not."""
     if it.answer is None or not cases.predicted.any():
         return None, ()
-    say("predicted against measured")
+    on_progress("predicted against measured")
     return dossier(it.campaign, model)
 
 
@@ -145,7 +146,7 @@ def proposed(model: Model, answer: Answer, known: Known) -> Model:
 
 def headline(answer: Answer, found: Stages, diagnosed: bool) -> str:
     """The verdict in one sentence."""
-    cases = found.before.program
+    cases = found.before.load_cases
     if not (cases.predicted | cases.unweighted).any():
         return "not measured yet: no reading that a model predicts; plan says what these tests can show."
     if diagnosed and answer.sentences:
@@ -224,7 +225,7 @@ def _titles(answer: Answer, model: Model, known: Mapping[str, Effect]) -> dict[s
     return {name: effect_of(name, known).title for name in dict.fromkeys(names)}
 
 
-def _sigmas(given: Campaign, cases: Program) -> tuple[Sigma, ...]:
+def _sigmas(given: Campaign, cases: LoadCases) -> tuple[Sigma, ...]:
     """Of every channel that is measured."""
     told = np.concatenate([given.noise.displacement, given.noise.wrench, given.noise.gauges])
     return tuple(

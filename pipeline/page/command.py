@@ -9,12 +9,11 @@ from pydantic import ValidationError
 
 from meshes.files import replacing
 from pipeline.add.command import starting_model
-from pipeline.answer import Answer
+from pipeline.answer.record import Answer
+from pipeline.answer.wording.diagnosis import answered
 from pipeline.campaign import read
 from pipeline.campaign.reading import DESCRIPTION
 from pipeline.command import redraw, usable
-from pipeline.diagnose.diagnosis import Diagnosis, diagnose
-from pipeline.diagnose.words import answered
 from pipeline.discover.beyond_catalogue import with_laws
 from pipeline.errors import InputError
 from pipeline.inference.model_file import NAME as MODEL
@@ -25,6 +24,7 @@ from pipeline.page.isolability import attempted_isolability, isolability_anew
 from pipeline.page.record import NAME, Page
 from pipeline.page.rivals import Possible, pages_of, possible
 from pipeline.progress import Progress, Stage
+from pipeline.selection.diagnosis import Diagnosis, diagnose
 from pipeline.typed import command
 from vjm.effects import effect_named
 

@@ -34,12 +34,12 @@ def rig_of(it: Campaign | Test) -> Rig:
 
 
 def tests_of(before: Discrepancy, after: Discrepancy) -> tuple[TestPage, ...]:
-    """All tests of a campaign; both of one program."""
-    return tuple(_test(before, after, k) for k in range(len(before.program.campaign.tests)))
+    """All tests of a campaign; both of the same load cases."""
+    return tuple(_test(before, after, k) for k in range(len(before.load_cases.campaign.tests)))
 
 
 def _test(before: Discrepancy, after: Discrepancy, number: int) -> TestPage:
-    cases = before.program
+    cases = before.load_cases
     test, gauges = cases.campaign.tests[number], cases.campaign.gauges
     rows = np.arange(cases.first[number], cases.first[number + 1])
     mask = np.zeros(len(cases.test), dtype=bool)
@@ -69,7 +69,7 @@ def _test(before: Discrepancy, after: Discrepancy, number: int) -> TestPage:
 
 
 def _curve(before: Discrepancy, after: Discrepancy, rows: NDArray[np.int64], channel: int) -> Curve:
-    cases = before.program
+    cases = before.load_cases
     measured = np.where(cases.predicted[rows, channel], cases.measured[rows, channel], np.nan)
     (was, left_was), (now, left_now) = (_predicted(gap, rows, channel) for gap in (before, after))
     return Curve(
@@ -90,11 +90,11 @@ def _predicted(gap: Discrepancy, rows: NDArray[np.int64], channel: int) -> tuple
     """Prediction at the inputs as they were read, unknown zeros added, and what it leaves in its own sigmas."""
     kept = gap.kept[rows, channel]
     units = np.where(kept, gap.units[rows, channel], np.nan)
-    return gap.program.measured[rows, channel] - units, units / gap.sigma[rows, channel]
+    return gap.load_cases.measured[rows, channel] - units, units / gap.sigma[rows, channel]
 
 
 def _by_step(gap: Discrepancy, rows: NDArray[np.int64]) -> Numbers:
-    used = gap.program.predicted[rows]
+    used = gap.load_cases.predicted[rows]
     squares = np.sum(np.where(used, gap.whitened[rows], 0.0) ** 2, axis=1)
     count = used.sum(axis=1)
     return numbers(np.where(count > 0, np.sqrt(squares / np.maximum(count, 1)), np.nan))

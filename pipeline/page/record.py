@@ -8,7 +8,8 @@ from __future__ import annotations
 
 from typing import Any
 
-from pipeline.answer import (
+from pipeline.answer.law import LawFound
+from pipeline.answer.record import (
     Certain,
     Correlation,
     DoctorFinding,
@@ -18,10 +19,9 @@ from pipeline.answer import (
     SetAside,
     UnknownZero,
 )
-from pipeline.law_record import LawFound
+from pipeline.answer.value import Value
 from pipeline.predict.record import Budget, ColumnComparison
 from pipeline.record import Record
-from pipeline.value import Value
 
 Numbers = tuple[float | None, ...]
 NAME = "page.json"
@@ -92,7 +92,7 @@ class TestPage(Record):
 
 
 class CandidatePage(Record):
-    """An effect that was looked at, as `pipeline.answer.Candidate`; why: it was chosen, or lost."""
+    """An effect that was looked at, as `pipeline.answer.record.Candidate`; why: it was chosen, or lost."""
 
     effect: str
     title: str

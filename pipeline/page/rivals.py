@@ -2,18 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
 
-from pipeline.add.summary import error_of
-from pipeline.adequacy.judgement import judge
-from pipeline.answer import Answer
-from pipeline.diagnose.diagnosis import Diagnosis
-from pipeline.diagnose.record import answer_of
+from pipeline.answer.of_diagnosis import answer_of
+from pipeline.answer.record import Answer
+from pipeline.answer.summary import error_of
+from pipeline.callbacks import OnProgress
 from pipeline.inference.model import Model
 from pipeline.page.record import RivalPage
+from pipeline.selection.adequacy.judgement import judge
+from pipeline.selection.diagnosis import Diagnosis
 
-Say = Callable[[str], None]
 MOST = 4
 """Sets that stand side by side on a page; a verdict of more names them all."""
 
@@ -27,7 +26,7 @@ class Possible:
 
 
 def possible(
-    found: Diagnosis, answer: Answer, say: Say = lambda _: None, most: int = MOST
+    found: Diagnosis, answer: Answer, on_progress: OnProgress = lambda _: None, most: int = MOST
 ) -> tuple[Possible, ...]:
     """The sets that a verdict leaves, the simplest first; one where it is not ambiguous.
 
@@ -37,7 +36,7 @@ def possible(
     first = Possible(answer, found.model)
     if found.verdict != "ambiguous":
         return (first,)
-    return (first, *(_with(found, answer, names, say) for names in found.sets[1:most]))
+    return (first, *(_with(found, answer, names, on_progress) for names in found.sets[1:most]))
 
 
 def pages_of(sets: tuple[Possible, ...]) -> tuple[RivalPage, ...]:
@@ -46,12 +45,12 @@ def pages_of(sets: tuple[Possible, ...]) -> tuple[RivalPage, ...]:
     return tuple(RivalPage(effects=it.effects, error=it.error[-1], parameters=it.parameters) for it in every)
 
 
-def _with(found: Diagnosis, answer: Answer, names: tuple[str, ...], say: Say) -> Possible:
+def _with(found: Diagnosis, answer: Answer, names: tuple[str, ...], on_progress: OnProgress) -> Possible:
     """The answer with another set in the place of the first."""
-    say(" + ".join(names))
-    shelf = found.shelf
-    fit = shelf.fit(frozenset(names))
+    on_progress(" + ".join(names))
+    cache = found.cache
+    fit = cache.fit(frozenset(names))
     own = answer_of(found, answer.sentences, fit)
-    last = error_of(fit, shelf.whole, len(fit.model.free), judge(fit, shelf.criteria))
+    last = error_of(fit, cache.whole, len(fit.model.free), judge(fit, cache.criteria))
     update = {"effects": fit.model.names, "added": names, "error": (answer.error[0], last)}
     return Possible(own.model_copy(update=update), fit.model)

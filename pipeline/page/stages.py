@@ -2,19 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass, replace
 
-from pipeline.add.summary import error_of
-from pipeline.adequacy.judgement import judge
-from pipeline.adequacy.untested import untested
-from pipeline.answer import ModelError, Verdict
+from pipeline.answer.record import ModelError, Verdict
+from pipeline.answer.summary import error_of
+from pipeline.callbacks import OnProgress
 from pipeline.compare.error import Discrepancy
 from pipeline.inference.fit import fit, unfitted
+from pipeline.inference.load_cases import LoadCases
 from pipeline.inference.model import Model
-from pipeline.inference.program import Program
-
-Say = Callable[[str], None]
+from pipeline.selection.adequacy.judgement import judge
+from pipeline.selection.adequacy.untested import untested
 
 
 @dataclass(frozen=True, eq=False)
@@ -29,17 +27,17 @@ class Stages:
     untested: str
 
 
-def stages(model: Model, cases: Program, say: Say = lambda _: None) -> Stages:
+def stages(model: Model, cases: LoadCases, on_progress: OnProgress = lambda _: None) -> Stages:
     """Every stage fitted from the model's own values; the model itself is taken as it is."""
-    say("plain virtual springs")
+    on_progress("plain virtual springs")
     plain = unfitted(Model(), cases)
     found = [(plain, 0)]
     for count in range(1, len(model.terms)):
         part = replace(model, terms=model.terms[:count])
-        say(" + ".join(part.names))
+        on_progress(" + ".join(part.names))
         found.append((fit(part, cases, plain.prediction), len(part.free)))
     if model.terms:
-        say(" + ".join(model.names))
+        on_progress(" + ".join(model.names))
         found.append((unfitted(model, cases), len(model.free)))
     nothing = untested(found[-1][0])
     judged = None if nothing else judge(found[-1][0])

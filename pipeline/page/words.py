@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 
-from pipeline.answer import Answer, Candidate
+from pipeline.answer.record import Answer, Candidate
 from pipeline.campaign import Campaign
-from pipeline.inference.program import LOST
+from pipeline.inference.load_cases import LOST
 from pipeline.page.record import Following, TolerancePage
 from pipeline.typed import command
 from reports.quantities import short, sigma

@@ -7,17 +7,15 @@ from dataclasses import replace
 from pathlib import Path
 
 from pipeline.add.command import starting_model
-from pipeline.adequacy.untested import untested
+from pipeline.answer.of_diagnosis import in_words
 from pipeline.attempt import Attempts
+from pipeline.callbacks import OnProgress
 from pipeline.campaign import Campaign, read
 from pipeline.command import usable
-from pipeline.diagnose.diagnosis import suitable
-from pipeline.diagnose.record import in_words
-from pipeline.diagnose.signatures import Say
+from pipeline.inference.estimated_sigmas import completed
 from pipeline.inference.fit import unfitted
+from pipeline.inference.load_cases import load_cases
 from pipeline.inference.model import Model
-from pipeline.inference.program import program
-from pipeline.inference.sigmas import completed
 from pipeline.inference.suitable import check_suitable, known_effects, scale_for, sized_model
 from pipeline.plan.isolability import matrix, visible
 from pipeline.plan.next import Worth, best_next
@@ -26,6 +24,8 @@ from pipeline.plan.record import Plan, plan_record
 from pipeline.plan.seen import seen
 from pipeline.plan.table import show
 from pipeline.progress import Progress
+from pipeline.selection.adequacy.untested import untested
+from pipeline.selection.diagnosis import suitable
 from vjm.effects.base import Effect
 from vjm.effects.sized import all_sized
 from vjm.work import at_most
@@ -35,7 +35,9 @@ WORK = 4000.0
 """Work (`vjm.work`) that the next test may take to be found."""
 
 
-def plan_of(campaign: Campaign, model: Model, known: Mapping[str, Effect], say: Say = lambda _: None) -> Plan:
+def plan_of(
+    campaign: Campaign, model: Model, known: Mapping[str, Effect], on_progress: OnProgress = lambda _: None
+) -> Plan:
     """What the tests of a campaign show about a model with large deflection added. InputError for effects that the
     campaign cannot have."""
     model, known = sized_model(model, campaign), all_sized(known, scale_for(campaign))
@@ -46,7 +48,7 @@ def plan_of(campaign: Campaign, model: Model, known: Mapping[str, Effect], say: 
     if LARGE in candidates:
         # Signatures depend on the loads as in reality, whether or not that was found to matter yet.
         model = model.with_effects([candidates.pop(LARGE)])
-    now = seen(whole, model, candidates, say)
+    now = seen(whole, model, candidates, on_progress)
     found = visible(now, candidates)
     names, alike = matrix(now)
     fitted = replace(whole, tests=tuple(t for t in whole.tests if t.role == "fit"))
@@ -54,12 +56,14 @@ def plan_of(campaign: Campaign, model: Model, known: Mapping[str, Effect], say: 
 
     def looked_for() -> Worth | None:
         with at_most(WORK):
-            return best_next(fitted, model, candidates, now, lambda text: say(f"the next test: {text}"))
+            return best_next(
+                fitted, model, candidates, now, lambda text: on_progress(f"the next test: {text}")
+            )
 
     worth = attempts.get("the next test", looked_for, None)
     words = None if worth is None else in_words(worth.choice)
     plan = plan_record(whole.name, found, names, alike, worth, words, unmeasured, refused)
-    nothing = "" if unmeasured else untested(unfitted(model, program(whole))) or ""
+    nothing = "" if unmeasured else untested(unfitted(model, load_cases(whole))) or ""
     return plan.model_copy(update={"untested": nothing, "not_done": tuple(attempts.failed)})
 
 

@@ -18,9 +18,9 @@ from numpy.typing import NDArray
 from scipy.optimize import brentq
 from scipy.stats import ncx2, norm
 
-from pipeline.diagnose.apart import multiple_correlation
-from pipeline.diagnose.merit import numbers
 from pipeline.plan.seen import Seen
+from pipeline.selection.confusability import multiple_correlation
+from pipeline.selection.cost import numbers
 from pipeline.selection.criteria import CRITERIA
 from vjm.effects.base import Effect, Parameter
 

@@ -7,15 +7,15 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from pipeline.callbacks import OnProgress
 from pipeline.campaign import Campaign
-from pipeline.diagnose.menu import Choice, menu
-from pipeline.diagnose.signatures import Say
+from pipeline.inference.load_cases import load_cases
 from pipeline.inference.model import Model
 from pipeline.inference.prediction import predict
-from pipeline.inference.program import program
 from pipeline.parameter_names import path_of
 from pipeline.plan.isolability import Visible, visible
 from pipeline.plan.seen import Seen, seen
+from pipeline.selection.possible_tests import Choice, menu
 from vjm.effects.base import Effect
 
 
@@ -35,13 +35,13 @@ def score(found: list[Visible]) -> float:
 
 
 def best_next(
-    campaign: Campaign, model: Model, candidates: Mapping[str, Effect], so_far: Seen, say: Say
+    campaign: Campaign, model: Model, candidates: Mapping[str, Effect], so_far: Seen, on_progress: OnProgress
 ) -> Worth | None:
     """The best of the menu; None if none adds anything."""
     choices = _borne(menu(campaign), campaign, model)
     if not choices:
         return None
-    offered = seen(replace(campaign, tests=tuple(c.test for c in choices)), model, candidates, say)
+    offered = seen(replace(campaign, tests=tuple(c.test for c in choices)), model, candidates, on_progress)
     now = visible(so_far, candidates)
     here = score(now)
     best: Worth | None = None
@@ -57,7 +57,7 @@ def _borne(choices: list[Choice], campaign: Campaign, model: Model) -> list[Choi
     """Those tests of which the model has an equilibrium at every step: of others nothing can be foretold."""
     if not choices:
         return []
-    cases = program(replace(campaign, tests=tuple(c.test for c in choices)))
+    cases = load_cases(replace(campaign, tests=tuple(c.test for c in choices)))
     lost = set(cases.test[predict(model, cases, slopes=False, order=0).lost].tolist())
     return [choice for number, choice in enumerate(choices) if number not in lost]
 

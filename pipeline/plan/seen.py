@@ -10,15 +10,16 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.linalg import block_diag
 
+from pipeline.callbacks import OnProgress
 from pipeline.campaign import Campaign
-from pipeline.diagnose.signatures import Say, look, probes, signatures
 from pipeline.inference.fit import Fit
+from pipeline.inference.load_cases import load_cases
 from pipeline.inference.model import Model
+from pipeline.inference.orthonormal_basis import basis
 from pipeline.inference.prediction import predict
-from pipeline.inference.program import program
 from pipeline.inference.residual import residual
-from pipeline.inference.span import basis
 from pipeline.selection.criteria import CRITERIA
+from pipeline.selection.signatures import look, probes, signatures
 from vjm.effects.base import Effect
 
 Array = NDArray[np.float64]
@@ -73,9 +74,9 @@ class Seen:
         }
 
 
-def seen(campaign: Campaign, model: Model, candidates: Mapping[str, Effect], say: Say) -> Seen:
+def seen(campaign: Campaign, model: Model, candidates: Mapping[str, Effect], on_progress: OnProgress) -> Seen:
     """By derivatives and probes about the model's prediction."""
-    cases = program(campaign)
+    cases = load_cases(campaign)
     # A saved number may stand at its bound, where an effect is absent and has no derivative.
     if model.free:
         model = model.at(np.clip(model.values, *np.array([each.bounds for each in model.free]).T))
@@ -84,8 +85,8 @@ def seen(campaign: Campaign, model: Model, candidates: Mapping[str, Effect], say
     found = Fit(model, there, replace(left, values=np.zeros_like(left.values)), 1)
     at = look(cases, CRITERIA.screened_steps)
     every = [effect for name, effect in candidates.items() if name not in model.names]
-    kinked = probes(model, list(candidates.values()), cases, CRITERIA.plain_probe, say)
-    signs = signatures(found, every, kinked, at, say)
+    kinked = probes(model, list(candidates.values()), cases, CRITERIA.plain_probe, on_progress)
+    signs = signatures(found, every, kinked, at, on_progress)
     used = cases.predicted & cases.fitted[:, None]
     mask = used[at.rows]
     tests = np.broadcast_to(cases.test[at.rows][:, None], mask.shape)[mask]

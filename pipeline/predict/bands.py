@@ -8,10 +8,10 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.stats import norm
 
-from pipeline.inference.nominals import lined, nominals
+from pipeline.inference.load_cases import LoadCases
+from pipeline.inference.nuisances import lined, nominals
 from pipeline.inference.predicted import Prediction
 from pipeline.inference.prediction import predict
-from pipeline.inference.program import Program
 from pipeline.predict.posterior import Posterior
 
 Array = NDArray[np.float64]
@@ -48,12 +48,12 @@ class Tangent:
     parameters. by_nominal: (R, C, K) by what was written, in its standard deviations."""
 
     posterior: Posterior
-    cases: Program
+    cases: LoadCases
     found: Prediction
     by_nominal: Array
 
     @classmethod
-    def of(cls, posterior: Posterior, cases: Program, near: Prediction | None = None) -> Tangent:
+    def of(cls, posterior: Posterior, cases: LoadCases, near: Prediction | None = None) -> Tangent:
         """Near: a prediction of a like model at the same rows."""
         found = predict(posterior.model, cases, start=near)
         return cls(posterior, cases, found, _by_nominal(posterior, cases, found))
@@ -88,7 +88,7 @@ class Tangent:
         )
 
 
-def _by_nominal(posterior: Posterior, cases: Program, found: Prediction) -> Array:
+def _by_nominal(posterior: Posterior, cases: LoadCases, found: Prediction) -> Array:
     """(R, C, K) in the order of the posterior's numbers; zero for those of sensors that these rows do not have."""
     out = np.zeros((*found.values.shape, len(posterior.numbers)))
     if not posterior.numbers:

@@ -13,11 +13,11 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from pipeline.adequacy.reading_errors import ReadingErrors
 from pipeline.campaign.names import channel_columns
 from pipeline.predict.posterior import Posterior
 from pipeline.predict.predicting import Fitted
 from pipeline.predict.record import Budget, Source
+from pipeline.selection.adequacy.reading_errors import ReadingErrors
 
 Array = NDArray[np.float64]
 Kind = Literal["sensor", "tolerance"]
@@ -66,7 +66,7 @@ def _sensors(it: Fitted, posterior: Posterior) -> dict[tuple[str, Kind], Array]:
     errors = ReadingErrors.of(found)
     place = np.full(residual.values.shape, -1)
     place[residual.rows[:, 0], residual.rows[:, 1]] = np.arange(len(residual.rows))
-    names = channel_columns(residual.program.campaign.gauges)
+    names = channel_columns(residual.load_cases.campaign.gauges)
     out: dict[tuple[str, Kind], Array] = {}
     for row in np.flatnonzero(errors.there.any(axis=1)):
         kept = np.flatnonzero(place[row] >= 0)

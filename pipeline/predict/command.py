@@ -9,6 +9,7 @@ from time import perf_counter
 
 from meshes.files import replacing
 from pipeline.add.command import starting_model
+from pipeline.callbacks import OnProgress
 from pipeline.campaign import Campaign, read
 from pipeline.command import usable
 from pipeline.errors import InputError
@@ -16,7 +17,7 @@ from pipeline.inference.model import Model
 from pipeline.inference.suitable import known_effects
 from pipeline.predict.asked import Asked, own_rows, read_table
 from pipeline.predict.files import compensation_table, readings_table
-from pipeline.predict.predicting import Say, fitted_to, predicted
+from pipeline.predict.predicting import fitted_to, predicted
 from pipeline.predict.record import Predictions
 from pipeline.predict.recording import recorded
 from pipeline.predict.table import show
@@ -55,13 +56,13 @@ def predict_readings(asking: Asking) -> Predictions:
 
 
 def predictions_of(
-    campaign: Campaign, model: Model, asked: Asked, seed: int = 0, say: Say = lambda _: None
+    campaign: Campaign, model: Model, asked: Asked, seed: int = 0, on_progress: OnProgress = lambda _: None
 ) -> Predictions:
     """The model fitted, then the readings that are asked for, with their sentences. seed: of the samples, where these
     are needed. InputError for an effect that the campaign cannot have."""
     begin = perf_counter()
-    fitted = fitted_to(campaign, model, say)
-    found = predicted(fitted, asked, seed, say)
+    fitted = fitted_to(campaign, model, on_progress)
+    found = predicted(fitted, asked, seed, on_progress)
     record = recorded(found, perf_counter() - begin, seed)
     remarks = (*about(found), *asked.remarks, *fitted.whole.remarks)
     return record.model_copy(update={"sentences": sentences(record, remarks, fitted.untested)})

@@ -24,7 +24,7 @@ from numpy.typing import NDArray
 
 from pipeline.inference.fit import Fit
 from pipeline.inference.model import Model
-from pipeline.inference.nominals import FARTHEST, Nominal, departed, nominals
+from pipeline.inference.nuisances import FARTHEST, Nominal, departed, nominals
 from pipeline.selection.criteria import CRITERIA
 
 Array = NDArray[np.float64]
@@ -50,7 +50,7 @@ class Posterior:
     def of(cls, found: Fit, factor: float = 1.0) -> Posterior:
         """About a best fit."""
         it = found.residual
-        numbers = nominals(it.program.campaign) if it.departure.size else ()
+        numbers = nominals(it.load_cases.campaign) if it.departure.size else ()
         at = it.estimate if numbers else np.zeros(0)
         model = departed(found.model, numbers, at) if numbers else found.model
         columns = [it.without_zeros(it.slopes) * _sizes(found.model)]

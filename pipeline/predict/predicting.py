@@ -2,36 +2,35 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy.stats import t
 
-from pipeline.adequacy.judgement import judge
-from pipeline.adequacy.untested import untested
+from pipeline.callbacks import OnProgress
 from pipeline.campaign import Campaign
 from pipeline.compare.error import Discrepancy
-from pipeline.diagnose.readings import AS_DECLARED, Readings
-from pipeline.inference.claims import trusted
+from pipeline.inference.declared_sigmas import trusted
+from pipeline.inference.estimated_sigmas import completed
 from pipeline.inference.fit import Fit, fit, unfitted
+from pipeline.inference.load_cases import LoadCases, load_cases
 from pipeline.inference.model import Model
-from pipeline.inference.parts import carried
 from pipeline.inference.prediction import predict
-from pipeline.inference.program import Program, program
-from pipeline.inference.sigmas import completed
 from pipeline.inference.solvers import far
+from pipeline.inference.subsets import carried
 from pipeline.inference.suitable import check_suitable, sized_model
 from pipeline.predict.asked import Asked, filled
 from pipeline.predict.bands import Bands, Tangent, Z
 from pipeline.predict.posterior import Posterior
 from pipeline.predict.sampling import bent, sampled
+from pipeline.selection.adequacy.judgement import judge
+from pipeline.selection.adequacy.untested import untested
 from pipeline.selection.criteria import CRITERIA
+from pipeline.selection.reading_noise import AS_DECLARED, Readings
 
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
-Say = Callable[[str], None]
 
 
 @dataclass(frozen=True, eq=False)
@@ -73,7 +72,7 @@ class Predicted:
     measured: Array
 
     @property
-    def cases(self) -> Program:
+    def cases(self) -> LoadCases:
         """The rows, with the noise that counts."""
         return self.tangent.cases
 
@@ -88,19 +87,19 @@ class Predicted:
         return np.asarray(self.wanted & np.isfinite(self.measured) & ~self.bands.lost[:, None])
 
 
-def fitted_to(campaign: Campaign, model: Model, say: Say = lambda _: None) -> Fitted:
+def fitted_to(campaign: Campaign, model: Model, on_progress: OnProgress = lambda _: None) -> Fitted:
     """The model at its best fit. InputError for an effect that the campaign cannot have."""
     model = sized_model(model, campaign)
     check_suitable([term.effect for term in model.terms], campaign)
     whole = trusted(completed(campaign), model)
-    say("the fit")
-    cases = program(whole)
+    on_progress("the fit")
+    cases = load_cases(whole)
     there = bool((cases.predicted & cases.fitted[:, None]).any())
     found = fit(model, cases, None, None, CRITERIA.plausible) if there else unfitted(model, cases)
-    say("the noise of the sensors")
+    on_progress("the noise of the sensors")
     readings = AS_DECLARED.again(found, cases, CRITERIA) if there else AS_DECLARED
     if not readings.plain:
-        rest = program(readings.applied(whole))
+        rest = load_cases(readings.applied(whole))
         start = carried(found.prediction, rest, cases)
         found = fit(found.model, rest, start, None, CRITERIA.plausible)
     return fitted_as(found, whole, readings)
@@ -116,24 +115,24 @@ def fitted_as(found: Fit, whole: Campaign, readings: Readings = AS_DECLARED) -> 
     return Fitted(whole, found, readings, factor, judged.noise, "")
 
 
-def predicted(it: Fitted, asked: Asked, seed: int = 0, say: Say = lambda _: None) -> Predicted:
+def predicted(it: Fitted, asked: Asked, seed: int = 0, on_progress: OnProgress = lambda _: None) -> Predicted:
     """The readings that are asked for. seed: of the samples, where these are needed."""
     posterior = Posterior.of(it.fit, it.factor)
     noise = it.whole.noise.times(it.sigmas)
     campaign = replace(it.whole, tests=asked.tests, noise=noise)
-    cases = program(campaign)
+    cases = load_cases(campaign)
     measured = np.where(_outputs(cases), cases.measured, np.nan)
     if not asked.own:
         # What a sensor of each column would read: its gain and its share of the reading count.
         first = predict(posterior.model, cases, slopes=False)
-        cases = program(replace(campaign, tests=filled(asked.tests, first.values)))
+        cases = load_cases(replace(campaign, tests=filled(asked.tests, first.values)))
     wanted = np.isfinite(measured) if asked.own else _outputs(cases)
-    say("intervals")
+    on_progress("intervals")
     tangent = Tangent.of(posterior, cases)
     off = far(it.fit.chi_square, it.fit.whitened.size)
     # Intervals of a model that is far off are as wide as what it leaves; where they end exactly says nothing.
     turned = np.zeros(len(asked.tests), dtype=bool) if off else bent(tangent, wanted, seed)
-    bands = sampled(tangent, turned, seed, say)
+    bands = sampled(tangent, turned, seed, on_progress)
     return Predicted(it, tangent, asked, bands, wanted, _less_zeros(tangent, measured))
 
 
@@ -149,7 +148,7 @@ def _less_zeros(at: Tangent, measured: Array) -> Array:
     return np.where(kept, at.found.values + left, measured)
 
 
-def _outputs(cases: Program) -> Mask:
+def _outputs(cases: LoadCases) -> Mask:
     """(R, C) channels that are not prescribed; what a support holds does not move."""
     out = np.ones(cases.measured.shape, dtype=bool)
     np.put_along_axis(out, cases.channels, False, axis=1)

@@ -13,15 +13,16 @@ would be too near.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy.special import ndtr
 
+from pipeline.callbacks import OnProgress
+from pipeline.inference.load_cases import LoadCases
 from pipeline.inference.prediction import predict
-from pipeline.inference.program import Program
 from pipeline.predict.bands import Bands, Tangent
 
 Array = NDArray[np.float64]
@@ -39,7 +40,6 @@ HALVINGS = 40
 KERNEL = 1.06
 """Width of a sample, in standard deviations, times S^0.2: Silverman's for a normal law (Density Estimation, 1986,
 section 3.4.2)."""
-Say = Callable[[str], None]
 
 
 def bent(at: Tangent, wanted: Mask, seed: int) -> Mask:
@@ -72,14 +72,16 @@ def bent(at: Tangent, wanted: Mask, seed: int) -> Mask:
     return out
 
 
-def sampled(at: Tangent, tests: Mask, seed: int, say: Say = lambda _: None, count: int = SAMPLES) -> Bands:
+def sampled(
+    at: Tangent, tests: Mask, seed: int, on_progress: OnProgress = lambda _: None, count: int = SAMPLES
+) -> Bands:
     """Intervals from the tangent, and by so many samples in these histories (tests,)."""
     rows = np.flatnonzero(tests[at.cases.test])
     linear = at.bands()
     if not rows.size:
         return linear
     cases = at.cases.only(rows)
-    alone, whole = _samples(at, cases, seed, say, count)
+    alone, whole = _samples(at, cases, seed, on_progress, count)
     spread = np.nan_to_num(at.spread)[rows]
     ends = quantiles(whole, spread, LEVELS)
     model, inputs = np.nanvar(alone, axis=0), np.nanvar(whole, axis=0)
@@ -96,7 +98,9 @@ def sampled(at: Tangent, tests: Mask, seed: int, say: Say = lambda _: None, coun
     return out
 
 
-def _samples(at: Tangent, cases: Program, seed: int, say: Say, count: int) -> tuple[Array, Array]:
+def _samples(
+    at: Tangent, cases: LoadCases, seed: int, on_progress: OnProgress, count: int
+) -> tuple[Array, Array]:
     """(S / 3, R, C) readings at what was prescribed, and (S, R, C) at inputs that were drawn, of some histories; where
     a draw has no state, what the tangent says of the fit."""
     it, generator = at.posterior, np.random.default_rng([seed, 2])
@@ -105,7 +109,7 @@ def _samples(at: Tangent, cases: Program, seed: int, say: Say, count: int) -> tu
     alone: list[Array] = []
     whole: list[Array] = []
     for number, (own, departure) in enumerate(zip(values, departures, strict=True)):
-        say(f"sample {number + 1} of {count}")
+        on_progress(f"sample {number + 1} of {count}")
         model = it.model_at(own, departure)
         shift = generator.standard_normal(cases.input_sigma.shape) * cases.input_sigma
         for kept, by in ((whole, shift), *([(alone, None)] if number % EACH == 0 else [])):

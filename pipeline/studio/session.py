@@ -8,7 +8,7 @@ from tempfile import TemporaryDirectory
 from typing import Any
 
 from meshes.files import replacing
-from pipeline.answer import Answer
+from pipeline.answer.record import Answer
 from pipeline.campaign.reading import DESCRIPTION, MEASUREMENTS
 from pipeline.errors import InputError
 from pipeline.inference.model_file import NAME

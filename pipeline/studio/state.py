@@ -6,13 +6,13 @@ from base64 import b64encode
 from pathlib import Path
 from typing import Any
 
+from pipeline.answer.law import LawFound
+from pipeline.answer.value import Value
 from pipeline.campaign.reading import DESCRIPTION
-from pipeline.law_record import LawFound
 from pipeline.page.record import Page, RivalPage, TestPage
 from pipeline.parameter_names import parted
 from pipeline.studio.planning import planning
 from pipeline.studio.session import Session
-from pipeline.value import Value
 from reports import bars
 from reports.campaign import tables, words
 from reports.campaign.doubt import mistakes

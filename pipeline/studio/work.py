@@ -2,18 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Literal
 
 from pipeline.add.command import starting_model
 from pipeline.add.fitting import Added, add
-from pipeline.answer import Answer
+from pipeline.answer.record import Answer
+from pipeline.answer.wording.diagnosis import answered
+from pipeline.callbacks import OnProgress
 from pipeline.campaign import read
 from pipeline.campaign.reading import DESCRIPTION
-from pipeline.diagnose.diagnosis import diagnose
-from pipeline.diagnose.words import answered
 from pipeline.discover.beyond_catalogue import with_laws
 from pipeline.inference.model_file import NAME, ModelFile, Uncertainty, model_text
 from pipeline.inference.model_reading import read_model_file
@@ -28,10 +27,10 @@ from pipeline.page.rivals import possible
 from pipeline.plan.command import plan_of
 from pipeline.plan.record import Plan
 from pipeline.provenance import commit, versions
+from pipeline.selection.diagnosis import diagnose
 from pipeline.studio.preview import Preview, preview_of
 from pipeline.typed import command
 
-Say = Callable[[str], None]
 Kind = Literal["open", "add", "remove", "diagnose", "plan", "export", "look", "preview"]
 
 
@@ -88,9 +87,9 @@ class Done:
     preview: Preview | None = None
 
 
-def do(task: Task, say: Say) -> Done:
+def do(task: Task, on_progress: OnProgress) -> Done:
     """The task. InputError for bad input, RuntimeError where the numerics failed."""
-    say("reading")
+    on_progress("reading")
     if task.kind == "export":
         return _exported(task)
     if task.kind in ("look", "preview"):
@@ -107,44 +106,49 @@ def do(task: Task, say: Say) -> Done:
     told = dict(read_model_file(saved, known).uncertainty) if saved.exists() else {}
     subject = Subject(campaign, model, known, told)
     if task.kind == "diagnose":
-        return _diagnosed(task, subject, say)
+        return _diagnosed(task, subject, on_progress)
     if task.kind == "plan":
-        return Done("plan", plan=plan_of(campaign, model, known.effects, say))
-    return _model(task, subject, say)
+        return Done("plan", plan=plan_of(campaign, model, known.effects, on_progress))
+    return _model(task, subject, on_progress)
 
 
-def _model(task: Task, subject: Subject, say: Say) -> Done:
+def _model(task: Task, subject: Subject, on_progress: OnProgress) -> Done:
     """The model as it is, or with effects more or fewer."""
     campaign, model, known = subject.campaign, subject.model, subject.known
     if task.kind == "add":
         return _changed(
-            task, add(campaign, model, named_effects(task.effects, known.effects), say), subject, say
+            task,
+            add(campaign, model, named_effects(task.effects, known.effects), on_progress),
+            subject,
+            on_progress,
         )
     if task.kind == "remove":
         rest = model
         for name in task.effects:
             rest = rest.without(name)
         if rest.terms:
-            return _changed(task, add(campaign, rest, [], say), subject, say)
+            return _changed(task, add(campaign, rest, [], on_progress), subject, on_progress)
         subject = replace(subject, model=rest, uncertainty={})
-    return _shown(task, subject, say)
+    return _shown(task, subject, on_progress)
 
 
-def _diagnosed(task: Task, subject: Subject, say: Say) -> Done:
+def _diagnosed(task: Task, subject: Subject, on_progress: OnProgress) -> Done:
     """The answer, and every set that it leaves possible drawn as the model would be with it."""
-    found = with_laws(diagnose(subject.campaign, subject.model, subject.known.effects, say), say)
-    sets = possible(found, answered(found), say)
+    found = with_laws(
+        diagnose(subject.campaign, subject.model, subject.known.effects, on_progress), on_progress
+    )
+    sets = possible(found, answered(found), on_progress)
     seen = of_diagnosis(subject, found, sets)
     shown = [replace(seen, answer=each.answer, fitted=each.model) for each in sets]
     return Done(
         "diagnose",
         answer=sets[0].answer,
         isolability=seen.isolability,
-        proposals=tuple(_proposal(task, it, say) for it in shown),
+        proposals=tuple(_proposal(task, it, on_progress) for it in shown),
     )
 
 
-def _proposal(task: Task, it: Subject, say: Say) -> Proposal:
+def _proposal(task: Task, it: Subject, on_progress: OnProgress) -> Proposal:
     """The model with the set of an answer."""
     answer, model = it.answer, shown_model(it)
     assert answer is not None
@@ -154,22 +158,22 @@ def _proposal(task: Task, it: Subject, say: Say) -> Proposal:
         if value.interval != "fixed"
     }
     file = ModelFile(model, told, it.known.files_of(model.names), it.campaign.name, commit(), versions())
-    page = collect(it, (), say)
+    page = collect(it, (), on_progress)
     return Proposal(page, model_text(file, task.at), model_text(file, task.folder), answer)
 
 
-def _changed(task: Task, found: Added, subject: Subject, say: Say) -> Done:
-    return _shown(task, replace(subject, model=found.model, uncertainty=found.uncertainty), say)
+def _changed(task: Task, found: Added, subject: Subject, on_progress: OnProgress) -> Done:
+    return _shown(task, replace(subject, model=found.model, uncertainty=found.uncertainty), on_progress)
 
 
-def _shown(task: Task, it: Subject, say: Say) -> Done:
+def _shown(task: Task, it: Subject, on_progress: OnProgress) -> Done:
     files = it.known.files_of(it.model.names)
     file = ModelFile(it.model, it.uncertainty, files, it.campaign.name, commit(), versions())
     return Done(
         task.kind,
         model_text(file, task.at),
         model_text(file, task.folder),
-        collect(it, (), say),
+        collect(it, (), on_progress),
         names=tuple((effect.name, effect.title) for effect in it.known.effects.values()),
     )
 

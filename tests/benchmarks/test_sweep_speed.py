@@ -9,10 +9,10 @@ from pathlib import Path
 
 import pytest
 
-from pipeline.executors import executor
 from pipeline.manipulator.description import read
 from pipeline.manipulator.grid import Grid
 from pipeline.manipulator.sweep import RESULT, sweep
+from pipeline.pools import pool
 
 pytestmark = pytest.mark.long
 
@@ -27,8 +27,8 @@ def busy() -> bool:
 def seconds(folder: Path, workers: int) -> float:
     """Of one sweep into an empty folder, the start of the workers included."""
     start = time.perf_counter()
-    with executor(workers) as (pool, count):
-        sweep(read("orthoglide"), GRID, folder, pool, count)
+    with pool(workers) as computed:
+        sweep(read("orthoglide"), GRID, folder, computed)
     return time.perf_counter() - start
 
 

@@ -13,11 +13,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from pipeline.answer.wording.diagnosis import answered
 from pipeline.campaign import Campaign, Rig, RigOfBars, Test, read
-from pipeline.diagnose.diagnosis import Diagnosis, diagnose
-from pipeline.diagnose.words import answered
 from pipeline.inference.model import Model
-from tests.pipeline.diagnose.bench import bench
+from pipeline.selection.diagnosis import Diagnosis, diagnose
+from tests.pipeline.selection.bench import bench
 from vjm.effects import catalogue
 
 DATA = Path(__file__).parent / "data"
@@ -121,11 +121,11 @@ def test_a_shifted_channel_is_first_a_zero(channel: int) -> None:
     ],
 )
 def test_a_larger_set_never_leaves_more_than_one_that_it_contains(name: str) -> None:
-    shelf = found(read(DATA / name)).shelf
+    fits = found(read(DATA / name)).fits
     pairs = 0
-    for small, one in shelf.fits.items():
-        for large, other in shelf.fits.items():
-            if small < large and all(shelf.candidates[n].parameters for n in large - small):
+    for small, one in fits.fits.items():
+        for large, other in fits.fits.items():
+            if small < large and all(fits.candidates[n].parameters for n in large - small):
                 pairs += 1
                 assert other.order <= (one.lost, one.chi_square * (1.0 + 1e-9) + 1e-9), (small, large)
     assert pairs > 2

@@ -21,9 +21,9 @@ from fem.beam import uniform_stiffness
 from pipeline.campaign import read
 from pipeline.campaign.rigs.bars import RigOfBars
 from pipeline.inference.frame_prediction import predict_frame
+from pipeline.inference.load_cases import load_cases
 from pipeline.inference.model import Model
 from pipeline.inference.prediction import predict
-from pipeline.inference.program import program
 from vjm.effects import catalogue
 from vjm.equilibrium import equilibrium
 from vjm.mechanisms.bar import Bar
@@ -121,7 +121,7 @@ def test_the_case_loses_its_rows_where_the_strip_buckles() -> None:
     up to 420 N was computed, and both say why they do not follow it."""
     campaign = read(DATA)
     assert isinstance(campaign.rig, RigOfBars)
-    cases = program(campaign)
+    cases = load_cases(campaign)
     nonlinear = Model().with_effects([catalogue()["bar_geometric_nonlinearity"]])
     found = predict(nonlinear, cases)
     frame = predict_frame(cases, lambda: found)

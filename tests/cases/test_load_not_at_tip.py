@@ -14,19 +14,19 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_bvp
 
+from pipeline.answer.wording.diagnosis import answered
 from pipeline.campaign import BadCampaign, Campaign, read, write
 from pipeline.campaign.gauge import Gauge
 from pipeline.campaign.rigs.bar import BarRig
 from pipeline.campaign.rigs.bars import UniformBar
 from pipeline.compare.models import compare_models
-from pipeline.diagnose.diagnosis import diagnose
-from pipeline.diagnose.words import answered
 from pipeline.export.source import Sources, exported
 from pipeline.inference.frame_prediction import predict_frame
+from pipeline.inference.load_cases import load_cases
 from pipeline.inference.model import Model
 from pipeline.inference.prediction import predict
-from pipeline.inference.program import program
 from pipeline.inference.suitable import known_effects
+from pipeline.selection.diagnosis import diagnose
 from vjm.effects import catalogue
 from vjm.equilibrium import equilibrium
 
@@ -117,7 +117,7 @@ def test_readings_at_the_tip_have_their_slopes() -> None:
     campaign = read(DATA)
     effect = catalogue()["base_compliance"]
     model = Model().with_effects([catalogue()["bar_geometric_nonlinearity"], effect])
-    cases = program(campaign)
+    cases = load_cases(campaign)
     found = predict(model, cases)
     step = np.zeros((len(cases.test), 7))
     step[:, 2] = 1e-4
@@ -132,7 +132,7 @@ def test_readings_at_the_tip_have_their_slopes() -> None:
 def test_finite_elements_read_the_same(tmp_path: Path) -> None:
     """An independent code: forces along y and z at two points of one bar, dials before and beyond them."""
     campaign = _two_points(tmp_path)
-    cases = program(campaign)
+    cases = load_cases(campaign)
     springs = predict(Model().with_effects([catalogue()["bar_geometric_nonlinearity"]]), cases)
     frame = predict_frame(cases, lambda: springs)
     assert not frame.lost.any()

@@ -16,17 +16,17 @@ import pytest
 
 from pipeline.add.command import add_effects, starting_model
 from pipeline.add.fitting import add
-from pipeline.answer import Answer
+from pipeline.answer.record import Answer
+from pipeline.answer.wording.diagnosis import answered
 from pipeline.campaign import read
 from pipeline.compare.models import compare_models
 from pipeline.compare.table import sentence
-from pipeline.diagnose.diagnosis import diagnose
-from pipeline.diagnose.words import answered
 from pipeline.inference.model import Model
 from pipeline.inference.model_file import NAME
 from pipeline.inference.suitable import known_effects
 from pipeline.plan.command import plan_of
 from pipeline.plan.record import Plan
+from pipeline.selection.diagnosis import diagnose
 from vjm.effects import catalogue
 
 DATA = Path(__file__).parent / "data"

@@ -35,11 +35,11 @@ PAGES = {
 }
 SCHEMAS = {**TABLES, **ANSWERS}
 RECORDS = (
-    "pipeline.answer",
+    "pipeline.answer.record",
     "pipeline.compare.record",
     "pipeline.discover.record",
-    "pipeline.law_record",
-    "pipeline.value",
+    "pipeline.answer.law",
+    "pipeline.answer.value",
     "pipeline.plan.record",
     "pipeline.predict.record",
     "pipeline.manipulator.table_record",

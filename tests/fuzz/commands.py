@@ -15,11 +15,10 @@ import numpy as np
 
 from pipeline.add.command import starting_model
 from pipeline.add.fitting import add
-from pipeline.answer import Answer, Verdict
+from pipeline.answer.record import Answer, Verdict
+from pipeline.answer.wording.diagnosis import answered
 from pipeline.campaign import Campaign, read
 from pipeline.compare.models import compare_models
-from pipeline.diagnose.diagnosis import Diagnosis, diagnose
-from pipeline.diagnose.words import answered
 from pipeline.errors import InputError
 from pipeline.improve.steps import steps
 from pipeline.inference.model import Model
@@ -29,6 +28,7 @@ from pipeline.predict.asked import own_rows
 from pipeline.predict.predicting import fitted_to, predicted
 from pipeline.predict.recording import recorded
 from pipeline.record import Record
+from pipeline.selection.diagnosis import Diagnosis, diagnose
 from tests.fuzz.tables import Files
 
 LIMIT = 60.0

@@ -2,10 +2,10 @@
 
 from functools import cache
 
+from pipeline.assessment.virtual.bench import measure
+from pipeline.assessment.virtual.plan import GAUGES, SENSORS, bench_plan
 from pipeline.campaign import Campaign
 from pipeline.simulate import bench_rig
-from pipeline.virtual.bench import measure
-from pipeline.virtual.plan import GAUGES, SENSORS, bench_plan
 
 IDS = ("axial_held_q+0", "lateral_q+0", "swing_q+0", "axial_held_q+30", "swing_q+30", "axial_held_q+15")
 

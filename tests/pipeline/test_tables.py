@@ -11,15 +11,16 @@ from hypothesis import strategies as st
 from rich.cells import cell_len
 from rich.console import Console, RenderableType
 
-from pipeline.add.headline import headline
-from pipeline.add.table import show as show_added
-from pipeline.answer import Answer, Candidate, ModelError, TestChange, TestNoise
+from pipeline.answer.record import Answer, Candidate, ModelError, TestChange, TestNoise
+from pipeline.answer.tables.added import show as show_added
+from pipeline.answer.tables.diagnosis import show as show_diagnosis
+from pipeline.answer.tables.headline import headline
+from pipeline.answer.value import Value
 from pipeline.compare.record import ChannelError, Comparison
 from pipeline.compare.record import ModelError as Compared
 from pipeline.compare.record import TestError as ComparedTest
 from pipeline.compare.table import headline as compare_headline
 from pipeline.compare.table import page
-from pipeline.diagnose.table import show as show_diagnosis
 from pipeline.effects_page import page as effect_page
 from pipeline.effects_page import table as effect_table
 from pipeline.manipulator.table import table_1
@@ -29,7 +30,6 @@ from pipeline.plan.record import Plan, Size
 from pipeline.plan.table import headline as plan_headline
 from pipeline.plan.table import show as show_plan
 from pipeline.terminal import WIDEST, WIDTH, blocks, folded, terminal
-from pipeline.value import Value
 from vjm.effects import catalogue
 
 SCRIPTS = "abcXYZ019_.+-/ äßéжЖ漢字測試かなカナ한글😀🔧שלוםمرحبا[]{}"

@@ -23,9 +23,9 @@ from pipeline.plan.command import plan_campaign
 from pipeline.plan.table import following
 from tests.conftest import ROOT
 from tests.pipeline.bench import bench
-from tests.pipeline.diagnose.bench import AXIAL
-from tests.pipeline.diagnose.bench import bench as small_bench
 from tests.pipeline.inference import manipulators
+from tests.pipeline.selection.bench import AXIAL
+from tests.pipeline.selection.bench import bench as small_bench
 from tests.reports.browser import NEEDS_BROWSER, browser, thread_seconds
 from tests.studio.ahead import unmeasured
 from tests.studio.seen import EMPTY_AT_MOST, FIRST_PAGE, VERDICT, empty_share, shows, worked

@@ -16,7 +16,7 @@ def test_the_studio_imports_no_numerical_library() -> None:
     asked = {
         name for name in found if name.startswith(("pipeline.add", "pipeline.diagnose", "pipeline.inference"))
     }
-    assert {"pipeline.add.fitting", "pipeline.diagnose.diagnosis"} <= asked
+    assert {"pipeline.add.fitting", "pipeline.selection.diagnosis"} <= asked
     assert not [
         name for name in asked if name.split(".")[-1] in ("fit", "prediction", "residual", "intervals")
     ]

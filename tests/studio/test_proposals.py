@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from pipeline.add.fitting import add
-from pipeline.answer import Answer
+from pipeline.answer.record import Answer
 from pipeline.campaign import read, write
 from pipeline.errors import InputError
 from pipeline.inference.model import Model

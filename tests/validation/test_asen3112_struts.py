@@ -14,11 +14,11 @@ import pandas as pd
 import pytest
 
 from pipeline.campaign import BarRig, Campaign, Data, Gauge, Noise, Test, UniformBar
-from pipeline.diagnose.diagnosis import diagnose
 from pipeline.inference.fit import Fit
+from pipeline.inference.load_cases import load_cases
 from pipeline.inference.model import Model, Term
-from pipeline.inference.program import program
-from pipeline.inference.starts import best_fit
+from pipeline.inference.multistart import best_fit
+from pipeline.selection.diagnosis import diagnose
 from vjm.effects import catalogue
 
 DATA = Path(__file__).resolve().parents[3] / "shared" / "data" / "struts.csv"
@@ -61,18 +61,18 @@ def nearly_straight() -> Fit:
     """A bow of a micrometre."""
     effects = [Term(EFFECTS[LARGE], {}), Term(EFFECTS[BOW], {"bow_y_mm": 0.0, "bow_z_mm": 1e-3})]
     return best_fit(
-        Model(tuple(effects), frozenset({*FIXED, f"{BOW}.bow_z_mm"})), program(campaign("thin_bar_1"))
+        Model(tuple(effects), frozenset({*FIXED, f"{BOW}.bow_z_mm"})), load_cases(campaign("thin_bar_1"))
     )
 
 
 def fitted(strut: str, *names: str) -> Fit:
     model = Model(fixed=FIXED).with_effects([EFFECTS[name] for name in names])
-    return best_fit(model, program(campaign(strut)), names)
+    return best_fit(model, load_cases(campaign(strut)), names)
 
 
 def pounds(found: Fit) -> float:
     """Root mean square error of the load."""
-    cases = found.residual.program
+    cases = found.residual.load_cases
     return float(np.sqrt(np.mean((found.prediction.values - cases.measured)[:, 6] ** 2)) / POUND)
 
 
@@ -106,7 +106,7 @@ def test_without_a_hint_the_bowed_strut_has_a_bow() -> None:
     assert all(LARGE in names for names in found.sets)
     assert any(STIFF in names for names in bowed)
     assert [names for names in found.sets if names not in bowed] in ([], [(LARGE, TILT)])
-    twist = found.shelf.fit(frozenset({LARGE, TILT})).model.values[0]
+    twist = found.cache.fit(frozenset({LARGE, TILT})).model.values[0]
     assert abs(twist) == pytest.approx(np.radians(3.4), rel=0.05)
 
 

@@ -11,11 +11,11 @@ import numpy as np
 import pytest
 
 from pipeline.campaign import BarRig, Campaign, Data, Noise, Test, UniformBar
-from pipeline.diagnose.diagnosis import diagnose
+from pipeline.inference.load_cases import load_cases
 from pipeline.inference.model import Model, Term
+from pipeline.inference.multistart import best_fit
 from pipeline.inference.prediction import predict
-from pipeline.inference.program import program
-from pipeline.inference.starts import best_fit
+from pipeline.selection.diagnosis import diagnose
 from vjm.effects import catalogue
 
 FORCE = np.array([0.0, 0.098, 0.196, 0.294, 0.392, 0.490, 0.588])
@@ -45,7 +45,7 @@ def campaign() -> Campaign:
     return Campaign("ruler", rig, noise, (), (Test("tip", 0.0, "fit", ("force",) * 6, "nominal", rig, data),))
 
 
-CASES = program(campaign())
+CASES = load_cases(campaign())
 
 
 def model(*names: str) -> Model:

@@ -16,6 +16,9 @@ from vjm.effects.base import Effect
 from vjm.effects.checkout_names import ABOVE, install
 from vjm.effects.sensor_fault import SensorFault
 
+USERS = "user_effects_"
+"""Begins the names of the modules that users' own files become."""
+
 
 def catalogue() -> dict[str, Effect]:
     """All effects of this package by name, in alphabetical order."""
@@ -62,7 +65,7 @@ def from_file(path: Path) -> dict[str, Effect]:
 
     ValueError if the file cannot be run or defines none.
     """
-    spec = importlib.util.spec_from_file_location(f"user_effects_{path.stem}", path)
+    spec = importlib.util.spec_from_file_location(f"{USERS}{path.stem}", path)
     if spec is None or spec.loader is None:
         raise ValueError(f"{path}: not a Python file")
     module = importlib.util.module_from_spec(spec)

@@ -23,7 +23,7 @@ class Sources:
     raw: Raw
     gauges: Sequence[str]
     checked: Callable[[type, Raw, tuple[str | int, ...], str], Any]
-    say: Callable[[tuple[str | int, ...], str, str], None]
+    complain: Callable[[tuple[str | int, ...], str, str], None]
 
     def found(self) -> tuple[Source, ...]:
         """The sources; none where nothing is declared."""
@@ -34,7 +34,7 @@ class Sources:
         taken = [name for name in self.gauges if name in RESERVED]
         for name in taken:
             said = f"a gauge named {name} cannot be told from that in [columns], allowed is another name"
-            self.say(("gauges",), said, "gauges")
+            self.complain(("gauges",), said, "gauges")
         names = [str(test.get("id", k)) for k, test in enumerate(tests)]
         elsewhere = tuple(name for name, mine in zip(names, own, strict=True) if mine)
         rest = tuple(name for name in names if name not in elsewhere)
@@ -49,7 +49,7 @@ class Sources:
             path = ("tests", k)
             if "path" not in _table(test, "file"):
                 said = "has no path, a test with a file or columns of its own needs it"
-                self.say((*path, "file"), said, f"test {shown(name)}, file")
+                self.complain((*path, "file"), said, f"test {shown(name)}, file")
             file = {**_table(self.raw, "file"), **_table(test, "file")}
             columns = {**_table(self.raw, "columns"), **_table(test, "columns")}
             out.append(self._source(path, file, columns, (name,), None))
@@ -76,7 +76,7 @@ class Sources:
                 continue
             found = mistakes(name, it, known)
             for said in found:
-                self.say((*path, "columns", name), said, where)
+                self.complain((*path, "columns", name), said, where)
             # The rest of the table can be looked at without it.
             tables[name] = ColumnTable.model_validate({"is": "ignore"}) if found else it
             whole = whole and not found

@@ -1,14 +1,14 @@
 """The solid's load paths, each in a process of its own: none needs another."""
 
 from collections.abc import Sequence
-from concurrent.futures import as_completed
+from functools import partial
 from os import cpu_count
 from pathlib import Path
 from typing import Any
 
 from fem.material import Isotropic
 from meshes.bar import Bar
-from pipeline.executors import executor
+from pipeline.pools import pool
 from pipeline.progress import Progress, Stage
 from pipeline.validation.case import Case
 from pipeline.validation.detail import Detail
@@ -49,12 +49,17 @@ def solid_study(case: Case, s: Specimen, stage: Stage) -> Refinement:
 
 
 def _each(stage: Stage, call: Any, arguments: Sequence[tuple[Any, ...]]) -> list[Any]:
-    with executor(min(cpu_count() or 1, len(arguments), MOST)) as (pool, _):
-        futures = [pool.submit(call, *each) for each in arguments]
-        for done, future in enumerate(as_completed(futures), 1):
-            future.result()
-            stage.say(f"{done} of {len(futures)}")
-        return [future.result() for future in futures]
+    calls = (partial(_numbered, k, call, each) for k, each in enumerate(arguments))
+    found: dict[int, Any] = {}
+    with pool(min(cpu_count() or 1, len(arguments), MOST)) as computed:
+        for number, result in computed(calls):
+            found[number] = result
+            stage.say(f"{len(found)} of {len(arguments)}")
+    return [found[k] for k in range(len(arguments))]
+
+
+def _numbered(number: int, call: Any, arguments: tuple[Any, ...]) -> tuple[int, Any]:
+    return number, call(*arguments)
 
 
 def _parts(s: Specimen) -> Parts:

@@ -12,8 +12,8 @@ import pytest
 from rich.console import Console
 
 from pipeline.add.fitting import Added, add
-from pipeline.add.table import bar, show
-from pipeline.answer import Answer
+from pipeline.answer.record import Answer
+from pipeline.answer.tables.added import bar, show
 from pipeline.campaign import Campaign
 from pipeline.errors import InputError
 from pipeline.inference.model import Model

@@ -6,14 +6,14 @@ import pytest
 from pipeline.campaign.names import DISPLACEMENTS, WRENCHES
 from pipeline.compare.error import Discrepancy
 from pipeline.compare.failure import findings, groups
+from pipeline.compare.misfit import Series, misfit
 from pipeline.compare.record import Finding
 from pipeline.compare.sentence import Look, sentence
-from pipeline.inference.program import program
-from pipeline.misfit import Series, misfit
+from pipeline.inference.load_cases import load_cases
 from tests.pipeline.bench import bench
 from tests.pipeline.compare.test_error import planted
 
-CASES = program(bench(steps=24))
+CASES = load_cases(bench(steps=24))
 NAMES = [name.rpartition("_")[0] for name in (*DISPLACEMENTS, *WRENCHES)] + ["mid"]
 
 

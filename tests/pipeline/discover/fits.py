@@ -4,13 +4,13 @@ from dataclasses import replace
 from functools import cache
 
 from pipeline.campaign import Campaign
-from pipeline.diagnose.diagnosis import suitable
 from pipeline.discover.locating import Map, mapped
 from pipeline.discover.search import Discovery, discover
 from pipeline.inference.fit import Fit, unfitted
+from pipeline.inference.load_cases import LoadCases, load_cases
 from pipeline.inference.model import Model
-from pipeline.inference.program import Program, program
 from pipeline.inference.suitable import scale_for
+from pipeline.selection.diagnosis import suitable
 from tests.pipeline.bench import bench
 from vjm.effects import catalogue
 from vjm.effects.base import Effect
@@ -19,9 +19,9 @@ from vjm.effects.sized import all_sized
 GEOMETRY = catalogue()["bar_geometric_nonlinearity"]
 
 
-def fitted_tests(campaign: Campaign) -> Program:
-    """The program of the tests that may be fitted."""
-    return program(replace(campaign, tests=tuple(t for t in campaign.tests if t.role == "fit")))
+def fitted_tests(campaign: Campaign) -> LoadCases:
+    """The load cases of the tests that may be fitted."""
+    return load_cases(replace(campaign, tests=tuple(t for t in campaign.tests if t.role == "fit")))
 
 
 def effects_for(campaign: Campaign) -> dict[str, Effect]:

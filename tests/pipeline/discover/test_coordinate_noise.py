@@ -16,7 +16,7 @@ DRAWS = 6
 def test_of_one_input_that_one_reading_tells_of() -> None:
     """1/s² = 1/s_x² + J²/s_y² summed over the readings, in every direction that is looked along."""
     found = fit_of()
-    cases, there = found.residual.program, found.prediction
+    cases, there = found.residual.load_cases, found.prediction
     root = input_roots(found)[0]
     seen = np.flatnonzero(cases.input_sigma[0] > 0.0)
     slopes = np.where(cases.predicted[0, :, None], there.by_inputs[0], 0.0)[:, seen]
@@ -29,7 +29,7 @@ def test_of_one_input_that_one_reading_tells_of() -> None:
 
 def test_coordinates_scatter_as_the_inputs_that_the_readings_allow() -> None:
     found = fit_of()
-    cases, here = found.residual.program, found.prediction
+    cases, here = found.residual.load_cases, found.prediction
     roots, generator = input_roots(found), np.random.default_rng(3)
     every = elements(found)
     off = np.zeros((DRAWS, len(every), cases.test.size))

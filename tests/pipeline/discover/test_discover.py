@@ -6,8 +6,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from pipeline.diagnose.diagnosis import Diagnosis, diagnose
-from pipeline.diagnose.words import answered
+from pipeline.answer.wording.diagnosis import answered
 from pipeline.discover import beyond_catalogue, search
 from pipeline.discover.beyond_catalogue import with_laws
 from pipeline.discover.effect_file import effect_text, name_of, write_effect
@@ -19,8 +18,9 @@ from pipeline.discover.search import Discovery, discover
 from pipeline.discover.words import sentences
 from pipeline.errors import InputError
 from pipeline.inference.fit import unfitted
+from pipeline.inference.load_cases import load_cases
 from pipeline.inference.model import Model, Term
-from pipeline.inference.program import program
+from pipeline.selection.diagnosis import Diagnosis, diagnose
 from tests.pipeline.bench import bench
 from tests.pipeline.discover.fits import GEOMETRY, effects_for, fitted_tests, friction_found, map_of
 from vjm.effects import catalogue, from_file
@@ -97,7 +97,7 @@ def test_friction_is_found_put_in_and_nothing_is_left(found: Discovery) -> None:
 
 def test_the_record_says_it_in_words(found: Discovery) -> None:
     campaign = bench("joint_friction.torque_Nmm", 600.0)
-    record = recorded(found, program(campaign), 1.0)
+    record = recorded(found, load_cases(campaign), 1.0)
     said = sentences(record)
     assert said[0].startswith("What is left sits here: torque about the hinge axes.")
     (law,) = record.laws
@@ -111,7 +111,7 @@ def test_the_record_says_it_in_words(found: Discovery) -> None:
 
 def test_the_file_gives_the_same_chi_square(found: Discovery, tmp_path: Path) -> None:
     campaign = bench("joint_friction.torque_Nmm", 600.0)
-    record = recorded(found, program(campaign), 1.0)
+    record = recorded(found, load_cases(campaign), 1.0)
     path = tmp_path / "law.py"
     write_effect(path, effect_text(found, record))
     (law,) = found.laws
@@ -194,11 +194,11 @@ def test_a_law_takes_the_name_from_a_set_that_it_beats(unknown: Diagnosis) -> No
     """As if what was left by the best set had passed for noise."""
     taken = replace(
         unknown,
-        ruling=replace(unknown.ruling, verdict="identified"),
+        decision=replace(unknown.decision, verdict="identified"),
         judgement=replace(unknown.judgement, checks=()),
     )
     again = with_laws(taken)
-    assert again.verdict == "unknown" and "hinge_torque" in again.ruling.because
+    assert again.verdict == "unknown" and "hinge_torque" in again.decision.because
     assert [law.site for law in again.laws] == ["hinge_torque"]
     assert not set(again.certain) & {"joint_torsional_stiffness", "base_compliance"}
 

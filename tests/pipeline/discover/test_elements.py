@@ -46,7 +46,7 @@ def test_a_slight_linear_law_moves_readings_by_influence_times_coordinate(site: 
     slope = SMALL["hinge_torque"] if not kind.series else SMALL["turn" if kind.turns else "shift"]
     it = law(site, slope)
     model = replace(found.model, terms=(*found.model.terms, Term(it, {it.parameters[0].name: slope})))
-    cases, here = found.residual.program, found.prediction
+    cases, here = found.residual.load_cases, found.prediction
     there = predict(model, cases, slopes=False, start=here, shift=here.shift)
     change = whitening(cases, here).apply(there.values - here.values)
     truth = found.residual.flat(change)
@@ -78,7 +78,7 @@ def test_a_shift_without_load_moves_readings_but_no_gauge_that_is_zeroed_there(s
         name="shifted", title="", site=site, form=form.name, parameters=parameters_of(form, kind, start, 1.0)
     )
     values = {p.name: v for p, v in zip(it.parameters, start.values(), strict=True)}
-    cases, here = found.residual.program, found.prediction
+    cases, here = found.residual.load_cases, found.prediction
     model = replace(found.model, terms=(*found.model.terms, Term(it, values)))
     there = predict(model, cases, slopes=False, start=here, shift=here.shift)
     before, after = (found.residual.flat(residual(cases, p).values) for p in (here, there))
@@ -97,7 +97,7 @@ def test_a_shift_without_load_moves_readings_but_no_gauge_that_is_zeroed_there(s
 def test_a_column_is_over_what_is_predicted_of_it() -> None:
     found = fit_of()
     own = {e.kind: e for e in elements(found) if e.kind.startswith("column")}
-    cases, z, x = found.residual.program, own["column z_mm"], own["column x_mm"]
+    cases, z, x = found.residual.load_cases, own["column z_mm"], own["column x_mm"]
     ruled, read = cases.channels[:, 2] == 2, cases.predicted[:, 0]
     assert ruled.any() and read.any()
     # Where it is prescribed it is what was prescribed, as that fits best; where it is read, the prediction.
@@ -133,7 +133,7 @@ def test_slight_friction_by_load_does_what_its_columns_say(
     )
     known = {q.identifier(kind.gives, kind.over): values[q.name] for q in form.quantities}
     own = {p.name: known[p.name] for p in it.parameters}
-    cases, here = found.residual.program, found.prediction
+    cases, here = found.residual.load_cases, found.prediction
     model = replace(found.model, terms=(*found.model.terms, Term(it, own)))
     there = predict(model, cases, slopes=False, shift=here.shift)
     truth = found.residual.flat(whitening(cases, here).apply(there.values - here.values))

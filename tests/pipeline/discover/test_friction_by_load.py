@@ -7,13 +7,13 @@ import pytest
 
 from fem.frame.laws.forms.sliders import CoulombByLoad
 from fem.frame.placed import Placed
-from pipeline.challenge.cases import ALWAYS
-from pipeline.challenge.laws.cases import law_case
-from pipeline.challenge.laws.size import Scale, scale_of
+from pipeline.assessment.challenge.cases import ALWAYS
+from pipeline.assessment.challenge.laws.cases import law_case
+from pipeline.assessment.challenge.laws.size import Scale, scale_of
+from pipeline.assessment.virtual.bench import true_readings
+from pipeline.assessment.virtual.plan import GAUGES
 from pipeline.inference.model import Model, Term
 from pipeline.inference.prediction import predict
-from pipeline.virtual.bench import true_readings
-from pipeline.virtual.plan import GAUGES
 from vjm.effects import catalogue
 from vjm.effects.base import Parameter
 from vjm.site_law import SiteLaw

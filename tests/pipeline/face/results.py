@@ -11,13 +11,13 @@ from pandas import DataFrame
 
 import parastiff
 from parastiff import Addition, BarStiffness, Diagnosis, Discovery, Prediction
-from pipeline.answer import Answer, ModelError, TestChange, TestNoise
+from pipeline.answer.law import Curve, Grouped, LawFound
+from pipeline.answer.record import Answer, ModelError, TestChange, TestNoise
+from pipeline.answer.value import Value
 from pipeline.discover.record import Discovered
 from pipeline.discover.recording import where
 from pipeline.face.shown import Shown
 from pipeline.inference.model import Model
-from pipeline.law_record import Curve, Grouped, LawFound
-from pipeline.value import Value
 from tests.conftest import ROOT
 from vjm import paper
 

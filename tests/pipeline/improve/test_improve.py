@@ -10,7 +10,7 @@ from typer.testing import CliRunner
 from pipeline.campaign import write
 from pipeline.cli import app
 from pipeline.inference.model_reading import read_model_file
-from tests.pipeline.diagnose.bench import bench
+from tests.pipeline.selection.bench import bench
 
 LARGE = "bar_geometric_nonlinearity"
 RUNNER = CliRunner()

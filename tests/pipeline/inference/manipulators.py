@@ -6,9 +6,9 @@ from dataclasses import replace
 
 import numpy as np
 
+from pipeline.assessment.virtual.manipulator import NOISE
 from pipeline.campaign import Campaign, Data, ManipulatorRig, Noise, Test
 from pipeline.manipulator.description import read
-from pipeline.virtual.manipulator import NOISE
 
 POINTS = ((0.0, 0.0, 0.0), (50.0, -40.0, 60.0))
 FREE = ("force",) * 6

@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 from pipeline.campaign import BarRig, Campaign, Data, Gauge, Noise, Test, UniformBar
+from pipeline.inference.load_cases import load_cases
 from pipeline.inference.model import Model
 from pipeline.inference.prediction import predict
-from pipeline.inference.program import program
 from vjm.effects import catalogue
 
 LENGTH, EI = 300.0, 1e6
@@ -42,7 +42,7 @@ def driven(middle: list[float]) -> Campaign:
 def test_the_load_is_eulers_and_grows_with_the_square_of_the_deflection() -> None:
     """P = P_E (1 + pi²/8 (w/L)²) for small w: Timoshenko and Gere, Theory of Elastic Stability, section 2.7."""
     middle = [1.0, 10.0, 20.0, -10.0]
-    found = predict(LARGE, program(driven(middle)))
+    found = predict(LARGE, load_cases(driven(middle)))
     assert not found.lost.any()
     load = -found.values[:, 6]
     np.testing.assert_allclose(load, EULER, rtol=0.02)
@@ -54,7 +54,7 @@ def test_the_load_is_eulers_and_grows_with_the_square_of_the_deflection() -> Non
 
 def test_its_derivatives_are_those_of_solving_again() -> None:
     model = LARGE.with_effects([catalogue()["modulus_error"]])
-    cases = program(driven([10.0]))
+    cases = load_cases(driven([10.0]))
     found = predict(model, cases, order=4)
     sides = [predict(model.at(model.values + step), cases).values[0, 6] for step in (1e-3, -1e-3)]
     assert found.by_free[0, 6, 0] == pytest.approx((sides[0] - sides[1]) / 2e-3, rel=1e-5)

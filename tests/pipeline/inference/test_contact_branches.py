@@ -9,20 +9,20 @@ import numpy as np
 import pytest
 from scipy.stats import chi2
 
+from pipeline.assessment.coverage.cases import BASE, typical
+from pipeline.assessment.coverage.trial import campaign
+from pipeline.assessment.virtual.bench import measure
+from pipeline.assessment.virtual.plan import GAUGES, SENSORS, bench_plan
 from pipeline.compare.error import Discrepancy
-from pipeline.coverage.cases import BASE, typical
-from pipeline.coverage.trial import campaign
 from pipeline.inference.contact_branches import kinked, on_best_sides
 from pipeline.inference.fit import fit
+from pipeline.inference.load_cases import LoadCases, load_cases
 from pipeline.inference.model import Model
 from pipeline.inference.predicted import Prediction
 from pipeline.inference.prediction import predict
-from pipeline.inference.program import Program, program
 from pipeline.inference.residual import FARTHEST, Residual, residual
 from pipeline.simulate import bench_rig, scaled
-from pipeline.virtual.bench import measure
-from pipeline.virtual.plan import GAUGES, SENSORS, bench_plan
-from tests.pipeline.diagnose.bench import COARSE
+from tests.pipeline.selection.bench import COARSE
 from vjm.effects import catalogue
 
 
@@ -33,11 +33,11 @@ def model(name: str) -> Model:
 
 
 @cache
-def cases(name: str, seed: int) -> Program:
-    return program(campaign(tuple(typical([name]).items()), seed, 8))
+def cases(name: str, seed: int) -> LoadCases:
+    return load_cases(campaign(tuple(typical([name]).items()), seed, 8))
 
 
-def chosen(it: Model, tests: Program, start: Prediction | None = None) -> tuple[Prediction, Residual]:
+def chosen(it: Model, tests: LoadCases, start: Prediction | None = None) -> tuple[Prediction, Residual]:
     found = on_best_sides(it, tests, start)
     return found, residual(tests, found)
 
@@ -66,7 +66,7 @@ def test_rows_choose_their_side_where_laws_remember(beside: str, steps: int) -> 
     At the truth the sum of squares is that of noise; linearised at the measured forces it is several times that.
     """
     hidden = typical(["joint_clearance", beside])
-    tests = program(campaign(tuple(hidden.items()), 3, steps))
+    tests = load_cases(campaign(tuple(hidden.items()), 3, steps))
     it = Model().with_effects([catalogue()[name] for name in (BASE, "joint_clearance", beside)])
     it = it.at(np.array([hidden[each.name] for each in it.free]))
     naive = residual(tests, predict(it, tests, slopes=False))
@@ -92,7 +92,7 @@ def test_the_better_side_of_the_kink_is_chosen_row_by_row() -> None:
 def test_a_turn_read_with_a_noise_as_large_as_the_play_is_no_misfit() -> None:
     """A weight of 5 N holds both bars at their stops, 1 µm off; at the turn as it was read one of them hangs free."""
     hidden = {"joint_clearance.play_mm": 1e-3, "self_weight.platform_x_N": 5.0}
-    tests = program(campaign(tuple(hidden.items()), 3, 8))
+    tests = load_cases(campaign(tuple(hidden.items()), 3, 8))
     it = Model().with_effects([catalogue()[name] for name in (BASE, "joint_clearance", "self_weight")])
     it = it.at(np.array([hidden.get(each.name, each.parameter.null) for each in it.free]))
     found, left = chosen(it, tests)
@@ -110,7 +110,7 @@ def test_sensors_as_coarse_as_the_play_leave_no_misfit(share: float, play: float
     its stop; under larger ones a row may belong to the far one of two stops, where both look better than neither."""
     rig, hidden = bench_rig(), {"joint_clearance.play_mm": play}
     plan = scaled(bench_plan(steps), rig, share)
-    tests = program(measure("coarse", rig, plan, COARSE, hidden, 1, GAUGES))
+    tests = load_cases(measure("coarse", rig, plan, COARSE, hidden, 1, GAUGES))
     it = model("joint_clearance").at(np.array([play]))
     _, left = chosen(it, tests)
     count = int(tests.predicted[tests.fitted].sum())
@@ -124,7 +124,7 @@ def test_a_row_costs_the_least_that_any_force_costs() -> None:
     Off are a few rows of which both bars are beside their stops, where the grid has no way for one alone, and rows
     inside the play, which the line of the inside may leave by the noise of a displacement.
     """
-    tests = program(campaign((), 3, 8))
+    tests = load_cases(campaign((), 3, 8))
     play = model("joint_clearance").at(np.array([1e-3]))
     held = np.array(["lateral" in tests.campaign.tests[k].id for k in tests.test])
     rows = np.flatnonzero(tests.fitted & held & (tests.channels[:, 0] == 6))
@@ -156,7 +156,7 @@ def test_a_row_costs_the_least_that_any_force_costs() -> None:
     ],
 )
 def test_a_play_that_is_not_there_takes_up_little(seed: int, beside: tuple[str, ...]) -> None:
-    tests = program(campaign(tuple(typical(beside).items()), seed, 8))
+    tests = load_cases(campaign(tuple(typical(beside).items()), seed, 8))
     kinds = catalogue()
     known = [kinds[name] for name in (BASE, *beside)]
     tight = fit(Model().with_effects(known), tests)
@@ -176,7 +176,7 @@ def test_a_play_that_is_not_there_takes_up_little(seed: int, beside: tuple[str, 
 @pytest.mark.parametrize("begin", [3e-3, pytest.param(1e-2, marks=pytest.mark.long)])
 def test_from_too_large_a_play_a_fit_ends_as_from_below(begin: float) -> None:
     """Rows do not stay on the sides that belong to the play that the fit began with."""
-    tests = program(campaign((("joint_clearance.play_mm", 3e-3),), 1, 8))
+    tests = load_cases(campaign((("joint_clearance.play_mm", 3e-3),), 1, 8))
     found = fit(model("joint_clearance").at(np.array([begin])), tests)
     _, afresh = chosen(found.model, tests)
     assert found.chi_square == pytest.approx(float(np.sum(afresh.aimed**2)), abs=1.0)
@@ -192,7 +192,7 @@ def test_a_first_step_that_went_too_far_is_no_end() -> None:
         "joint_friction.torque_Nmm": 400.0,
         "joint_friction.presliding_rad": 2e-3,
     }
-    tests = program(campaign(tuple(hidden.items()), 1, 8))
+    tests = load_cases(campaign(tuple(hidden.items()), 1, 8))
     it = Model().with_effects([catalogue()[name] for name in (BASE, "joint_clearance", "joint_friction")])
     found = fit(it.at(np.array([3.2e-3, 300.0, 2e-3])), tests)
     assert np.all(np.abs(found.model.values - [hidden[each.name] for each in it.free]) < 3.0 * found.std)
@@ -219,7 +219,7 @@ def test_a_model_far_from_the_data_moves_no_input_farther_than_noise_may() -> No
     finds the truth looks worse there than none."""
     turns = {"mounting_tilt.rx_rad": 0.0092, "mounting_tilt.ry_rad": 0.013, "mounting_tilt.rz_rad": -0.01}
     plan = [test for test in bench_plan(8) if test.id == "axial_held_q+0"]
-    tests = program(measure("askew", bench_rig(), plan, SENSORS, turns, 1, GAUGES))
+    tests = load_cases(measure("askew", bench_rig(), plan, SENSORS, turns, 1, GAUGES))
     plain = residual(tests, predict(Model().with_effects([catalogue()[BASE]]), tests, slopes=False))
     sigma = np.where(tests.input_sigma > 0.0, tests.input_sigma, np.inf)
     assert np.max(np.abs(plain.shift) / sigma) == pytest.approx(FARTHEST)
@@ -238,5 +238,5 @@ def test_no_force_read_no_displacement_prescribed() -> None:
         for t in tests.tests
     ]
     held = [replace(t, control=("force",) * 6) for t in blind]
-    assert program(replace(tests, tests=tuple(held))).by_displacement is None
+    assert load_cases(replace(tests, tests=tuple(held))).by_displacement is None
     assert cases("joint_clearance", 3).by_displacement is not None

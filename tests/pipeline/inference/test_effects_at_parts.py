@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 
 from pipeline.errors import InputError
+from pipeline.inference.load_cases import load_cases
 from pipeline.inference.model import Model, Term
 from pipeline.inference.model_file import ModelFile, write_model
 from pipeline.inference.model_reading import read_model_file
 from pipeline.inference.prediction import predict
-from pipeline.inference.program import program
 from pipeline.inference.suitable import check_suitable, known_effects, named_effects, scale_for
 from tests.pipeline.bench import bench
 from vjm.effects import catalogue, effect_of
@@ -44,7 +44,7 @@ def joint_friction(name: str, torque: float) -> Term:
 
 
 def test_four_hinges_one_by_one_are_all_alike() -> None:
-    cases = program(bench())
+    cases = load_cases(bench())
     alone = Model(tuple(joint_friction(f"joint_friction@{site}", 500.0) for site in SITES))
     alike = Model((joint_friction("joint_friction", 500.0),))
     one, other = (predict(model, cases, slopes=False).values for model in (alone, alike))

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
+from pipeline.inference.load_cases import load_cases
 from pipeline.inference.model import Model
 from pipeline.inference.prediction import predict
-from pipeline.inference.program import program
 from tests.pipeline.bench import bench
 from vjm.effects import catalogue
 
@@ -14,7 +14,7 @@ MODEL = Model().with_effects([catalogue()["modulus_error"]]).at(np.array([0.97])
 
 
 def test_filling_is_not_solved_and_changes_nothing() -> None:
-    whole = program(bench())
+    whole = load_cases(bench())
     rows = np.concatenate([np.flatnonzero(whole.test == k)[: 3 + 2 * k] for k in range(4)])
     part = whole.only(rows)
     (group,) = part.groups

@@ -8,20 +8,22 @@ from typing import Any
 import numpy as np
 import pytest
 
-from pipeline.diagnose.signatures import probed
 from pipeline.inference import history
+from pipeline.inference.load_cases import Group, load_cases
 from pipeline.inference.model import Model
 from pipeline.inference.prediction import predict
-from pipeline.inference.program import Group, program
-from tests.pipeline.diagnose.bench import bench
+from pipeline.selection.signatures import probed
+from tests.pipeline.selection.bench import bench
 from vjm.effects import catalogue
 from vjm.effects.base import Rig
 from vjm.equilibrium import Equilibrium, load_path
 from vjm.lagrangian import layout
 from vjm.reasons import Reason
 
-CASES = program(bench("joint_friction.torque_Nmm", 200.0, ("swing_q+0", "axial_held_q+0", "axial_held_q+15")))
-SWING = program(bench("joint_friction.torque_Nmm", 200.0, ("swing_q+0",)))
+CASES = load_cases(
+    bench("joint_friction.torque_Nmm", 200.0, ("swing_q+0", "axial_held_q+0", "axial_held_q+15"))
+)
+SWING = load_cases(bench("joint_friction.torque_Nmm", 200.0, ("swing_q+0",)))
 NAMES = ("bar_geometric_nonlinearity", "joint_friction")
 MODEL = Model().with_effects([catalogue()[name] for name in NAMES])
 MODEL = MODEL.at(np.array([200.0 if f.parameter.name == "torque_Nmm" else 2e-3 for f in MODEL.free]))
@@ -64,7 +66,7 @@ def test_all_tests_may_end() -> None:
 )
 def test_all_steps_at_once_are_step_after_step(effect: str, value: float, marks: bool) -> None:
     """From rest, and from the states of another size: as by going through all tests step by step, up and down."""
-    cases = program(bench(ids=("lateral_q+0", "swing_q+0")))
+    cases = load_cases(bench(ids=("lateral_q+0", "swing_q+0")))
     term = catalogue()[effect]
     model = Model().with_effects([term])
     here, other = (probed(model, term, v) for v in (value, 1.1 * value))

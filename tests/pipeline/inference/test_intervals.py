@@ -19,7 +19,7 @@ from pipeline.inference.intervals import (
     only_together,
     straight,
 )
-from pipeline.inference.landscape import CLOSE, RISE, Landscape, Range
+from pipeline.inference.profile_likelihood import CLOSE, RISE, ProfileLikelihood, Range
 
 Array = NDArray[np.float64]
 WIDE = Range(-1e3, 1e3, 0.0)
@@ -44,14 +44,14 @@ class Toy:
         return self.function(values), self.slopes(values)
 
 
-def land(toy: Toy, start: Array, ranges: list[Range]) -> Landscape:
+def land(toy: Toy, start: Array, ranges: list[Range]) -> ProfileLikelihood:
     bounds = np.array([(r.low, r.high) for r in ranges]).T
     found = least_squares(toy.function, start, toy.slopes, bounds=bounds, xtol=1e-14, ftol=1e-14, gtol=1e-14)
     values = np.asarray(found.x)
     for k, r in enumerate(ranges):
         # least_squares keeps off a bound by rounding only.
         values[k] = r.low if values[k] - r.low < 1e-9 else values[k]
-    return Landscape(toy, values, ranges, toy.function(values), toy.slopes(values))
+    return ProfileLikelihood(toy, values, ranges, toy.function(values), toy.slopes(values))
 
 
 def linear(matrix: Array, measured: Array) -> Toy:
@@ -67,7 +67,7 @@ def test_linear_gaussian_intervals_are_exact_and_cover_the_truth_as_often_as_the
     for _ in range(400):
         toy = linear(matrix, matrix @ truth + rng.normal(size=30))
         best = np.linalg.lstsq(matrix, matrix @ truth - toy.function(truth), rcond=None)[0]
-        there = Landscape(toy, best, [Range(-1e6, 1e6, 0.0)] * 3, toy.function(best), matrix)
+        there = ProfileLikelihood(toy, best, [Range(-1e6, 1e6, 0.0)] * 3, toy.function(best), matrix)
         found = intervals(there)
         assert [it.kind for it in found] == ["wald"] * 3 and toy.solved == 6
         np.testing.assert_allclose([it.std for it in found], std, rtol=1e-9)
@@ -131,7 +131,7 @@ def test_a_rise_far_beyond_what_is_asked_about_takes_one_look(shift: float, far:
         lambda v: np.array([[1.0, np.exp(v[1])], [0.0, 1.0]]),
     )
     start = np.zeros(2)
-    there = Landscape(toy, start, [WIDE, WIDE], toy.function(start), toy.slopes(start))
+    there = ProfileLikelihood(toy, start, [WIDE, WIDE], toy.function(start), toy.slopes(start))
     rise, _ = there.rise(0, shift, np.array([1.0, 0.0]), RISE + 25.0)
     assert (rise > RISE + 25.0) == far and (there.evaluations == 1) == far
 
@@ -142,7 +142,7 @@ def test_what_no_slope_foresees_is_no_rise_yet() -> None:
         lambda v: np.array([0.3 * v[0], 0.5 * (v[1] - v[0]), v[1] ** 2, 30.0 * (v[1] > 1.0)]),
         lambda v: np.array([[0.3, 0.0], [-0.5, 0.5], [0.0, 2.0 * v[1]], [0.0, 0.0]]),
     )
-    there = Landscape(toy, np.zeros(2), [WIDE, WIDE], np.zeros(4), toy.slopes(np.zeros(2)))
+    there = ProfileLikelihood(toy, np.zeros(2), [WIDE, WIDE], np.zeros(4), toy.slopes(np.zeros(2)))
     rise, way = there.rise(0, 2.0, np.array([1.0, 1.0]))
     b = brentq(lambda b: 0.5 * (b - 2.0) + 4.0 * b**3, 0.0, 1.0)
     assert 2.0 * way[1] == pytest.approx(b, rel=0.05)
@@ -152,7 +152,7 @@ def test_what_no_slope_foresees_is_no_rise_yet() -> None:
 def test_ends_are_looked_for_where_the_looks_at_a_parabola_say() -> None:
     """(x + 0.03 x³)² has risen by 4.8 at 1.96; a parabola with that rises by 3.841 where the end nearly is."""
     toy = Toy(lambda v: v + 0.03 * v**3, lambda v: np.array([[1.0 + 0.09 * v[0] ** 2]]))
-    there = Landscape(toy, np.zeros(1), [WIDE], np.zeros(1), np.eye(1))
+    there = ProfileLikelihood(toy, np.zeros(1), [WIDE], np.zeros(1), np.eye(1))
     (it,) = intervals(there)
     end = brentq(lambda x: x + 0.03 * x**3 - Z, 0.0, Z)
     assert it.kind == "profile" and ends(it) == pytest.approx((-end, end), rel=CLOSE)

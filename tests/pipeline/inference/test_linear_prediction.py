@@ -5,14 +5,14 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from pipeline.assessment.virtual.bench import measure
+from pipeline.assessment.virtual.plan import SENSORS, PlannedTest
 from pipeline.campaign import BarRig, Gauge, Noise, Test
 from pipeline.inference.frame_prediction import predict_frame
 from pipeline.inference.linear_prediction import predict_linear
-from pipeline.inference.program import program
+from pipeline.inference.load_cases import load_cases
 from pipeline.inference.residual import residual
 from pipeline.simulate import bench_rig
-from pipeline.virtual.bench import measure
-from pipeline.virtual.plan import SENSORS, PlannedTest
 from tests.pipeline.bench import bench
 from vjm import paper
 from vjm.frames import rotate_stiffness, rotation_y
@@ -35,7 +35,7 @@ def by_hand(stiffness: np.ndarray, test: Test) -> np.ndarray:
 
 def test_a_parallelogram_follows_the_closed_form_in_any_control() -> None:
     """Rounding of a Newton step, relative to the largest reading of each channel."""
-    cases = program(bench(gauges=False))
+    cases = load_cases(bench(gauges=False))
     found = predict_linear(cases)
     assert not found.lost.any()
     for number, test in enumerate(cases.campaign.tests):
@@ -53,7 +53,7 @@ def test_a_bar_follows_its_own_stiffness() -> None:
     control = ("force", "displacement", "force", "displacement", "force", "displacement")
     planned = [PlannedTest("mixed", 0.0, control, values, np.full(5, 20.0))]
     noise = Noise(SENSORS.displacement, SENSORS.wrench, np.zeros(0), 0.1)
-    cases = program(measure("bar", rig, planned, noise, {}, 1))
+    cases = load_cases(measure("bar", rig, planned, noise, {}, 1))
     found = predict_linear(cases)
     expected = by_hand(k, cases.campaign.tests[0])
     scale = np.abs(expected).max(axis=0)
@@ -65,7 +65,7 @@ def test_gauges_see_the_bar_bend_as_a_beam_does() -> None:
 
     The paper's K_b is not symmetric about the middle: 1.2 % of K26 / K22 against L / 2 (physics of Eq. 12).
     """
-    cases = program(bench())
+    cases = load_cases(bench())
     number = [t.id for t in cases.campaign.tests].index("lateral_q+0")
     rows = slice(cases.first[number], cases.first[number + 1])
     found = predict_linear(cases)
@@ -80,13 +80,13 @@ def test_what_nothing_holds_is_lost_with_a_reason() -> None:
     control = ("force", "displacement", "force", "displacement", "displacement", "displacement")
     planned = [PlannedTest("pull", 0.0, control, values, np.full(6, 20.0))]
     noise = Noise(SENSORS.displacement, SENSORS.wrench, np.zeros(0), 0.1)
-    cases = program(measure("pull", bench_rig(), planned, noise, {}, 1))
+    cases = load_cases(measure("pull", bench_rig(), planned, noise, {}, 1))
     found = predict_linear(cases)
     assert found.lost.all() and set(found.reasons.values()) == {Reason.NOT_HELD}
 
 
 def test_the_frame_as_drawn_is_within_the_noise_and_loses_what_buckles() -> None:
-    cases = program(bench())
+    cases = load_cases(bench())
     tangent = predict_linear(cases)
     found = predict_frame(cases, lambda: tangent)
     assert not found.lost.any()
@@ -98,7 +98,7 @@ def test_the_frame_as_drawn_is_within_the_noise_and_loses_what_buckles() -> None
     wrench = test.data.wrench.copy()
     wrench[-3:, 0] = -4.2e4
     pushed = replace(test, data=replace(test.data, wrench=wrench))
-    beyond = program(replace(cases.campaign, tests=(pushed,)))
+    beyond = load_cases(replace(cases.campaign, tests=(pushed,)))
     lost = predict_frame(beyond, lambda: predict_linear(beyond))
     # 36.5 kN is the lowest critical load of the held linkage.
     assert lost.lost.tolist() == [False] * 9 + [True] * 3
@@ -108,7 +108,7 @@ def test_the_frame_as_drawn_is_within_the_noise_and_loses_what_buckles() -> None
 def test_a_test_zeroed_at_its_first_row_starts_at_zero() -> None:
     campaign = bench()
     first = tuple(replace(test, zero="first_row") for test in campaign.tests)
-    cases = program(replace(campaign, tests=first, gauges=(Gauge("mid", 0.5, "y"),)))
+    cases = load_cases(replace(campaign, tests=first, gauges=(Gauge("mid", 0.5, "y"),)))
     found = predict_linear(cases)
     starts = found.values[cases.first[:-1]]
     assert np.all(starts[cases.predicted[cases.first[:-1]]] == 0.0)

@@ -8,9 +8,9 @@ import pytest
 from pipeline.campaign import Campaign, ManipulatorRig
 from pipeline.inference.frame_prediction import predict_frame
 from pipeline.inference.linear_prediction import predict_linear
+from pipeline.inference.load_cases import LoadCases, load_cases
 from pipeline.inference.model import Model, Term
 from pipeline.inference.prediction import predict
-from pipeline.inference.program import Program, program
 from pipeline.manipulator.table import vjm_stiffness
 from tests.pipeline.inference import manipulators
 from tests.pipeline.inference.manipulators import LOADS, POINTS, STEPS, WAY
@@ -29,20 +29,20 @@ def small() -> Campaign:
 
 
 @pytest.fixture(scope="module")
-def cases(small: Campaign) -> Program:
-    return program(small)
+def cases(small: Campaign) -> LoadCases:
+    return load_cases(small)
 
 
 def model(**values: dict[str, float]) -> Model:
     return Model(tuple(Term(KNOWN[name], own) for name, own in values.items()))
 
 
-def test_tests_of_one_posture_are_a_group(cases: Program) -> None:
+def test_tests_of_one_posture_are_a_group(cases: LoadCases) -> None:
     assert [group.numbers.tolist() for group in cases.groups] == [[0, 1], [2]]
     np.testing.assert_array_equal(cases.groups[1].nominal[0, 0], [*POINTS[1], 0.0, 0.0, 0.0])
 
 
-def test_readings_are_the_equilibria_of_the_manipulator(small: Campaign, cases: Program) -> None:
+def test_readings_are_the_equilibria_of_the_manipulator(small: Campaign, cases: LoadCases) -> None:
     """Loads read are true moments, those of the bare solver conjugate to the rotation vector: at 1 mrad and 3 N·m they
     differ by 1.5 N·mm at most."""
     found = predict(Model(), cases)
@@ -61,7 +61,7 @@ def test_readings_are_the_equilibria_of_the_manipulator(small: Campaign, cases: 
 
 
 @pytest.mark.long
-def test_derivatives_by_what_is_prescribed_are_differences(cases: Program) -> None:
+def test_derivatives_by_what_is_prescribed_are_differences(cases: LoadCases) -> None:
     """Steps of a noise each: the curvature over one is a millionth of the slope."""
     plain = predict(Model(), cases)
     for k in range(6):
@@ -82,7 +82,7 @@ def test_derivatives_by_what_is_prescribed_are_differences(cases: Program) -> No
         pytest.param("base_compliance", marks=pytest.mark.long),
     ],
 )
-def test_derivatives_by_numbers_are_differences(cases: Program, name: str) -> None:
+def test_derivatives_by_numbers_are_differences(cases: LoadCases, name: str) -> None:
     effect = KNOWN[name]
     first = effect.parameters[0]
     one = model(**{name: effect.typicals})
@@ -101,14 +101,14 @@ def test_derivatives_by_numbers_are_differences(cases: Program, name: str) -> No
     )
 
 
-def test_effects_reach_the_whole_manipulator(cases: Program) -> None:
+def test_effects_reach_the_whole_manipulator(cases: LoadCases) -> None:
     """Softer bars let the platform move more, in every direction that is loaded."""
     plain = predict(Model(), cases, slopes=False).values
     soft = predict(model(modulus_error={"scale": 0.7}), cases, slopes=False).values
     assert np.all(np.abs(soft[:4, :6]) > np.abs(plain[:4, :6]))
 
 
-def test_friction_remembers_the_steps_before(cases: Program) -> None:
+def test_friction_remembers_the_steps_before(cases: LoadCases) -> None:
     """The last step comes after a reversal: alone it would read otherwise."""
     rough = model(joint_friction={"torque_Nmm": 50.0, "presliding_rad": 1e-5})
     whole = predict(rough, cases, slopes=False)
@@ -117,7 +117,7 @@ def test_friction_remembers_the_steps_before(cases: Program) -> None:
     assert np.max(np.abs(whole.values[3, :6] - alone.values[0, :6]) / SCALE[:6]) > 0.1
 
 
-def test_states_to_begin_from_change_nothing(cases: Program) -> None:
+def test_states_to_begin_from_change_nothing(cases: LoadCases) -> None:
     whole = predict(model(modulus_error={"scale": 0.9}), cases)
     again = predict(model(modulus_error={"scale": 0.9}), cases, start=whole)
     np.testing.assert_allclose(again.values / SCALE, whole.values / SCALE, atol=1e-6)
@@ -126,7 +126,7 @@ def test_states_to_begin_from_change_nothing(cases: Program) -> None:
 @pytest.mark.parametrize(("weight", "apart"), [(0.0, 1e-6), (40.0, 3e-4)])
 def test_lin_and_fea_are_a_constant_stiffness_under_a_known_weight(weight: float, apart: float) -> None:
     """What is read obeys F + W = K t, K of the frame that of springs at rest, K of LIN that under the weight."""
-    weighted = program(manipulators.campaign(weight=weight))
+    weighted = load_cases(manipulators.campaign(weight=weight))
     lin = predict_linear(weighted)
     fea = predict_frame(weighted, lambda: lin)
     np.testing.assert_allclose(lin.values / SCALE, fea.values / SCALE, rtol=apart, atol=apart)
@@ -142,7 +142,7 @@ def test_lin_and_fea_are_a_constant_stiffness_under_a_known_weight(weight: float
     np.testing.assert_allclose(springs.values[:, :6], lin.values[:, :6], rtol=0.03, atol=2e-4)
 
 
-def test_stops_are_pressed_as_differences_say(cases: Program) -> None:
+def test_stops_are_pressed_as_differences_say(cases: LoadCases) -> None:
     """Six plays; of the steps under prescribed loads those that press all stops by more than the differences."""
     it, few = model(joint_clearance={"play_mm": 0.01}), cases.only(np.array([0, 1, 3]))
     here = predict(it, few, slopes=False).stops

@@ -9,11 +9,11 @@ import pytest
 
 from pipeline.campaign import Campaign
 from pipeline.inference.fit import Fit, fit
+from pipeline.inference.load_cases import load_cases
 from pipeline.inference.model import Model
-from pipeline.inference.nominals import nominals
-from pipeline.inference.program import program
+from pipeline.inference.nuisances import nominals
 from pipeline.inference.suitable import named_effects
-from tests.pipeline.diagnose.bench import bench
+from tests.pipeline.selection.bench import bench
 from vjm.effects import catalogue
 
 SOFT = 0.95
@@ -40,7 +40,7 @@ def of_wrench(value: float) -> np.ndarray:
 
 def fitted(it: Campaign) -> Fit:
     effects = named_effects(["bar_geometric_nonlinearity", "modulus_error"], catalogue())
-    return fit(Model().with_effects(effects), program(it))
+    return fit(Model().with_effects(effects), load_cases(it))
 
 
 def std(found: Fit) -> float:
@@ -88,7 +88,7 @@ def test_a_gain_that_is_seen_is_found() -> None:
     known = replace(
         known, terms=tuple(replace(t, values={"scale": SOFT} if t.values else {}) for t in known.terms)
     )
-    found = fit(known, program(it))
+    found = fit(known, load_cases(it))
     moved = dict(zip(names, found.prediction.nominal, strict=True))
     assert moved["gain of fx_N"] == pytest.approx(2.0, abs=0.3)
     assert moved["gain of fy_N"] == pytest.approx(-1.6, abs=0.3)

@@ -5,13 +5,13 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from pipeline.coverage.cases import BASE, typical
-from pipeline.coverage.trial import campaign
+from pipeline.assessment.coverage.cases import BASE, typical
+from pipeline.assessment.coverage.trial import campaign
 from pipeline.inference.contact_branches import begun
 from pipeline.inference.fit import fit
+from pipeline.inference.load_cases import load_cases
 from pipeline.inference.model import Model
 from pipeline.inference.objective import NEAR, SAME, Evaluation, Objective
-from pipeline.inference.program import program
 from tests.pipeline.inference import manipulators
 from tests.pipeline.inference.test_contact_branches import cases, model
 from vjm.effects import catalogue
@@ -19,7 +19,7 @@ from vjm.effects import catalogue
 
 def off(there: Evaluation) -> float:
     """Sigmas from the inputs that fit best to those near which it was linearised, at most."""
-    sigma = there.objective.program.input_sigma
+    sigma = there.objective.load_cases.input_sigma
     return float(
         np.max(np.abs(there.residual.shift - there.prediction.shift)[sigma > 0.0] / sigma[sigma > 0.0])
     )
@@ -47,7 +47,7 @@ def test_the_same_parameters_give_the_same_value_wherever_it_begins(
     """From nowhere, from the model without the effects, from sizes far larger, and from itself: at sizes like the noise
     and at typical ones; after friction too, and with rows that choose their sides."""
     hidden = typical(names)
-    tests = program(campaign(tuple(hidden.items()), 3, 8))
+    tests = load_cases(campaign(tuple(hidden.items()), 3, 8))
     it = Model().with_effects([catalogue()[name] for name in (BASE, *names)])
     aim = Objective(it, tests)
     null = np.array([each.parameter.null for each in it.free])
@@ -114,7 +114,7 @@ def test_where_fits_begin() -> None:
 
 
 def test_with_friction_a_manipulator_begins_at_the_measured_inputs() -> None:
-    tests = program(manipulators.campaign())
+    tests = load_cases(manipulators.campaign())
     plain = fit(Model(), tests)
     friction = Model().with_effects([catalogue()["joint_friction"]])
     assert begun(Model(), tests, plain.prediction) is plain.prediction.shift

@@ -7,10 +7,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from pipeline.coverage.trial import campaign
+from pipeline.assessment.coverage.trial import campaign
+from pipeline.inference.load_cases import load_cases
 from pipeline.inference.model import Free, Model
 from pipeline.inference.prediction import predict
-from pipeline.inference.program import program
 from pipeline.simulate import bench_rig
 from vjm.effects import catalogue, for_kind
 from vjm.effects.base import Effect, Parameter, Rig, Values
@@ -67,7 +67,7 @@ def test_what_is_known_to_act_at_the_sensors_does() -> None:
 def test_before_an_effect_that_looks_at_the_sensors_they_are_not_alone(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    cases = program(campaign((("modulus_error.scale", 0.9),), 1, 6))
+    cases = load_cases(campaign((("modulus_error.scale", 0.9),), 1, 6))
     model = Model().with_effects([catalogue()["self_weight"], Counterweight()])
     model = model.at(np.array([each.parameter.null + each.parameter.typical for each in model.free]))
     assert not any(reads_alone(model, each) for each in model.free)
@@ -79,7 +79,7 @@ def test_before_an_effect_that_looks_at_the_sensors_they_are_not_alone(
 @pytest.mark.long
 def test_derivatives_are_those_of_linkages_built_again(monkeypatch: pytest.MonkeyPatch) -> None:
     """To the rounding of differences of the residual, in sigmas of what is read."""
-    cases = program(campaign((("modulus_error.scale", 0.9),), 1, 6))
+    cases = load_cases(campaign((("modulus_error.scale", 0.9),), 1, 6))
     found = predict(every(), cases).by_free
     monkeypatch.setattr(Model, "reads_alone", lambda *_: False)
     expected = predict(every(), cases).by_free

@@ -7,14 +7,14 @@ from functools import cache
 import numpy as np
 import pytest
 
+from pipeline.assessment.virtual.bench import measure
+from pipeline.assessment.virtual.plan import SENSORS, bench_plan
 from pipeline.campaign import Campaign, ParallelogramRig
 from pipeline.inference.fit import Fit
+from pipeline.inference.load_cases import load_cases
 from pipeline.inference.model import Model
-from pipeline.inference.program import program
-from pipeline.inference.starts import best_fit
-from pipeline.noise import chi_square
-from pipeline.virtual.bench import measure
-from pipeline.virtual.plan import SENSORS, bench_plan
+from pipeline.inference.multistart import best_fit
+from pipeline.inference.noise import chi_square
 from vjm import paper
 from vjm.effects import catalogue
 
@@ -46,7 +46,7 @@ def bench(name: str, steps: int, seed: int) -> Campaign:
 def recovered(name: str, steps: int, seed: int) -> Fit:
     names = dict.fromkeys(["bar_geometric_nonlinearity", name])
     model = Model().with_effects([CATALOGUE[n] for n in names])
-    return best_fit(model, program(bench(name, steps, seed)), (name,))
+    return best_fit(model, load_cases(bench(name, steps, seed)), (name,))
 
 
 def deviations(found: Fit, name: str) -> np.ndarray:
@@ -66,7 +66,7 @@ def test_an_effect_is_recovered(name: str) -> None:
 
 def test_without_the_effect_the_model_fails() -> None:
     campaign = bench("modulus_error", 8, 1)
-    plain = best_fit(Model().with_effects([CATALOGUE["bar_geometric_nonlinearity"]]), program(campaign))
+    plain = best_fit(Model().with_effects([CATALOGUE["bar_geometric_nonlinearity"]]), load_cases(campaign))
     assert plain.rms > 2.0
     assert chi_square(plain.whitened).p_value < 1e-9
 

@@ -32,7 +32,7 @@ class Kinked:
         return SimpleNamespace(free=(Free("kink", NUMBER),), values=np.array([1.0]))
 
     @property
-    def program(self) -> Any:
+    def load_cases(self) -> Any:
         return SimpleNamespace(unknowns=1.0, fitted=np.ones(200))
 
     def at(self, values: Array, near: object = None, slopes: bool = True, within: float = 0.0) -> Any:

@@ -7,19 +7,19 @@ from functools import cache
 import numpy as np
 import pytest
 
-from pipeline.adequacy.patterns import shapes
+from pipeline.assessment.virtual.bench import measure
+from pipeline.assessment.virtual.plan import GAUGES, SENSORS, bench_plan
 from pipeline.campaign import Campaign
 from pipeline.errors import InputError
 from pipeline.inference.fit import fit
+from pipeline.inference.load_cases import load_cases
 from pipeline.inference.model import Model
 from pipeline.inference.prediction import predict
-from pipeline.inference.program import program
 from pipeline.inference.suitable import check_suitable, columns_read, named_effects
+from pipeline.selection.adequacy.patterns import shapes
 from pipeline.selection.criteria import CRITERIA
 from pipeline.simulate import bench_rig
-from pipeline.virtual.bench import measure
-from pipeline.virtual.plan import GAUGES, SENSORS, bench_plan
-from tests.pipeline.diagnose.bench import MIXED, bench
+from tests.pipeline.selection.bench import MIXED, bench
 from vjm.effects import catalogue
 
 ALWAYS = "bar_geometric_nonlinearity"
@@ -49,7 +49,7 @@ def measured(name: str) -> Campaign:
 
 @pytest.mark.parametrize("name", HIDDEN)
 def test_a_fit_finds_the_fault_of_the_virtual_bench(name: str) -> None:
-    cases = program(measured(name))
+    cases = load_cases(measured(name))
     without, found = fit(PLAIN, cases), fit(with_fault(name), cases)
     assert found.chi_square < 1.25 * found.degrees < without.chi_square
     std = np.sqrt(np.diag(np.linalg.inv(found.jacobian.T @ found.jacobian)))
@@ -60,7 +60,7 @@ def test_a_fit_finds_the_fault_of_the_virtual_bench(name: str) -> None:
 
 @pytest.mark.parametrize("name", HIDDEN)
 def test_derivatives_are_those_of_predicting_again(name: str) -> None:
-    cases = program(bench())
+    cases = load_cases(bench())
     effects = named_effects([ALWAYS, "joint_torsional_stiffness", name], catalogue())
     model = Model().with_effects(effects)
     model = model.at(np.array([each.parameter.null + 0.7 * each.parameter.typical for each in model.free]))
@@ -78,8 +78,8 @@ def test_what_was_really_done_gives_what_was_read() -> None:
     """A prescribed column with a gain of 25 %: the linkage stands where y (1 + 0.25) is the reading."""
     right, name = bench(), "sensor_gain@y_mm"
     model = with_fault(name).at(np.array([0.25]))
-    shift = np.zeros((len(program(right).test), 7))
-    cases = program(right)
+    shift = np.zeros((len(load_cases(right).test), 7))
+    cases = load_cases(right)
     rows, coordinates = np.nonzero(cases.channels == 1)
     shift[rows, coordinates] = cases.measured[rows, 1] * (1.0 / 1.25 - 1.0)
     expected = predict(PLAIN, cases, slopes=False, shift=shift).values[rows]
@@ -90,7 +90,7 @@ def test_what_was_really_done_gives_what_was_read() -> None:
 
 def test_a_part_of_the_rows_has_the_clock_of_the_whole() -> None:
     """Drift is told by the row of the campaign, whichever rows are looked at."""
-    cases = program(bench())
+    cases = load_cases(bench())
     rows = np.arange(5, len(cases.test), 7)
     model = with_fault("sensor_drift@fy_N").at(np.array([9.0]))
     whole, part = predict(model, cases, slopes=False), predict(model, cases.only(rows), slopes=False)
@@ -122,7 +122,7 @@ def test_a_gain_that_is_fitted_leaves_no_pattern_of_its_own_noise() -> None:
     hidden = {"sensor_gain@mz_Nmm.share": 0.04}
     found = fit(
         with_fault("sensor_gain@mz_Nmm"),
-        program(measure("gain", bench_rig(), plan, SENSORS, hidden, 7, GAUGES)),
+        load_cases(measure("gain", bench_rig(), plan, SENSORS, hidden, 7, GAUGES)),
     )
     words = "mz reads too much or too little in proportion"
     assert not [it for it in shapes(found, CRITERIA) if it.words == words]

@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import pytest
 
-from pipeline.diagnose.determined import undetermined
-from pipeline.diagnose.merit import implausibility
 from pipeline.inference.fit import Fit, fit
+from pipeline.inference.load_cases import load_cases
 from pipeline.inference.model import Model
-from pipeline.inference.program import program
 from pipeline.inference.solvers import far, trust_region
+from pipeline.selection.cost import implausibility
 from pipeline.selection.criteria import CRITERIA
-from tests.pipeline.diagnose.bench import AXIAL, MIXED, bench
+from pipeline.selection.determined import undetermined
+from tests.pipeline.selection.bench import AXIAL, MIXED, bench
 from vjm.effects import catalogue
 
 BENT = "bar_geometric_nonlinearity"
@@ -59,7 +59,7 @@ def pulled(found: Fit) -> float:
 def test_both_end_at_the_same_least(
     hidden: str, value: float, ids: tuple[str, ...], names: tuple[str, ...]
 ) -> None:
-    cases = program(bench(hidden, value, ids))
+    cases = load_cases(bench(hidden, value, ids))
     model = Model().with_effects([catalogue()[name] for name in names])
     own = fit(model, cases, plausible=CRITERIA.plausible)
     other = fit(model, cases, plausible=CRITERIA.plausible, solver=trust_region)

@@ -8,13 +8,13 @@ import numpy as np
 import pytest
 
 from pipeline.campaign.reading import read
+from pipeline.inference.load_cases import load_cases
 from pipeline.inference.model import Model
 from pipeline.inference.prediction import predict
-from pipeline.inference.program import program
 from pipeline.inference.thinning import ENOUGH, thinned
 from vjm.effects import catalogue
 
-CASES = program(read(Path(__file__).parents[3] / "examples" / "bench"))
+CASES = load_cases(read(Path(__file__).parents[3] / "examples" / "bench"))
 
 
 def test_ends_turns_and_every_fourth_row_stay() -> None:

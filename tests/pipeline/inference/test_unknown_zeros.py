@@ -11,15 +11,15 @@ import pytest
 from pipeline.campaign import read
 from pipeline.compare.error import Discrepancy
 from pipeline.inference.fit import unfitted
+from pipeline.inference.load_cases import load_cases
 from pipeline.inference.model import Model
-from pipeline.inference.program import program
 from tests.pipeline.inference.manipulators import campaign
 
 
 @pytest.mark.parametrize("order", [[0, 1, 2, 3, 4], [2, 0, 1, 3, 4], [3, 2, 4, 1, 0]])
 def test_zeros_that_depend_on_each_other_take_their_span(order: list[int]) -> None:
     """Columns of five zeros: one of a channel without a reading, one that is the sum of two others."""
-    found = unfitted(Model(), program(campaign())).residual
+    found = unfitted(Model(), load_cases(campaign())).residual
     generator = np.random.default_rng(4)
     count = len(found.rows)
     columns = generator.normal(size=(count, 5))
@@ -39,7 +39,7 @@ def test_a_fit_and_its_table_have_one_chi_square(tmp_path: Path) -> None:
     """A bar of which not every channel is read in every test, its zeros all unknown."""
     (tmp_path / "campaign.toml").write_text(BAR)
     (tmp_path / "measurements.csv").write_text(ROWS)
-    cases = program(read(tmp_path))
+    cases = load_cases(read(tmp_path))
     found = unfitted(Model(), cases)
     size = Discrepancy(cases, found.prediction).size()
     assert size is not None

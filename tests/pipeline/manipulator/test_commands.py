@@ -13,6 +13,21 @@ from pipeline.manipulator.sweep import RESULT
 from pipeline.manipulator.table_record import Table1
 from tests.pipeline.manipulator.test_description import OTHER
 
+OWN = """
+from dataclasses import replace
+from parastiff import Effect, Parameter, laws
+
+class Seal(laws.Polynomial):
+    pass
+
+class Sealed(Effect):
+    name = "sealed"
+    title = equation = signature = limits = source = "for a test"
+    parameters = (Parameter("Nmm_per_rad", "N·mm/rad", 0.0, 1e3, 0.0, 1e9, "of every hinge"),)
+
+    def change(self, rig, values):
+        return replace(rig, hinges=(*rig.hinges, Seal((values["Nmm_per_rad"],))))
+"""
 SMALL = ("--no-pictures", "--points", "3,3,2", "--chunk", "5", "--low", "-40,-40,0", "--high", "40,40,0")
 
 
@@ -94,6 +109,17 @@ def test_another_wrench_or_effect_is_another_sweep(tmp_path: Path) -> None:
     softer, pushed = ("--effect", "modulus_error=0.8"), ("--wrench", "100,0,0")
     for changed in ((*softer, "--wrench", "100,1,0"), ("--effect", "modulus_error=0.7", *pushed), pushed):
         assert "is of another sweep" in output("sweep", *flat, *changed, code=2)
+
+
+def test_an_effect_of_ones_own_goes_to_other_processes(tmp_path: Path) -> None:
+    """A class of its file is known to the process that read it alone: it travels with the call."""
+    (tmp_path / "own.py").write_text(OWN)
+    own = ("--effect", "sealed=1e6", "--effects-from", str(tmp_path / "own.py"))
+    for workers in ("1", "2"):
+        output("sweep", "--out", str(tmp_path / workers), *SMALL, *own, "--workers", workers)
+    alone, shared = (np.load(tmp_path / workers / RESULT) for workers in ("1", "2"))
+    # The last digit of a movement that is none hangs on where arrays lie in memory.
+    np.testing.assert_allclose(alone, shared, rtol=1e-12, atol=1e-12)
 
 
 def test_a_folder_with_other_files_is_refused(tmp_path: Path) -> None:

@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable
-from concurrent.futures import Future
+from collections.abc import Iterable, Iterator
 from pathlib import Path
 from typing import Any
 
@@ -12,7 +11,6 @@ import numpy as np
 import pytest
 
 from pipeline.errors import InputError
-from pipeline.executors import Serial, executor
 from pipeline.manipulator.description import Description, describe, read
 from pipeline.manipulator.grid import Grid
 from pipeline.manipulator.mapping import coarse, critical_at, critical_map, mapped
@@ -21,6 +19,7 @@ from pipeline.manipulator.reasons import no_critical_load, numbers_of, reasons_o
 from pipeline.manipulator.sweep import HEAD, RESULT, Sweep, sweep
 from pipeline.manipulator.sweep_summary import summary
 from pipeline.manipulator.table import measured, vjm_stiffness
+from pipeline.pools import Call, pool
 from reports.workspace.draw import draw
 from tests.pipeline.manipulator.machines import PRS, TRIPTERON
 from tests.pipeline.manipulator.test_description import OTHER
@@ -31,17 +30,18 @@ from vjm.manipulator.legs import UNSOLVED
 GRID = Grid((-60.0, -60.0, -60.0), (60.0, 60.0, 60.0), (4, 4, 3))
 
 
-class Killed(Serial):
-    """Dies at the call with this number."""
+class Killed:
+    """A pool that dies at the call with this number."""
 
     def __init__(self, at: int) -> None:
         self.left = at
 
-    def submit(self, fn: Callable[..., Any], /, *args: Any, **kwargs: Any) -> Future[Any]:
-        self.left -= 1
-        if self.left < 0:
-            raise KeyboardInterrupt
-        return super().submit(fn, *args, **kwargs)
+    def __call__(self, calls: Iterable[Call]) -> Iterator[Any]:
+        for call in calls:
+            self.left -= 1
+            if self.left < 0:
+                raise KeyboardInterrupt
+            yield call()
 
 
 def said(done: Sweep) -> list[str]:
@@ -58,7 +58,7 @@ def orthoglide() -> Description:
 @pytest.fixture(scope="module")
 def whole(orthoglide: Description, tmp_path_factory: pytest.TempPathFactory) -> Path:
     folder = tmp_path_factory.mktemp("whole")
-    done = sweep(orthoglide, GRID, folder, Serial(), chunk=10)
+    done = sweep(orthoglide, GRID, folder, chunk=10)
     assert (done.computed, done.found, done.postures) == (5, 0, GRID.size)
     return folder
 
@@ -81,7 +81,7 @@ def test_killed_and_resumed_is_the_same_file(orthoglide: Description, whole: Pat
     with pytest.raises(KeyboardInterrupt):
         sweep(orthoglide, GRID, tmp_path, Killed(nodes + 3), chunk=10)
     assert not (tmp_path / RESULT).exists()
-    again = sweep(orthoglide, GRID, tmp_path, Serial(), chunk=10)
+    again = sweep(orthoglide, GRID, tmp_path, chunk=10)
     assert again.computed + again.found == 5 and 0 < again.found < 5
     # The last chunk, of eight points, was not there yet.
     assert again.postures == 10 * again.computed - 2
@@ -92,17 +92,16 @@ def test_killed_and_resumed_is_the_same_file(orthoglide: Description, whole: Pat
 
 @pytest.mark.long
 def test_two_processes_write_the_same_file(orthoglide: Description, whole: Path, tmp_path: Path) -> None:
-    with executor(workers=2) as (pool, count):
-        assert count == 2
-        sweep(orthoglide, GRID, tmp_path, pool, count, chunk=10)
+    with pool(workers=2) as computed:
+        sweep(orthoglide, GRID, tmp_path, computed, chunk=10)
     assert (tmp_path / RESULT).read_bytes() == (whole / RESULT).read_bytes()
 
 
 @pytest.mark.long
 def test_a_dask_cluster_writes_the_same_file(orthoglide: Description, whole: Path, tmp_path: Path) -> None:
     pytest.importorskip("distributed")
-    with executor(workers=2, dask="local") as (pool, count):
-        sweep(orthoglide, GRID, tmp_path, pool, count, chunk=10)
+    with pool(workers=2, dask="local") as computed:
+        sweep(orthoglide, GRID, tmp_path, computed, chunk=10)
     assert (tmp_path / RESULT).read_bytes() == (whole / RESULT).read_bytes()
 
 
@@ -114,7 +113,7 @@ def test_a_folder_of_another_sweep_is_refused(orthoglide: Description, whole: Pa
 
 
 def test_points_out_of_reach_are_marked(orthoglide: Description, tmp_path: Path) -> None:
-    done = sweep(orthoglide, Grid((0.0, 0.0, 0.0), (0.0, 0.0, 320.0), (1, 1, 3)), tmp_path, Serial())
+    done = sweep(orthoglide, Grid((0.0, 0.0, 0.0), (0.0, 0.0, 320.0), (1, 1, 3)), tmp_path)
     assert done.values[:, 3].tolist() == [FOUND, FOUND, UNREACHED]
     assert not done.values[2, 4:-1].any()
     assert said(done)[:2] == ["", ""] and "does not reach this pose" in said(done)[2]
@@ -123,7 +122,7 @@ def test_points_out_of_reach_are_marked(orthoglide: Description, tmp_path: Path)
 def test_an_arm_that_moves_without_load_is_marked(tmp_path: Path) -> None:
     """Without a warning, too: a leg of one spring leaves five motions free."""
     arm = describe(OTHER, "other.toml")
-    done = sweep(arm, Grid((0.0, 0.0, 50.0), (100.0, 0.0, 50.0), (2, 1, 1)), tmp_path, Serial())
+    done = sweep(arm, Grid((0.0, 0.0, 50.0), (100.0, 0.0, 50.0), (2, 1, 1)), tmp_path)
     assert done.values[:, 3].tolist() == [UNREACHED, SINGULAR]
     assert not done.values[:, 4:-1].any()
     assert said(done) == ["leg a does not reach this pose", f"leg a {RIGID}"]
@@ -132,7 +131,7 @@ def test_an_arm_that_moves_without_load_is_marked(tmp_path: Path) -> None:
 def test_a_machine_of_links_alone_has_a_map(tmp_path: Path) -> None:
     """K_tran of its table, the force over the displacement along it, is the same in all directions of its axes."""
     tripteron = describe(TRIPTERON, "tripteron.toml")
-    done = sweep(tripteron, Grid((0.0, 0.0, -1.0), (0.0, 0.0, 1.0), (1, 1, 3)), tmp_path, Serial())
+    done = sweep(tripteron, Grid((0.0, 0.0, -1.0), (0.0, 0.0, 1.0), (1, 1, 3)), tmp_path)
     row = dict(zip(done.columns, done.values[1], strict=True))
     compliance = np.linalg.inv(vjm_stiffness(tripteron.manipulator, np.zeros(3)))
     assert row["K_tran_mean"] == pytest.approx(582.348, abs=1e-3)
@@ -142,7 +141,7 @@ def test_a_machine_of_links_alone_has_a_map(tmp_path: Path) -> None:
 
 def test_a_machine_rigid_in_some_directions_says_so(tmp_path: Path) -> None:
     prs = describe(PRS, "prs.toml")
-    done = sweep(prs, Grid((0.0, 0.0, 400.0), (0.0, 1.0, 400.0), (1, 2, 1)), tmp_path, Serial())
+    done = sweep(prs, Grid((0.0, 0.0, 400.0), (0.0, 1.0, 400.0), (1, 2, 1)), tmp_path)
     assert said(done) == [f"leg a {RIGID}", "leg a does not reach this pose"]
     assert not draw(tmp_path)
     assert any(RIGID in line for line in summary(done, 1.0))
@@ -172,7 +171,7 @@ def test_singular_equations_of_buckling_end_no_sweep(
         raise np.linalg.LinAlgError("Singular matrix")
 
     monkeypatch.setattr(legs, "linear_path", singular)
-    done = sweep(orthoglide, Grid((-9.0, -9.0, 0.0), (9.0, 9.0, 0.0), (2, 2, 1)), tmp_path, Serial())
+    done = sweep(orthoglide, Grid((-9.0, -9.0, 0.0), (9.0, 9.0, 0.0), (2, 2, 1)), tmp_path)
     assert np.all(done.values[:, 3] == FOUND) and np.all(np.isnan(done.values[:, REST.index("critical_N")]))
     assert set(said(done)) == {no_critical_load("x", UNSOLVED)}
     lines = summary(done, 1.0)
@@ -221,6 +220,6 @@ def test_bad_grids(low: float, high: float, counts: int, said: str) -> None:
         Grid((low,) * 3, (high,) * 3, (counts,) * 3)
 
 
-def test_bad_executors() -> None:
-    with pytest.raises(InputError, match="workers is 0"), executor(0):
+def test_bad_pools() -> None:
+    with pytest.raises(InputError, match="workers is 0"), pool(0):
         pass

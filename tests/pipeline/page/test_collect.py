@@ -12,28 +12,28 @@ import numpy as np
 import pytest
 
 from pipeline.add.fitting import add
-from pipeline.answer import Answer, Candidate
+from pipeline.answer.record import Answer, Candidate
 from pipeline.campaign import write
 from pipeline.compare.error import Discrepancy
-from pipeline.diagnose.diagnosis import diagnose
 from pipeline.errors import InputError
+from pipeline.inference.load_cases import load_cases
 from pipeline.inference.model import Model
 from pipeline.inference.prediction import predict
-from pipeline.inference.program import program
 from pipeline.inference.suitable import known_effects
 from pipeline.page.collect import Subject, collect, proposed
 from pipeline.page.command import report_campaign, write_page
 from pipeline.page.isolability import isolability, isolability_anew
 from pipeline.page.record import Page
 from pipeline.page.words import why
+from pipeline.selection.diagnosis import diagnose
 from reports import markdown
 from reports.blocks import Details, Section, Table
 from reports.campaign import dossier
 from reports.campaign.sections import build
 from tests.conftest import Done
 from tests.pipeline.bench import bench
-from tests.pipeline.diagnose.bench import bench as small_bench
 from tests.pipeline.inference import manipulators
+from tests.pipeline.selection.bench import bench as small_bench
 from tests.studio.ahead import unmeasured
 
 EFFECTS = ("bar_geometric_nonlinearity", "modulus_error")
@@ -65,7 +65,7 @@ def test_the_stages_end_at_the_errors_that_add_says() -> None:
 
 def test_curves_hold_what_was_measured_and_what_is_left() -> None:
     campaign = bench("modulus_error.scale", 0.95)
-    cases = program(campaign)
+    cases = load_cases(campaign)
     plain = Discrepancy(cases, predict(Model(), cases, slopes=False))
     for test, number in zip(page().tests, range(len(campaign.tests)), strict=True):
         rows = np.flatnonzero(cases.test == number)

@@ -6,17 +6,17 @@ from functools import cache
 
 import pytest
 
+from pipeline.answer.wording.diagnosis import answered
 from pipeline.campaign import Campaign
-from pipeline.diagnose.diagnosis import diagnose
-from pipeline.diagnose.words import answered
 from pipeline.inference.model import Model
 from pipeline.inference.suitable import Known, known_effects
 from pipeline.page.collect import Subject, collect
 from pipeline.page.command import of_diagnosis
 from pipeline.page.record import Page
 from pipeline.page.rivals import possible
-from tests.pipeline.diagnose.bench import AXIAL, bench
-from tests.pipeline.diagnose.test_readings import knocked, plain
+from pipeline.selection.diagnosis import diagnose
+from tests.pipeline.selection.bench import AXIAL, bench
+from tests.pipeline.selection.test_reading_noise import knocked, plain
 
 FEW = ("bar_geometric_nonlinearity", "modulus_error", "axis_flexibility", "base_compliance")
 

@@ -13,12 +13,12 @@ from typer.testing import CliRunner
 
 from pipeline.campaign import Campaign, write
 from pipeline.cli import app
-from pipeline.diagnose.menu import menu
 from pipeline.inference.model import Model
 from pipeline.plan.command import LARGE
 from pipeline.plan.next import _borne
 from pipeline.plan.planned import foreseen
-from tests.pipeline.diagnose.bench import AXIAL, bench
+from pipeline.selection.possible_tests import menu
+from tests.pipeline.selection.bench import AXIAL, bench
 from vjm.effects import catalogue
 
 MIXED = ("axial_held_q+0", "lateral_q+0")

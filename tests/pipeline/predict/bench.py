@@ -5,12 +5,12 @@ from __future__ import annotations
 from dataclasses import replace
 from functools import cache
 
+from pipeline.assessment.virtual.bench import measure
+from pipeline.assessment.virtual.plan import SENSORS, PlannedTest, bench_plan
 from pipeline.campaign import Campaign
 from pipeline.inference.model import Model
 from pipeline.predict.predicting import Fitted, fitted_to
 from pipeline.simulate import bench_rig
-from pipeline.virtual.bench import measure
-from pipeline.virtual.plan import SENSORS, PlannedTest, bench_plan
 from vjm.effects import catalogue
 
 HIDDEN = {"modulus_error.scale": 0.97}

@@ -9,6 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from pipeline.assessment.virtual.bench import true_readings
 from pipeline.campaign import Campaign, ParallelogramRig, write
 from pipeline.campaign.bar_from import BarFrom
 from pipeline.errors import InputError
@@ -23,7 +24,6 @@ from pipeline.predict.recording import recorded
 from pipeline.predict.words import about
 from pipeline.simulate import bench_rig
 from pipeline.toml.complaints import BadCampaign
-from pipeline.virtual.bench import true_readings
 from tests.pipeline.inference import manipulators
 from tests.pipeline.predict.bench import HIDDEN, IDS, bench, fitted, plan
 

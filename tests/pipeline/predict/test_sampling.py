@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from pipeline.inference.load_cases import load_cases
 from pipeline.inference.model import Model, Term
-from pipeline.inference.program import program
 from pipeline.predict.bands import Tangent
 from pipeline.predict.posterior import Posterior
 from pipeline.predict.sampling import bent, sampled
@@ -20,13 +20,13 @@ def played() -> Tangent:
     model = Model((Term(clearance, {"play_mm": 5e-3}),))
     size = abs(clearance.parameters[0].typical)
     data = np.array([[(size / 5e-5) ** 2]])
-    return Tangent.of(Posterior(model, (), np.zeros(0), data), program(bench()))
+    return Tangent.of(Posterior(model, (), np.zeros(0), data), load_cases(bench()))
 
 
 @pytest.mark.long
 def test_samples_of_a_straight_model_are_its_tangent() -> None:
     """Standard deviations of 60 samples scatter by 9 %, ends of intervals by somewhat more."""
-    at = Tangent.of(Posterior.of(fitted().fit), program(bench()))
+    at = Tangent.of(Posterior.of(fitted().fit), load_cases(bench()))
     wanted = at.cases.predicted
     assert not bent(at, wanted, seed=1).any()
     whole = sampled(at, np.ones(len(IDS), dtype=bool), seed=1)

@@ -1,0 +1,1 @@
+"""Records on a terminal of 80 columns."""

@@ -1,0 +1,43 @@
+"""`python -m pipeline.assessment.challenge.laws`: all benches with laws; it may be stopped and started again."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from meshes.files import replacing
+from pipeline.assessment.challenge.laws.cases import CASES
+from pipeline.assessment.challenge.laws.outcome import LawOutcome
+from pipeline.assessment.challenge.laws.page import law_page
+from pipeline.assessment.challenge.laws.score import law_scored
+from pipeline.assessment.challenge.laws.study import run
+from pipeline.progress import Progress
+
+STORE = Path("reports/challenge/laws_outcomes.jsonl")
+
+
+def main(
+    share: Annotated[float, typer.Option(min=0.01, max=1.0, help="Of each kind of case, the first.")] = 1.0,
+    workers: Annotated[int, typer.Option(min=1, help="Processes.")] = 2,
+    out: Annotated[Path, typer.Option(help="Folder of the score.")] = Path("reports/challenge"),
+    store: Annotated[Path, typer.Option(help="Where finished benches are kept.")] = STORE,
+    quiet: Annotated[bool, typer.Option("--quiet", help="No progress.")] = False,
+) -> None:
+    """The score of the look for laws."""
+    cases = [(kind, k) for kind, count in CASES.items() for k in range(max(1, round(share * count)))]
+    found: list[LawOutcome] = []
+    with Progress(quiet).stage("benches with laws") as stage:
+        for it in run(cases, store, workers):
+            found.append(it)
+            stage.say(f"{len(found)} of {len(cases)}, {sum(all(each.right) for each in found)} places right")
+    result = law_scored(found)
+    for name, text in (("laws.json", result.model_dump_json(indent=1) + "\n"), ("laws.md", law_page(result))):
+        with replacing(out / name) as part:
+            part.write_text(text, encoding="utf-8")
+    print(f"{result.cases} benches; the score is in {out / 'laws.md'}")
+
+
+if __name__ == "__main__":
+    typer.run(main)

@@ -1,0 +1,60 @@
+"""`python -m pipeline.assessment.prediction`: runs the study, or goes on with it, and writes reports/predict."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from meshes.files import replacing
+from pipeline.assessment.prediction.runs import run
+from pipeline.assessment.prediction.table import page, study
+from pipeline.assessment.prediction.trial import Trial
+from pipeline.progress import Progress
+
+OUT = Path("reports/predict")
+STORES = {False: "trials.jsonl", True: "tolerances.jsonl"}
+NAMES = {False: "predict", True: "tolerances"}
+
+
+def main(
+    cases: Annotated[
+        int, typer.Option(min=1, help="Campaigns with hidden effects, from the first one on.")
+    ] = 100,
+    workers: Annotated[int, typer.Option(min=1, help="Processes.")] = 2,
+    tolerances: Annotated[
+        bool, typer.Option("--tolerances", help="Benches that are off what is written, within tolerances.")
+    ] = False,
+    store: Annotated[
+        Path | None,
+        typer.Option(help="Where finished campaigns are kept; default in the folder of the page."),
+    ] = None,
+    out: Annotated[Path, typer.Option(help="Folder of the page.")] = OUT,
+) -> None:
+    """Count how many held-out readings lie inside their intervals. Stopped and started again, it goes on."""
+    found: list[Trial] = []
+    try:
+        with Progress().stage("predict") as stage:
+            for it in run(cases, store or out / STORES[tolerances], workers, tolerances):
+                found.append(it)
+                stage.say(f"{len(found)} of {cases} campaigns")
+    finally:
+        # A study that is stopped leaves the page of what it has.
+        if any(it.named and it.true for it in found):
+            written(found, out, tolerances)
+    print(f"{out / NAMES[tolerances]}.md: {len(found)} campaigns")
+
+
+def written(found: list[Trial], out: Path, tolerances: bool = False) -> None:
+    """The page and its record, in a folder."""
+    it = study(found)
+    name_of = NAMES[tolerances]
+    texts = {"json": it.model_dump_json(indent=1) + "\n", "md": page(it, tolerances)}
+    for name, text in ((f"{name_of}.{ending}", text) for ending, text in texts.items()):
+        with replacing(out / name) as part:
+            part.write_text(text, encoding="utf-8")
+
+
+if __name__ == "__main__":
+    typer.run(main)

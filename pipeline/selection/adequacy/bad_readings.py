@@ -1,0 +1,214 @@
+"""Single bad readings: a display misread, a dial that was knocked. Each is off alone, and its neighbours are not.
+
+A reading (y, or x of what was prescribed) that is off by d moves the whitened residual r of a fit by d times a column
+c. What the fit can move taken out of the column, c', the mean shift is d = c'·r / c'·c', and
+
+    t = c'·r / abs(c')
+
+is standard normal where nothing is wrong (R. D. Cook, S. Weisberg, Residuals and Influence in Regression, Chapman and
+Hall 1982, section 2.2.2). The largest t is looked at first, in units of the median of its sensor's (1.4826 MAD) where
+that is more than was declared, and beyond
+Bonferroni's bound over all readings it is a bad one if its neighbours in the same channel are not off as well: a play
+or a step of a sensor comes in runs; and if nothing else of its row is: a state that is another one moves several
+sensors. Its column joins what the fit can move, and the next one is looked at.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.stats import norm
+
+from pipeline.campaign import Campaign, Test
+from pipeline.campaign.names import channel_columns
+from pipeline.inference.driving import control_channels
+from pipeline.inference.fit import Fit
+from pipeline.inference.orthonormal_basis import basis
+from pipeline.inference.residual import Residual
+from pipeline.selection.adequacy.reading_errors import ReadingErrors
+from pipeline.selection.criteria import Criteria
+
+Array = NDArray[np.float64]
+Mask = NDArray[np.bool_]
+FLAT = 0.1
+"""Part of a column that must be left when what the fit can move is taken out: less, and the fit follows the reading
+wherever it is."""
+FOR_NEITHER = 2.0 * float(np.log(2.0))
+"""Twice the logarithm by which one explanation of a row has to be likelier than another."""
+MEDIAN = float(norm.ppf(0.75))
+
+
+@dataclass(frozen=True)
+class BadReading:
+    """One reading by the id of its test, its step and its column. sigmas: by how many of its own it is off."""
+
+    test: str
+    step: int
+    column: str
+    sigmas: float
+
+    @property
+    def cell(self) -> tuple[str, int, str]:
+        """Where it stands."""
+        return self.test, self.step, self.column
+
+
+@dataclass(frozen=True, eq=False)
+class _Shifts:
+    """Mean shifts of all readings about a residual r (N,) that is free of a basis (N, k)."""
+
+    it: Residual
+    of: ReadingErrors
+    residual: Array
+    taken: Array
+
+    @cached_property
+    def lengths(self) -> Array:
+        """(R, M) of the columns, what the fit can move taken out; infinite where there is no reading or nothing is
+        left."""
+        it, columns = self.it, self.of.columns
+        sizes = np.sum(columns**2, axis=1)
+        left = sizes - np.sum(self._inner(it.zeros) ** 2, axis=-1)
+        if it.marginal is not None:
+            share = it.marginal.sizes**2 / (1.0 + it.marginal.sizes**2)
+            left -= np.sum(share * self._inner(it.marginal.left) ** 2, axis=-1)
+        left -= np.sum(self._inner(it.weakened(self.taken)) ** 2, axis=-1)
+        seen = self.of.there & (left > FLAT**2 * sizes) & (sizes > 0.0)
+        return np.where(seen, np.sqrt(np.where(seen, left, 1.0)), np.inf)
+
+    @cached_property
+    def scores(self) -> Array:
+        """(R, M) t, zero where there is no reading or nothing of its column is left."""
+        return np.asarray(self._inner(self.it.weakened(self.residual)[:, None])[..., 0] / self.lengths)
+
+    def without(self, row: int, number: int) -> _Shifts:
+        """The same with the shift of one reading taken out."""
+        whole = np.zeros(self.of.columns.shape[:2])
+        whole[row] = self.of.columns[row, :, number]
+        column = self.it.free(whole)
+        for _ in range(2):
+            column = column - self.taken @ (self.taken.T @ column)
+        column = column / np.linalg.norm(column)
+        residual = self.residual - column * (column @ self.residual)
+        return replace(self, residual=residual, taken=np.column_stack([self.taken, column]))
+
+    def _inner(self, array: Array) -> Array:
+        """(R, M, k) products of every reading's column with those of an array (N, k)."""
+        whole = np.zeros((*self.of.columns.shape[:2], array.shape[1]))
+        whole[self.it.rows[:, 0], self.it.rows[:, 1]] = array
+        return np.einsum("rcm,rck->rmk", self.of.columns, whole)
+
+
+def bad_readings(found: Fit, criteria: Criteria) -> tuple[BadReading, ...]:
+    """The single bad readings of the fitted tests, the worst first."""
+    it, taken = found.residual, basis(found.jacobian)
+    residual = found.whitened - taken @ (taken.T @ found.whitened)
+    shifts = _Shifts(it, ReadingErrors.of(found), residual, taken)
+    there = shifts.of.there.copy()
+    scale = _scales(shifts)
+    count = int(there.sum())
+    if count < criteria.few_readings:
+        return ()
+    limit = float(norm.isf(0.5 * criteria.false_alarm / count))
+    channels = it.load_cases.measured.shape[1]
+    out: list[BadReading] = []
+    while len(out) < max(1.0, criteria.bad_share * count):
+        sizes = np.where(there, np.abs(shifts.scores), 0.0)
+        row = int(np.argmax((sizes / scale).max(axis=1)))
+        if not (sizes[row] / scale[row]).max() > limit:
+            break
+        number = _likeliest(sizes[row], shifts.lengths[row], channels)
+        # One of a row: what was off twice was another state.
+        there[row] = False
+        less = shifts.without(row, number)
+        beside = _beside(shifts, row, number, less.scores / scale)
+        rest = np.abs(less.scores[row]) / np.maximum(
+            criteria.bad_neighbours * scale[row], criteria.bad_rest * sizes[row].max()
+        )
+        if np.all(np.abs(beside) < criteria.bad_neighbours) and rest.max() < 1.0:
+            off = float(shifts.scores[row, number] / shifts.lengths[row, number])
+            out.append(_named(found, row, int(shifts.of.channels[row, number]), off))
+            shifts = less
+    return tuple(out)
+
+
+def _scales(shifts: _Shifts) -> Array:
+    """(R, M) what the scores of a reading's sensor are like, at least 1."""
+    scores, of = np.abs(shifts.scores), shifts.of
+    out = np.ones(scores.shape)
+    for channel in np.unique(of.channels[of.there]):
+        own = of.there & (of.channels == channel)
+        out[own] = max(1.0, float(np.median(scores[own])) / MEDIAN)
+    return out
+
+
+def _likeliest(sizes: Array, lengths: Array, channels: int) -> int:
+    """Of the readings of a row (M,), by their t; the first so many are read only, the others were prescribed.
+
+    What is prescribed and what answers to it may say the same of a row: then it is the one that is off by fewer of its
+    own sigmas. With a shift of d = t / |c'| sigmas as rare as 1 / d², and known to 1 / |c'|, twice the logarithm of
+    what is likely is t² - 2 ln d, but for what is nearly the same for all. Where that speaks for neither it is what was
+    read only: then the row stays.
+    """
+    off = np.where(sizes > 0.0, sizes / lengths, 1.0)
+    likely = np.where(sizes > 0.0, sizes**2 - 2.0 * np.log(off), -np.inf)
+    likely[channels:] -= FOR_NEITHER
+    return int(np.argmax(likely))
+
+
+def _beside(shifts: _Shifts, row: int, number: int, scores: Array) -> Array:
+    """Scores of the same channel in the rows before and after, of the same test."""
+    whole = shifts.it.load_cases
+    channel = shifts.of.channels[row, number]
+    rows = [k for k in (row - 1, row + 1) if 0 <= k < len(whole.test) and whole.test[k] == whole.test[row]]
+    return np.concatenate([scores[k][shifts.of.channels[k] == channel] for k in rows] or [np.zeros(0)])
+
+
+def _named(found: Fit, row: int, channel: int, off: float) -> BadReading:
+    whole = found.residual.load_cases
+    test = whole.campaign.tests[whole.test[row]]
+    step = int(test.data.steps[row - whole.first[whole.test[row]]])
+    return BadReading(test.id, step, channel_columns(whole.campaign.gauges)[channel], off)
+
+
+def set_aside(campaign: Campaign, bad: tuple[BadReading, ...]) -> Campaign:
+    """The campaign without these readings. A row where one of them was prescribed has nothing that is compared, for
+    what was done there is not known; it stays on the way, with what was prescribed before and after. A test without
+    another row is left out."""
+    if not bad:
+        return campaign
+    names = channel_columns(campaign.gauges)
+    tests = [_test_without(campaign, test, set(_of(test, bad, names))) for test in campaign.tests]
+    return replace(campaign, tests=tuple(test for test in tests if test is not None))
+
+
+def _of(test: Test, bad: tuple[BadReading, ...], names: list[str]) -> Iterator[tuple[int, int]]:
+    """Row in the test and channel of each."""
+    for each in bad:
+        if each.test == test.id:
+            yield int(np.flatnonzero(test.data.steps == each.step)[0]), names.index(each.column)
+
+
+def _test_without(campaign: Campaign, test: Test, cells: set[tuple[int, int]]) -> Test | None:
+    if not cells:
+        return test
+    data = test.data
+    readings = np.hstack([data.displacement, data.wrench, data.gauges])
+    controls = control_channels(test, campaign.gauges)
+    compared = np.setdiff1d(np.arange(readings.shape[1]), controls)
+    for row, channel in cells:
+        if channel not in controls:
+            readings[row, channel] = np.nan
+            continue
+        there = np.flatnonzero(np.isfinite(readings[:, channel])).tolist()
+        good = np.array([k for k in there if (k, channel) not in cells], dtype=int)
+        if not good.size:
+            return None
+        readings[row, channel] = np.interp(row, good, readings[good, channel])
+        readings[row, compared] = np.nan
+    data = replace(data, displacement=readings[:, :6], wrench=readings[:, 6:12], gauges=readings[:, 12:])
+    return replace(test, data=data)

@@ -1,0 +1,148 @@
+"""Whether noise has long tails: Student's t against the normal law, and against a normal law with single bad readings.
+
+Whitened residuals r of a fit that leaves no order are draws of one law. Student's t with nu degrees of freedom and
+scale s is fitted by its likelihood, a normal law likewise, and a normal law with a part of the readings anywhere in
+the range (J. Hampel et al., Robust Statistics, Wiley 1986, section 1.2c, the gross-error model). Long tails are there
+where the t is far more likely than the normal law and no less than that with bad readings.
+
+Least squares are then done on normal scores z = Phi^-1(T_nu(r / s)), standard normal where the law holds. A small
+shift d of a reading moves its score by d / s_eff on average,
+
+    1 / s_eff = E[dz/dr] = integral of t(r)² / phi(z(r)) dr,
+
+so that a reading at its prediction plus s_eff z, of a sigma of s_eff, is one of normal noise (P. J. Huber, Robust
+Statistics, Wiley 1981, section 7.8: pseudo-values).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.integrate import quad
+from scipy.optimize import minimize
+from scipy.stats import norm, t
+
+from pipeline.campaign import Campaign
+from pipeline.inference.driving import control_channels
+from pipeline.inference.fit import Fit
+from pipeline.inference.residual import whitening
+from pipeline.selection.criteria import Criteria
+
+Array = NDArray[np.float64]
+DEGREES = (1.0, 100.0)
+"""Of Student's law: below, it has no mean; above, it is normal."""
+FARTHEST = 8.0
+"""Normal scores beyond which a probability is one in double precision."""
+
+
+@dataclass(frozen=True)
+class Tails:
+    """Student's law of whitened residuals. degrees: of freedom. scale: in declared sigmas. growth: of twice the log
+    likelihood over the normal law."""
+
+    degrees: float
+    scale: float
+    growth: float
+
+    def scores(self, residual: Array) -> Array:
+        """Normal scores of residuals."""
+        # By the nearer tail: one minus a small number would round it away.
+        tail = t.sf(np.abs(residual) / self.scale, self.degrees)
+        return np.asarray(np.clip(np.sign(residual) * norm.isf(tail), -FARTHEST, FARTHEST))
+
+    @cached_property
+    def effective(self) -> float:
+        """Standard deviation, in declared sigmas, of normal noise that says as much."""
+
+        def integrand(z: float) -> float:
+            # dr t(r)² / phi(z) = dz t(r(z)).
+            return float(t.pdf(t.ppf(norm.cdf(z), self.degrees), self.degrees))
+
+        return self.scale / quad(integrand, -FARTHEST, FARTHEST)[0]
+
+
+def tails_of(found: Fit, criteria: Criteria) -> Tails | None:
+    """Long tails of what a fit leaves, none where there are no more than noise has."""
+    used = found.residual.load_cases.predicted & found.residual.load_cases.fitted[:, None]
+    used &= ~found.prediction.lost[:, None]
+    residual = found.residual.left[used]
+    largest = float(np.abs(residual).max(initial=0.0))
+    if residual.size < criteria.few_readings or largest == 0.0:
+        return None
+    (log_degrees, log_scale), student = _student(residual)
+    growth = 2.0 * (student - _normal(residual))
+    beyond = 2.0 * (student - _with_bad_readings(residual, largest))
+    if growth < criteria.tails or beyond < criteria.tails_no_less or not _without_few(residual, criteria):
+        return None
+    return Tails(float(np.exp(log_degrees)), float(np.exp(log_scale)), growth)
+
+
+def _normal(residual: Array) -> float:
+    """Log likelihood of the normal law of zero mean."""
+    return float(norm.logpdf(residual, scale=np.sqrt(np.mean(residual**2))).sum())
+
+
+def _without_few(residual: Array, criteria: Criteria) -> bool:
+    """Whether tails are there without the few largest: single bad readings are gone then."""
+    few = max(1, int(np.ceil(criteria.bad_share * residual.size)))
+    rest = residual[np.argsort(np.abs(residual))[:-few]]
+    return 2.0 * (_student(rest)[1] - _normal(rest)) > criteria.tails_without_few
+
+
+def _student(residual: Array) -> tuple[Array, float]:
+    """Logarithms of degrees and scale of the largest likelihood, and that."""
+
+    def negative(at: Array) -> float:
+        degrees, scale = np.exp(at)
+        return -float(t.logpdf(residual, degrees, scale=scale).sum())
+
+    spread = np.median(np.abs(residual)) or np.sqrt(np.mean(residual**2))
+    ends = [tuple(np.log(DEGREES)), (None, None)]
+    it = minimize(negative, np.array([np.log(4.0), np.log(spread)]), bounds=ends, method="L-BFGS-B")
+    return np.asarray(it.x), -float(it.fun)
+
+
+def _with_bad_readings(residual: Array, largest: float) -> float:
+    """Log likelihood of a normal law of which a part is anywhere in the range."""
+
+    def negative(at: Array) -> float:
+        part = 1.0 / (1.0 + np.exp(-at[0]))
+        density = (1.0 - part) * norm.pdf(residual, scale=np.exp(at[1])) + part / (2.0 * largest)
+        return -float(np.log(np.maximum(density, 1e-300)).sum())
+
+    spread = np.median(np.abs(residual)) or np.sqrt(np.mean(residual**2))
+    start = np.array([-4.0, np.log(spread / norm.ppf(0.75))])
+    return -float(minimize(negative, start, method="Nelder-Mead").fun)
+
+
+def without_tails(found: Fit, tails: Tails) -> Campaign:
+    """The campaign of a fit with normal scores in the place of what is left, and the sigmas of as much information;
+    what was prescribed stays as it was read."""
+    it = found.residual
+    whole = it.load_cases
+    used = whole.predicted & ~found.prediction.lost[:, None]
+    factors = whitening(whole, found.prediction).factors
+    less = np.where(used, it.left - tails.effective * tails.scores(it.left), 0.0)
+    # Back from whitened residuals to readings.
+    readings = whole.measured - np.where(used, np.linalg.solve(factors, less[..., None])[..., 0], 0.0)
+    campaign, noise = whole.campaign, whole.campaign.noise
+    tests = []
+    for k, test in enumerate(campaign.tests):
+        own = readings[whole.first[k] : whole.first[k + 1]]
+        data = test.data
+        given = control_channels(test, campaign.gauges)
+        as_read = np.hstack([data.displacement, data.wrench, data.gauges])
+        own = np.where(np.isin(np.arange(own.shape[1]), given), as_read, own)
+        data = replace(data, displacement=own[:, :6], wrench=own[:, 6:12], gauges=own[:, 12:])
+        tests.append(replace(test, data=data))
+    size = tails.effective
+    wider = replace(
+        noise,
+        displacement=noise.displacement * size,
+        wrench=noise.wrench * size,
+        gauges=noise.gauges * size,
+    )
+    return replace(campaign, tests=tuple(tests), noise=wider)

@@ -1,0 +1,54 @@
+"""What is certain though not all is explained: effects without which far more is left, whatever sensors did beside.
+
+For an effect of the best set the rival is the best set without it, other effects allowed. Both may have patterns of
+sensors (`adequacy.free_patterns`): the best set as many as its rest needs to look like noise, the rival two
+more. The effect is certain where the rival is still worse by far.
+"""
+
+from __future__ import annotations
+
+from pipeline.selection.adequacy.free_patterns import falls
+from pipeline.selection.cost import cost, cost_of
+from pipeline.selection.first_order_costs import estimates
+from pipeline.selection.fit_cache import FitCache, Names
+from pipeline.selection.rivals import Found
+
+
+def certain(found: Found, sets: tuple[Names, ...]) -> tuple[str, ...]:
+    """Names of the effects with numbers that are in all sets of a verdict and that nothing else replaces."""
+    cache, criteria = found.cache, found.cache.criteria
+    best = sets[0]
+    common = frozenset.intersection(*sets)
+    names = [n for n in cache.order(common) if cache.candidates[n].parameters]
+    if not names:
+        return ()
+    fit = cache.fit(best)
+    mine = falls(fit, criteria, criteria.certain_patterns)
+    limit = fit.degrees + criteria.excess_deviations * (2.0 * max(fit.degrees, 1)) ** 0.5
+    count = next((k for k, left in enumerate(mine) if left <= limit), len(mine) - 1)
+    beside = cost_of(cache, best) - mine[0]
+    needed = (criteria.certain_sigmas * max(1.0, fit.rms)) ** 2
+    least = mine[count] + beside + needed
+    return tuple(name for name in names if _beaten(cache, best, name, count + criteria.certain_more, least))
+
+
+def _beaten(cache: FitCache, best: Names, name: str, patterns: int, least: float) -> bool:
+    """Whether every rival without an effect leaves more than this with so many patterns."""
+    for rival in _rivals(cache, best, name):
+        left = falls(cache.fit(rival), cache.criteria, patterns)
+        if cost_of(cache, rival) - left[0] + left[-1] < least:
+            return False
+    return True
+
+
+def _rivals(cache: FitCache, best: Names, name: str) -> list[Names]:
+    """The set without the effect and what cannot be without it, with the best other effects beside, and the best sets
+    without it that were fitted."""
+    needs = {n for n in best if name in cache.candidates[n].includes}
+    start = best - {name} - needs
+    cache.fit_all({start: {}})
+    wanted = cache.criteria.certain_rivals
+    near = [e for e in estimates(cache, start, (1,)) if e.names != start and name not in e.names]
+    cache.fit_all({e.names: e.probes for e in near[:wanted]})
+    known = sorted((n for n in cache.fits if name not in n), key=lambda n: cost(cache, n))
+    return list(dict.fromkeys([start, *(e.names for e in near[:wanted]), *known[:wanted]]))

@@ -1,0 +1,290 @@
+"""Which discrete mistake of a table explains most of a misfit: asked before any physics.
+
+A mistake is told where, with the best single effect on both sides (its numbers as implausible as they are), what is
+left falls by a factor, and where the columns it is in are then explained by the model: a factor that only silences a
+column explains nothing. Of all mistakes a first-order look is taken, with the differences of what is prescribed through
+the constant stiffness; those that promise anything are fitted.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pipeline.campaign import Campaign
+from pipeline.inference.declared_sigmas import trusted
+from pipeline.inference.fit import Fit
+from pipeline.inference.linear_prediction import predict_linear
+from pipeline.inference.load_cases import LoadCases, load_cases
+from pipeline.inference.multistart import best_fit
+from pipeline.inference.predicted import Prediction
+from pipeline.inference.residual import residual
+from pipeline.inference.solvers import Effort
+from pipeline.inference.suitable import scale_for
+from pipeline.selection.cost import cost_of, implausibility
+from pipeline.selection.criteria import Criteria
+from pipeline.selection.faulty_sensor import least_with_a_fault
+from pipeline.selection.first_order import FirstOrder, first_order
+from pipeline.selection.fit_cache import FitCache, Names
+from pipeline.selection.mistakes import possible
+from pipeline.selection.mistakes.base import Mistake, columns_of, with_readings
+from pipeline.selection.signatures import look
+from vjm.effects import catalogue
+from vjm.effects.base import Effect
+from vjm.effects.sized import all_sized
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Suspicion:
+    """A mistake that explains most. before, after: chi-square that is left with the best single effect, without and
+    with it mended."""
+
+    mistake: Mistake
+    before: float
+    after: float
+
+
+def suspicions(cache: FitCache) -> tuple[Suspicion, ...]:
+    """The mistake of the table that explains most, with those that explain as much; none where none does."""
+    criteria = cache.criteria
+    # A mistake that explains most is seen in few rows, and by effects that need no search.
+    some = look(cache.whole, criteria.doctor_steps).load_cases
+    if not (some.predicted & some.fitted[:, None]).any():
+        return ()
+    plain = {name: it for name, it in cache.candidates.items() if it.smooth}
+    table = Table.of(FitCache(some, cache.base, plain, cache.on_progress, criteria, before=cache))
+    if (
+        table.fit.degrees < criteria.doctor_readings
+        or _near(table.fit, criteria)
+        or _near(table.plain.fit, criteria)
+    ):
+        return ()
+    cache.on_progress("whether the table has a mistake")
+    noise, promising = max(table.fit.degrees, 1), _promising(table)
+    if not promising:
+        return ()
+    # A faulty sensor is none of the table, and may look like one to a few of its columns.
+    fault = least_with_a_fault(cache, table.root, _kinds(cache.whole.campaign))
+    share = noise / max(cache.fit(table.root).degrees, 1)
+    found = _found(table, promising, fault * share)
+    if found:
+        # A column of which the model predicts little is silenced by a factor: effects with kinks explain it too.
+        enough = criteria.doctor_factor * max(it.after for it in found) / share
+        kinked = _least_with_kinks(cache, table.root, enough) * share
+        found = [it for it in found if it.after * criteria.doctor_factor <= kinked]
+    # A factor that silences a column leaves less than noise: that explains no more than noise does.
+    least = max(min((it.after for it in found), default=0.0), noise)
+    kept = [it for it in found if it.after < least + criteria.doctor_tie * least / noise]
+    return tuple(sorted(kept, key=lambda it: (it.after, len(it.mistake.columns))))
+
+
+def _least_with_kinks(cache: FitCache, root: Names, enough: float) -> float:
+    """Chi-square that the best single effect leaves of those that need a search: friction, play, yielding. A fit that
+    does not come near what is enough ends before."""
+    before, known = cache.fit(root), root | set(cache.base.names)
+    plausible, out = cache.criteria.plausible, np.inf
+    for name, effect in cache.candidates.items():
+        if effect.smooth or not known >= set(effect.includes):
+            continue
+        cache.on_progress(f"whether {name} explains as much")
+        model = before.model.with_effects([effect])
+        there = best_fit(model, cache.whole, [name], before.prediction, None, plausible, Effort(known=enough))
+        out = min(out, there.chi_square + implausibility(there, plausible))
+    return out
+
+
+def _kinds(campaign: Campaign) -> list[Effect]:
+    return list(all_sized(catalogue(), scale_for(campaign)).values())
+
+
+@dataclass(frozen=True, eq=False)
+class Table:
+    """Fits of a table, and the set beside which mistakes are looked for: what is there or not."""
+
+    cache: FitCache
+    root: Names
+
+    @classmethod
+    def of(cls, cache: FitCache) -> Table:
+        """Beside all that is there or not, with no number to fit: a right table is better explained with it."""
+        return cls(cache, frozenset(name for name, it in cache.candidates.items() if not it.parameters))
+
+    @property
+    def fit(self) -> Fit:
+        """Without any further effect."""
+        return self.cache.fit(self.root)
+
+    @property
+    def plain(self) -> Table:
+        """Beside nothing."""
+        return replace(self, root=frozenset())
+
+    @cached_property
+    def first_order(self) -> float:
+        """What the best single effect leaves, to first order."""
+        return self.first_order_of(self.fit)
+
+    def first_order_of(self, found: Fit) -> float:
+        """The same of a fit of a table that is like this one."""
+        here = self._first_order_picture(found)
+        gains = [here.gain([name]).value for name in here.signatures if self._allowed(here, name)]
+        return max(found.chi_square - max(gains, default=0.0), 0.0)
+
+    @cached_property
+    def leaves_bounds(self) -> bool:
+        """Whether an effect would explain most with a number beyond its bounds, to first order: what it does within
+        them only a fit can tell."""
+        here = self._first_order_picture(self.fit)
+        gains = {name: here.gain([name]).value for name in here.signatures}
+        return bool(gains) and not self._allowed(here, max(gains, key=gains.__getitem__))
+
+    def _first_order_picture(self, found: Fit) -> FirstOrder:
+        known = self.cache.first_order(self.root).signatures
+        return first_order(found, list(known.values()), self.cache.at, {}, self.cache.criteria.plausible)
+
+    def _allowed(self, here: FirstOrder, name: str) -> bool:
+        """Whether the numbers of an effect lie within its bounds, to first order: a stiffness below zero explains a
+        lost sign."""
+        _, sizes = here.alone(name)
+        parameters = self.cache.candidates[name].parameters
+        low, high = (
+            np.array([(bound - p.null) / p.typical for p, bound in zip(parameters, bounds, strict=True)])
+            for bounds in ([p.low for p in parameters], [p.high for p in parameters])
+        )
+        return bool(np.all((sizes >= low) & (sizes <= high)))
+
+    @cached_property
+    def left(self) -> tuple[float, Names]:
+        """What the best single effect leaves, and the set; of those that promise most, fitted."""
+        cache, root = self.cache, self.root
+        there = cache.first_order(root)
+        known = root | set(cache.base.names)
+        single = {
+            name: there.gain([name]).value
+            for name in there.signatures
+            if known >= set(cache.candidates[name].includes)
+        }
+        leaders = sorted(single, key=lambda name: -single[name])[: cache.criteria.doctor_effects]
+        sets = [root, *(root | {name} for name in leaders)]
+        cache.fit_all({names: {} for names in sets[1:]})
+        best = min(sets, key=lambda names: cost_of(cache, names))
+        return cost_of(cache, best), best
+
+    def mended(self, mistake: Mistake) -> Table:
+        """The table without a mistake, with the sigmas that its scatter then allows."""
+        cache = self.cache
+        cases = load_cases(trusted(mistake.mended(cache.whole.campaign), cache.base))
+        return replace(
+            self, cache=FitCache(cases, cache.base, cache.candidates, cache.on_progress, cache.criteria)
+        )
+
+
+def _found(table: Table, promising: list[Mistake], fault: float) -> list[Suspicion]:
+    """Every mistake that is enough: to first order, then fitted. Fits far from an explanation are slow, so that they
+    are made of the table as it is and of what may be right alone. fault: what the fault of one sensor leaves."""
+    criteria, enough = table.cache.criteria, []
+    if fault < criteria.doctor_factor * max(table.fit.degrees, 1):
+        return []
+    for mistake in promising:
+        table.cache.on_progress(f"whether {mistake.words}")
+        mended = table.mended(mistake)
+        if mended.first_order * criteria.doctor_factor < min(table.first_order, fault):
+            enough.append((mistake, mended))
+    if not enough:
+        return []
+    before = min(table.first_order, table.plain.first_order, fault)
+    least = min(mended.first_order for _, mended in enough)
+    if before < criteria.doctor_sure * least or table.leaves_bounds:
+        before = min(before, table.left[0])
+    out: list[Suspicion] = []
+    for mistake, mended in sorted(enough, key=lambda it: it[1].first_order):
+        far = out and mended.first_order > criteria.doctor_far * min(it.after for it in out)
+        if far or not _shows(mended, mistake) or mended.left[0] * criteria.doctor_factor > before:
+            continue
+        if _explained(mended.cache.fit(mended.left[1]), mistake, criteria):
+            out.append(Suspicion(mistake, before, mended.left[0]))
+    return out
+
+
+def _promising(table: Table) -> list[Mistake]:
+    """Those that a first-order look at them all does not exclude, the best first."""
+    criteria, whole, base = table.cache.criteria, table.cache.whole, table.fit
+    before = table.first_order
+    if min(before, table.plain.first_order) < criteria.doctor_factor * max(base.degrees, 1):
+        return []
+    linear = predict_linear(whole)
+    out: list[tuple[float, Mistake]] = []
+    for mistake in possible(whole.campaign):
+        mended = mistake.mended(whole.campaign)
+        cases = load_cases(mended)
+        moved = _moved(whole, cases, linear)
+        there = replace(base.prediction, values=base.prediction.values + moved)
+        found = Fit(base.model, there, residual(cases, there), 0)
+        # What leaves more when it is mended is none.
+        left = table.first_order_of(found) if found.chi_square < base.chi_square else np.inf
+        if left * criteria.doctor_look < before:
+            out.append((left, mistake))
+    out.sort(key=lambda it: it[0])
+    return [mistake for _, mistake in out[: criteria.doctor_fitted]]
+
+
+def _moved(whole: LoadCases, cases: LoadCases, linear: Prediction) -> Array:
+    """(R, C) by which a constant stiffness predicts otherwise what is prescribed otherwise."""
+    one, other = whole.campaign, cases.campaign
+    if any(a.q_deg != b.q_deg for a, b in zip(one.tests, other.tests, strict=True)):
+        return np.asarray(predict_linear(cases).values - linear.values)
+    more = np.concatenate(
+        [b.inputs(other.gauges) - a.inputs(one.gauges) for a, b in zip(one.tests, other.tests, strict=True)]
+    )
+    return np.einsum("rci,ri->rc", linear.by_inputs[..., :6], np.nan_to_num(more))
+
+
+def _near(found: Fit, criteria: Criteria) -> bool:
+    """Whether nothing could take a factor off what is left but to fit noise."""
+    return found.chi_square < criteria.doctor_factor * max(found.degrees, 1)
+
+
+def _shows(mended: Table, mistake: Mistake) -> bool:
+    """Whether what is prescribed in the columns of a mistake has to be there: with zeros more would be left."""
+    names = np.isin(columns_of(mended.cache.whole.campaign), mistake.columns)
+    if not np.any(np.isin(mended.cache.whole.channels, np.flatnonzero(names))):
+        return True
+
+    def silenced(campaign: Campaign) -> Campaign:
+        return with_readings(campaign, lambda values: np.where(names, 0.0 * values, values))
+
+    silent = mended.mended(replace(mistake, mended=silenced))
+    return silent.first_order > mended.first_order + mended.cache.criteria.doctor_explains
+
+
+def _explained(found: Fit, mistake: Mistake, criteria: Criteria) -> bool:
+    """Whether the model explains the columns of a mistake, where it predicts them and they read more than noise: a
+    factor that silences a column explains nothing."""
+    parts = list(_signals(found, mistake))
+    if not parts:
+        return True
+    loud = [(signal, left) for signal, left, count in parts if signal > criteria.doctor_explains * count]
+    signal, left = sum(s for s, _ in loud), sum(x for _, x in loud)
+    return bool(loud) and left * criteria.doctor_factor < signal
+
+
+def _signals(found: Fit, mistake: Mistake) -> Iterator[tuple[float, float, int]]:
+    """Of each predicted column: chi-square of its readings, of what is left of them, and their number."""
+    cases = found.residual.load_cases
+    names = columns_of(cases.campaign)
+    for column in mistake.columns:
+        if column not in names:
+            continue
+        channel = names.index(column)
+        rows = cases.predicted[:, channel] & cases.fitted & ~found.prediction.lost
+        if rows.any():
+            sigma, read = cases.spread[rows, channel], cases.measured[rows, channel]
+            off = read - found.prediction.values[rows, channel]
+            squares = float(np.sum((read / sigma) ** 2)), float(np.sum((off / sigma) ** 2))
+            yield *squares, int(rows.sum())

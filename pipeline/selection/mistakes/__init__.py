@@ -1,0 +1,21 @@
+"""Discrete mistakes that a table of measurements may have: a unit, a sign, two columns exchanged, a zero, an order.
+
+Every module beside `base` that defines `mistakes` belongs to them; it yields those that a campaign might have.
+"""
+
+from __future__ import annotations
+
+import importlib
+import pkgutil
+from collections.abc import Iterator
+
+from pipeline.campaign import Campaign
+from pipeline.selection.mistakes.base import Mistake
+
+
+def possible(campaign: Campaign) -> Iterator[Mistake]:
+    """All that a campaign might have, kind by kind in alphabetical order of their modules."""
+    for info in sorted(pkgutil.iter_modules(__path__), key=lambda it: it.name):
+        module = importlib.import_module(f"{__name__}.{info.name}")
+        if hasattr(module, "mistakes"):
+            yield from module.mistakes(campaign)

@@ -1,0 +1,84 @@
+"""A column in another unit than its name says: kgf, pounds, inches, metres, degrees.
+
+Factors: 9.80665 N are a kilogram-force and 4.4482216 N a pound-force, 25.4 mm an inch (BIPM, The International System
+of Units, 9th ed. 2019; NIST Special Publication 811, 2008, appendix B.8).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from functools import partial
+
+import numpy as np
+
+from pipeline.campaign import Campaign
+from pipeline.selection.mistakes.base import FORCES, MOMENTS, Mistake, groups, times, verb
+
+KGF, POUND, INCH, THOUSAND, DEGREE = 9.80665, 4.4482216, 25.4, 1000.0, float(np.pi / 180.0)
+FORCE = {"kgf": KGF, "lbf": POUND, "kN": THOUSAND, "mN": 1.0 / THOUSAND}
+MOMENT = {
+    "N·m": THOUSAND,
+    "kgf·mm": KGF,
+    "kgf·m": THOUSAND * KGF,
+    "kgf·cm": 10.0 * KGF,
+    "lbf·in": POUND * INCH,
+    "N·µm": 1.0 / THOUSAND,
+}
+LENGTH = {"m": THOUSAND, "in": INCH, "µm": 1.0 / THOUSAND, "thousandths of an inch": INCH / THOUSAND}
+TURN = {"degrees": DEGREE, "mrad": 1.0 / THOUSAND}
+BOTH = {"kgf": KGF, "lbf": POUND}
+"""Of forces and moments together."""
+MEANT = {"N": FORCE, "Nmm": MOMENT, "mm": LENGTH, "rad": TURN}
+WRITTEN = {"N": "N", "Nmm": "N·mm", "mm": "mm", "rad": "rad"}
+
+
+def mistakes(campaign: Campaign) -> Iterator[Mistake]:
+    """Another unit, or one that was converted the wrong way."""
+    for name, columns in groups(campaign).items():
+        units = {column.rpartition("_")[2] for column in columns}
+        known = MEANT[units.pop()] if len(units) == 1 else BOTH
+        done = set()
+        for unit, factor in known.items():
+            yield _read_in(name, columns, unit, factor)
+            done.add(round(factor, 12))
+        for unit, factor in known.items():
+            if round(1.0 / factor, 12) not in done:
+                yield _converted_back(name, columns, unit, factor)
+
+
+def _read_in(name: str, columns: tuple[str, ...], unit: str, factor: float) -> Mistake:
+    is_read = verb(columns, "is", "are")
+    return Mistake(
+        "unit",
+        columns,
+        f"{name} {is_read} in {unit}",
+        f"multiply {_listed(columns)} by {factor:.7g} ({_meant(columns)} in {unit}), and {_its(columns)} sigma as well "
+        f"where it is in {unit} too",
+        partial(times, columns=columns, factor=factor),
+    )
+
+
+def _converted_back(name: str, columns: tuple[str, ...], unit: str, factor: float) -> Mistake:
+    return Mistake(
+        "unit",
+        columns,
+        f"{name} {verb(columns, 'was', 'were')} converted to {unit} the wrong way round or twice",
+        f"divide {_listed(columns)} by {factor:.7g} ({_meant(columns)} in {unit})",
+        partial(times, columns=columns, factor=1.0 / factor),
+    )
+
+
+def _meant(columns: tuple[str, ...]) -> str:
+    if set(columns) <= set(FORCES):
+        return "N"
+    if set(columns) <= set(MOMENTS):
+        return "N·mm"
+    return WRITTEN.get(columns[0].rpartition("_")[2], "")
+
+
+def _its(columns: tuple[str, ...]) -> str:
+    return verb(columns, "its", "their")
+
+
+def _listed(columns: tuple[str, ...]) -> str:
+    return ", ".join(columns)

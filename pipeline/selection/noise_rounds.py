@@ -1,0 +1,115 @@
+"""Searches with the readings as they were declared, and as they are about what was found, until both are the same.
+
+Single bad readings that are seen beside the best single effect are set aside before all that competes is fitted: what
+they leave looks like many effects together, and takes most of the time.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass, replace
+from functools import partial
+
+from pipeline.answer.record import Verdict
+from pipeline.attempt import Attempts
+from pipeline.campaign import Campaign
+from pipeline.inference.load_cases import LoadCases
+from pipeline.selection.adequacy.bad_readings import bad_readings
+from pipeline.selection.adequacy.judgement import judge
+from pipeline.selection.adequacy.untested import untested
+from pipeline.selection.cost import cost
+from pipeline.selection.faulty_sensor import has_one_fault, with_promising_faults
+from pipeline.selection.fit_cache import FitCache, Names
+from pipeline.selection.reading_noise import AS_DECLARED, Readings
+from pipeline.selection.search import singles_first
+from pipeline.selection.searched import Chosen, beginning, chosen
+from pipeline.selection.sensor_faults import plain_zero
+from vjm.effects.base import Effect
+
+Again = Callable[[Campaign, FitCache], FitCache]
+"""The empty fit cache of a campaign that is another's with other readings; that of the other one."""
+
+
+@dataclass(frozen=True, eq=False)
+class Settled:
+    """it: the choice with the readings as they are. given: all of them as they were declared; with_all: the verdict by
+    those, alone: whether of the best single effect only. attempts: what failed on the way."""
+
+    it: Chosen
+    readings: Readings
+    given: LoadCases
+    with_all: Verdict
+    alone: bool
+    attempts: Attempts
+
+
+def settled(cache: FitCache, again: Again, attempts: Attempts) -> Settled:
+    """Of a fit cache of the campaign as it was declared."""
+    given, what = cache.whole, "what the readings are"
+    begun: list[Names] = []
+    new = AS_DECLARED
+    if not untested(beginning(cache)) and not plain_zero(beginning(cache), cache.criteria):
+        begun = singles_first(cache)
+        if begun:
+            new = attempts.get(what, partial(_at_first, cache, begun), AS_DECLARED)
+    alone = not new.plain
+    it = chosen(cache, attempts, alone, begun)
+    with_all, readings = it.decision.verdict, AS_DECLARED
+    for _ in range(0 if it.untested else cache.criteria.reading_rounds):
+        if new.same(readings):
+            new = attempts.get(what, partial(_readings, it, readings, given), readings)
+        if new.same(readings):
+            break
+        cache.on_progress("with the readings as they are")
+        readings, attempts = new, Attempts()
+        it = chosen(again(readings.applied(given.campaign), it.found.cache), attempts)
+    return Settled(it, readings, given, with_all, alone, attempts)
+
+
+def with_faults(before: Settled, known: Iterable[Effect], again: Again) -> Settled:
+    """With faults of sensors among the effects, where that leaves noise and nothing else does; none of sensors that
+    are vouched for. known: effects, kinds of such faults among them."""
+    it = before.it
+    cache, best = it.found.cache, it.found.best
+    if it.untested or it.decision.verdict != "unknown" or cache.whole.campaign.vouched:
+        return before
+    if judge(cache.fit(best), cache.criteria).noise:
+        return before
+    more = with_promising_faults(cache, known, best)
+    if more is None:
+        return before
+    cache.on_progress("whether a sensor is at fault")
+
+    def with_these(campaign: Campaign, near: FitCache) -> FitCache:
+        return again(campaign, near).with_candidates(more.candidates)
+
+    first = more if before.readings.plain else with_these(before.given.campaign, more)
+    new = settled(first, with_these, Attempts())
+    named = new.it.found
+    if (
+        not has_one_fault(named.cache, named.best)
+        or not judge(named.cache.fit(named.best), cache.criteria).noise
+    ):
+        return before
+    return replace(new, with_all=before.with_all, alone=before.alone)
+
+
+def _at_first(cache: FitCache, begun: list[Names]) -> Readings:
+    """What the readings are beside the best of single effects, where nothing but single bad ones is left then."""
+    found = cache.fit(min(begun, key=lambda names: cost(cache, names)))
+    if not bad_readings(found, cache.criteria):
+        return AS_DECLARED
+    new = AS_DECLARED.again(found, cache.whole, cache.criteria)
+    return new if new.bad and new.leaves_noise(found, cache.whole, cache.criteria) else AS_DECLARED
+
+
+def _readings(it: Chosen, before: Readings, given: LoadCases) -> Readings:
+    """What the readings are about the first set; about a part of it where that explains all but single bad ones: an
+    effect that only explains those is none."""
+    cache, best = it.found.cache, it.decision.sets[0]
+    criteria = cache.criteria
+    for names in sorted((n for n in cache.fits if n < best), key=len):
+        new = before.again(cache.fit(names), given, criteria)
+        if new.bad and new.leaves_noise(cache.fit(names), given, criteria):
+            return new
+    return before.again(it.decision.fit, given, criteria)

@@ -1,0 +1,117 @@
+"""What the readings are about a model: single bad ones, sigmas as they are, tails.
+
+Asked of the best set only, and only where what it leaves has no order along the load paths: then a shape is missing
+and nothing of it is noise. What is found is asked again about all readings once the search was made with it, so that
+what is no longer outlying comes back.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from pipeline.campaign import Campaign
+from pipeline.inference.fit import Fit, fit, unfitted
+from pipeline.inference.load_cases import LoadCases, load_cases
+from pipeline.inference.subsets import carried
+from pipeline.selection.adequacy.bad_readings import BadReading, bad_readings, set_aside
+from pipeline.selection.adequacy.judgement import HELD_OUT, ORDER, SIZE, judge
+from pipeline.selection.adequacy.scatter import Scatter, scatters
+from pipeline.selection.adequacy.tails import Tails, tails_of, without_tails
+from pipeline.selection.criteria import Criteria
+
+
+@dataclass(frozen=True, eq=False)
+class Readings:
+    """bad: single bad readings. scatter: of sensors whose declared sigma is another one. tails: long tails, and normal:
+    the campaign with its readings as normal noise of as much information; or None."""
+
+    bad: tuple[BadReading, ...] = ()
+    scatter: tuple[Scatter, ...] = ()
+    tails: Tails | None = None
+    normal: Campaign | None = None
+
+    def same(self, other: Readings) -> bool:
+        """Whether they say the same: the same readings and the same sensors set apart."""
+        return self._key == other._key
+
+    @property
+    def _key(self) -> tuple[object, ...]:
+        cells = frozenset(each.cell for each in self.bad)
+        return cells, frozenset(each.channel for each in self.scatter), self.tails is None
+
+    @property
+    def plain(self) -> bool:
+        """Whether they are as they were declared."""
+        return self.same(AS_DECLARED)
+
+    @staticmethod
+    def may_be_asked(found: Fit, criteria: Criteria) -> bool:
+        """Whether there is enough about a fit, and nothing of it has an order."""
+        return found.degrees >= criteria.few_readings and _ordered(found, criteria)
+
+    def again(self, found: Fit, given: LoadCases, criteria: Criteria) -> Readings:
+        """What the readings are about another fit. given: all of them as they were declared."""
+        if not self.may_be_asked(found, criteria):
+            return self
+        whole = found if self.plain else _of(given, found)
+        tails = tails_of(whole, criteria)
+        if tails is not None:
+            return Readings(tails=tails, normal=without_tails(whole, tails))
+        bad = (*bad_readings(whole, criteria), *_held_out(whole, criteria))
+        rest = whole if not bad else _of(load_cases(set_aside(given.campaign, bad)), found)
+        return Readings(bad, tuple(_other(rest, criteria)))
+
+    def leaves_noise(self, found: Fit, given: LoadCases, criteria: Criteria) -> bool:
+        """Whether a model explains all but what they set aside."""
+        rest = load_cases(self.applied(given.campaign))
+        return judge(_refitted(rest, found, criteria), criteria).noise
+
+    def applied(self, campaign: Campaign) -> Campaign:
+        """A campaign as these readings are."""
+        if self.normal is not None:
+            return self.normal
+        factors = np.ones(12 + len(campaign.gauges))
+        for each in self.scatter:
+            factors[each.channel] *= each.factor
+        return set_aside(replace(campaign, noise=campaign.noise.times(factors)), self.bad)
+
+
+AS_DECLARED = Readings()
+
+
+def _held_out(found: Fit, criteria: Criteria) -> tuple[BadReading, ...]:
+    """Single bad ones of the tests that were held out, where these are off: as if they had been fitted."""
+    if all(check.passed for check in judge(found, criteria).checks if check.name == HELD_OUT):
+        return ()
+    campaign = found.residual.load_cases.campaign
+    held = {test.id for test in campaign.tests if test.role != "fit"}
+    every = replace(campaign, tests=tuple(replace(test, role="fit") for test in campaign.tests))
+    return tuple(each for each in bad_readings(_of(load_cases(every), found), criteria) if each.test in held)
+
+
+def _of(cases: LoadCases, found: Fit) -> Fit:
+    """A fitted model as it is beside other readings of the same tests."""
+    return unfitted(found.model, cases, carried(found.prediction, cases, found.residual.load_cases))
+
+
+def _refitted(cases: LoadCases, found: Fit, criteria: Criteria) -> Fit:
+    """A model fitted to other readings of the same tests."""
+    start = carried(found.prediction, cases, found.residual.load_cases)
+    return fit(found.model, cases, start, None, criteria.plausible)
+
+
+def _ordered(found: Fit, criteria: Criteria) -> bool:
+    """Whether what is left has no order along the load paths."""
+    checks = judge(found, criteria).checks
+    return all(check.passed for check in checks if check.name == ORDER)
+
+
+def _other(found: Fit, criteria: Criteria) -> Iterator[Scatter]:
+    """Sensors whose scatter counts in the place of what was declared."""
+    passed = all(check.passed for check in judge(found, criteria).checks if check.name == SIZE)
+    for each in scatters(found):
+        if each.differs(criteria, unexplained=not passed):
+            yield each

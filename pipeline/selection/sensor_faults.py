@@ -1,0 +1,115 @@
+"""A fault of a sensor instead of an effect: where one explains as much, a name would be a guess."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from scipy.stats import chi2
+
+from pipeline.inference.fit import Fit
+from pipeline.selection.adequacy.patterns import scores
+from pipeline.selection.cost import cost, cost_of, numbers
+from pipeline.selection.criteria import Criteria
+from pipeline.selection.doctor import Suspicion
+from pipeline.selection.fit_cache import FitCache, Names
+from pipeline.selection.rivals import Found
+from pipeline.selection.unknown_zeros import Zero, zeros
+from vjm.effects.sensor_fault import SensorFault
+
+
+@dataclass(frozen=True)
+class Instead:
+    """A fault of a sensor beside the set without an effect. explains, of: chi-square that the fault takes off with one
+    number, and the effect with its own. zero: where the fault is a constant."""
+
+    effect: str
+    without: Names
+    words: str
+    explains: float
+    of: float
+    zero: Zero | None = None
+
+
+def faults_instead(found: Found) -> tuple[Instead, ...]:
+    """For each effect of the best set the plainest fault that the data do not exclude in its place.
+
+    The same measure as between effects: worse by what tells so many numbers apart. A fault has one.
+    """
+    cache, best = found.cache, found.best
+    out = []
+    for name in cache.order(best):
+        effect, without = cache.candidates[name], best - {name}
+        if not effect.parameters or isinstance(effect, SensorFault):
+            continue
+        if any(name in cache.candidates[other].includes for other in without):
+            continue
+        gain = cost_of(cache, without) - cost_of(cache, best)
+        enough = gain - cache.criteria.apart(numbers(effect) - 1)
+        every = sorted(_faults(cache, name, without, gain), key=lambda it: -it.explains)
+        out += [it for it in every[:1] if it.explains >= enough]
+    return tuple(out)
+
+
+def _faults(cache: FitCache, name: str, without: Names, gain: float) -> Iterator[Instead]:
+    """What each fault would explain in place of an effect."""
+    fit = cache.fit(without)
+    for zero in zeros(fit, cache.criteria):
+        # One test alone that was not zeroed is a choice among many: it has to do better than the effect.
+        if zero.everywhere or zero.gain >= gain:
+            yield Instead(name, without, zero.words, zero.gain, gain, zero)
+    vouched = cache.whole.campaign.vouched
+    # An effect is no steadier than a fault: a few large loads may say all that is known of either. Of a sensor that is
+    # vouched for it takes more than one reading.
+    every = ((p.score**2 if vouched else p.takes, p.words) for p in scores(fit, cache.criteria))
+    explains, words = max(every, default=(0.0, ""))
+    if words:
+        yield Instead(name, without, words, explains, gain)
+
+
+def plain_zero(found: Fit, criteria: Criteria) -> bool:
+    """Whether a zero alone explains nearly all of a large misfit: then nothing else is looked for in depth."""
+    every = zeros(found, criteria)
+    return (
+        bool(every)
+        and found.rms > criteria.zero_large
+        and every[0].gain > (1.0 - criteria.zero_left) * found.chi_square
+    )
+
+
+def _plainer(fit: Fit, zero: Zero, criteria: Criteria) -> bool:
+    """Whether another fault of a sensor explains more than a zero."""
+    return any(pattern.score**2 > zero.gain for pattern in scores(fit, criteria)[:1])
+
+
+def zero_first(found: Found, explained: bool) -> Instead | None:
+    """The zero of a sensor that explains more than the best set of effects, beside the set that needs it.
+
+    explained: whether the best set leaves noise; a zero beside all of it would only take up some of that.
+    """
+    cache, best, criteria = found.cache, found.best, found.cache.criteria
+    sets = sorted(cache.fits, key=lambda names: cost(cache, names))[: criteria.zero_sets]
+    most = cache.fit(best).chi_square
+    out: list[tuple[float, Instead]] = []
+    for names in dict.fromkeys([frozenset(), *sets]):
+        if explained and best <= names:
+            continue
+        fit = cache.fit(names)
+        for zero in zeros(fit, criteria)[:1]:
+            left = fit.chi_square - zero.gain
+            total = cost(cache, names) - zero.gain + zero.price
+            noise = left <= float(chi2.isf(criteria.zero_chance, max(fit.degrees - 1, 1)))
+            worth = zero.gain > zero.price and total < cost(cache, best) and not _plainer(fit, zero, criteria)
+            if worth and (noise or left < most / criteria.zero_factor):
+                out.append((total, Instead("", names, zero.words, zero.gain, most, zero)))
+    return min(out, key=lambda it: it[0])[1] if out else None
+
+
+def asked_about(found: Fit, doctor: tuple[Suspicion, ...], criteria: Criteria) -> Instead | None:
+    """The zero that a mistake of one column is, where it is one; beside a fit."""
+    mistake = doctor[0].mistake
+    if mistake.kind != "zero" or len(mistake.columns) != 1:
+        return None
+    column, _, _ = mistake.columns[0].rpartition("_")
+    zero = next((it for it in zeros(found, criteria) if it.column == column and it.everywhere), None)
+    return None if zero is None else Instead("", frozenset(), zero.words, zero.gain, found.chi_square, zero)

@@ -1,0 +1,32 @@
+"""A few cases of the challenge, whole: measured on finite elements, diagnosed, judged."""
+
+from __future__ import annotations
+
+import pytest
+
+from pipeline.assessment.challenge.cases import Kind
+from pipeline.assessment.challenge.outcome import outcome
+from tests.pipeline.assessment.challenge.small import first
+
+
+@pytest.mark.parametrize(
+    ("kind", "effect", "least", "score"),
+    [
+        ("clean", "", 0.0, "right"),
+        pytest.param("single", "load_offset", 0.0, "right", marks=pytest.mark.long),
+        # Softer bars, or a compliance in series, under axial loads alone.
+        pytest.param("untold", "modulus_error", 0.045, "in set", marks=pytest.mark.long),
+        pytest.param("untold", "axis_flexibility", 0.0, "in set", marks=pytest.mark.long),
+    ],
+)
+def test_small_cases_are_answered_as_they_were(kind: Kind, effect: str, least: float, score: str) -> None:
+    assert outcome(first(kind, effect, least), "", "").score == score
+
+
+def test_a_bench_without_a_state_is_an_answer_less_and_no_end(monkeypatch: pytest.MonkeyPatch) -> None:
+    def breaks(*_: object) -> None:
+        raise RuntimeError("the bench finds no state")
+
+    monkeypatch.setattr("pipeline.assessment.challenge.outcome.true_readings", breaks)
+    it = outcome(first("clean"), "", "")
+    assert it.score == "failed" and it.error.startswith("bench: case") and "finds no state" in it.error

@@ -1,0 +1,62 @@
+"""One bench under changed criteria: the same fits chosen anew are the fits made anew; the page says what changed."""
+
+from __future__ import annotations
+
+import pytest
+
+from pipeline.assessment.challenge.outcome import campaign_of, measured
+from pipeline.assessment.sensitivity.page import page
+from pipeline.assessment.sensitivity.trial import Change, Trial, Verdict, varied
+from pipeline.attempt import Attempts
+from pipeline.inference.model import Model
+from pipeline.selection.criteria import CRITERIA
+from pipeline.selection.diagnosis import cached_fits
+from pipeline.selection.fit_cache import FitCache
+from pipeline.selection.searched import chosen
+from tests.pipeline.assessment.challenge.small import first
+from vjm.effects import catalogue
+
+SMALL = first("single", "modulus_error", 0.02)
+
+
+def small() -> FitCache:
+    it, found, _ = measured(SMALL)
+    names = ("modulus_error", "load_offset", "dimension_error", "bar_geometric_nonlinearity")
+    known = {name: catalogue()[name] for name in names}
+    return cached_fits(campaign_of(it, found, it.seed), Model(), known)
+
+
+@pytest.mark.parametrize(
+    "name",
+    ["exclusion", *(pytest.param(it, marks=pytest.mark.long) for it in ("false_alarm", "far", "plausible"))],
+)
+def test_fits_that_are_kept_lead_to_the_answer_of_fits_made_anew(name: str) -> None:
+    criteria = CRITERIA.times(name, 2.0)
+    first_time = small()
+    chosen(first_time, Attempts())
+    begun = first_time.evaluations
+    kept = first_time.under(criteria)
+    again, anew = chosen(kept, Attempts()), small()
+    anew.criteria = criteria
+    fresh = chosen(anew, Attempts())
+    assert (again.decision.verdict, again.decision.sets) == (fresh.decision.verdict, fresh.decision.sets)
+    # Nothing is fitted twice, but where the criterion is one of the fits'.
+    assert (kept.known is None) == (name == "plausible")
+    assert first_time.evaluations == begun
+
+
+def test_the_page_counts_what_a_change_gains_and_loses() -> None:
+    right = Verdict(verdict="identified", sets=(("modulus_error",),), score="right")
+    wrong = Verdict(verdict="identified", sets=(("load_offset",),), score="wrong")
+    change = Change(criterion="exclusion", factor=0.5, answer=wrong)
+    trials = [
+        Trial(number=3, answer=right, changes=(change,), commit="abc", code="d"),
+        Trial(number=13, answer=right, commit="abc", code="d"),
+        Trial(number=23, answer=None, error="no state", commit="abc", code="d"),
+    ]
+    text = page(trials)
+    assert "| exclusion | 5 chi-square | 1 | -1 | +1 | – |  |  |" in text
+    assert "- case 3, right as modulus_error:\n  wrong as load_offset with exclusion ÷2" in text
+    assert "2 benches" in text
+    assert all(f"**{each.name}**" in text for each in CRITERIA.of())
+    assert "next_test" not in varied()

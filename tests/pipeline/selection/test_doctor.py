@@ -1,0 +1,131 @@
+"""A mistake of the table is told before any physics, and no fault of a bench or missing effect is taken for one."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from pipeline.answer.of_diagnosis import answer_of
+from pipeline.answer.wording.diagnosis import sentences
+from pipeline.campaign import Campaign, Data
+from pipeline.check import _examined
+from pipeline.compare.models import compare_models
+from pipeline.compare.table import sentence
+from pipeline.inference.model import Model
+from pipeline.selection.diagnosis import cached_fits, diagnose
+from pipeline.selection.doctor import Suspicion, suspicions
+from tests.pipeline.selection.bench import bench, creeping_gauge, cross_talk, growing_gain, with_fault
+from tests.pipeline.selection.mistakes import made
+from vjm.effects import catalogue
+
+LACKS = ("modulus_error.scale", 0.93)
+"""The bench has an effect missing too: a mistake is not what is left of it."""
+
+
+def found(campaign: Campaign) -> tuple[Suspicion, ...]:
+    return suspicions(cached_fits(campaign, Model(), catalogue()))
+
+
+def words(campaign: Campaign) -> list[str]:
+    return [it.mistake.words for it in found(campaign)]
+
+
+WRONG = {
+    "all forces are in kgf": made.over(9.80665, *made.FORCES),
+    "all forces are in lbf": made.over(4.4482216, *made.FORCES),
+    "all moments are in N·m": made.over(1000.0, *made.MOMENTS),
+    "all displacements are in m": made.over(1000.0, "x_mm", "y_mm", "z_mm"),
+    "fx_N has the wrong sign": made.over(-1.0, "fx_N"),
+    "fx_N and fy_N are exchanged": made.exchanged("fx_N", "fy_N"),
+    "x_mm was not zeroed: absolute positions or loads": made.shifted(30.0, "x_mm"),
+    "q_deg is in radians": made.angles_in_radians,
+}
+
+
+# Quickly on seven readings: a lost sign and a slipped decimal point in tests/cases/test_small_tables.py.
+@pytest.mark.long
+@pytest.mark.parametrize("mistake", WRONG)
+def test_a_mistake_is_told(mistake: str) -> None:
+    told = found(WRONG[mistake](bench(*LACKS)))
+    assert mistake in [it.mistake.words for it in told]
+    assert all(it.before > 2.5 * it.after for it in told)
+
+
+@pytest.mark.parametrize(
+    "path",
+    [
+        "",
+        "modulus_error.scale",
+        pytest.param("joint_clearance.play_mm", marks=pytest.mark.long),
+        "base_compliance.x_mm_per_N",
+    ],
+)
+def test_a_right_table_has_none(path: str) -> None:
+    name, _, parameter = path.rpartition(".")
+    typical = catalogue()[name].typicals[parameter] if name else 0.0
+    assert not words(bench(path, typical))
+
+
+@pytest.mark.parametrize(
+    "fault",
+    [creeping_gauge, *(pytest.param(it, marks=pytest.mark.long) for it in (growing_gain, cross_talk))],
+)
+def test_a_fault_of_a_sensor_is_no_mistake_of_the_table(fault: object) -> None:
+    assert not words(with_fault(bench(*LACKS), fault))  # type: ignore[arg-type]
+
+
+@pytest.mark.long
+def test_friction_in_a_column_of_which_little_is_predicted_is_no_unit() -> None:
+    """fz in the swing is friction alone: a factor silences it, and what is left of it small effects explain."""
+    whole = bench("joint_friction.torque_Nmm", 800.0)
+    few = tuple(t for t in whole.tests if t.id in ("axial_held_q+0", "swing_q+0", "swing_q+30"))
+    campaign = replace(whole, tests=few)
+    assert not words(campaign)
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("path", ["sensor_lag@fx_N.keeps", "sensor_gain@fx_N.share"])
+def test_a_load_cell_at_fault_is_no_unit(path: str) -> None:
+    assert not words(bench(path, 0.1))
+
+
+@pytest.mark.long
+def test_a_sensor_that_reads_nothing_is_not_explained_by_a_factor() -> None:
+    """Times a thousandth explains nothing: it only silences the column."""
+    rng = np.random.default_rng(5)
+
+    def dead(data: Data) -> Data:
+        wrench = data.wrench.copy()
+        wrench[:, 5] = 4000.0 * rng.standard_normal(len(wrench))
+        return replace(data, wrench=wrench)
+
+    assert not [it for it in words(with_fault(bench(), dead)) if "mz_Nmm" in it]
+
+
+@pytest.mark.long
+def test_nothing_is_named_before_it_is_settled() -> None:
+    wrong = WRONG["all forces are in kgf"](bench(*LACKS))
+    it = diagnose(wrong, Model(), catalogue())
+    answer = answer_of(it)
+    assert answer.verdict == "unknown" and answer.effects == () and answer.added == ()
+    first = sentences(it)[0]
+    said = (
+        "unknown: it looks as if all forces are in kgf or fy_N is in kgf: these readings cannot tell which; "
+    )
+    assert first.startswith(f"{said}chi-square with the best single effect falls from ")
+    assert first.endswith("Nothing is named before that is settled.")
+    assert answer.doctor[0].mend.startswith("multiply fx_N, fy_N, fz_N by 9.80665 (N in kgf)")
+    assert any(answer.doctor[0].mend in said for said in sentences(it))
+    assert "all forces are in kgf" in sentence(compare_models(wrong))
+    assert any("Doctor: it looks as if all forces are in kgf" in line for line in _examined(wrong))
+
+
+@pytest.mark.long
+def test_a_zero_of_one_column_is_told_as_a_zero() -> None:
+    wrong = WRONG["x_mm was not zeroed: absolute positions or loads"](bench(*LACKS))
+    it = diagnose(wrong, Model(), catalogue())
+    answer = answer_of(it)
+    assert answer.zeros[0].column == "x" and answer.zeros[0].value == pytest.approx(30.0, abs=1.0)
+    assert sentences(it)[0].startswith("unknown: x starts at 30")

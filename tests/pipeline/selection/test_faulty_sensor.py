@@ -1,0 +1,128 @@
+"""A faulty sensor is named as one where nothing of the mechanism explains what is read, and only then."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import pytest
+
+from pipeline.assessment.virtual.bench import measure
+from pipeline.assessment.virtual.plan import GAUGES, SENSORS, bench_plan
+from pipeline.campaign import Campaign
+from pipeline.inference.model import Model
+from pipeline.selection.criteria import CRITERIA
+from pipeline.selection.diagnosis import cached_fits, diagnose
+from pipeline.selection.faulty_sensor import faults_of, has_one_fault
+from pipeline.simulate import bench_rig
+from tests.pipeline.selection.bench import MIXED, bench, creeping_gauge, growing_gain, with_fault
+from vjm.effects import catalogue
+from vjm.effects.base import Effect
+
+ALWAYS = "bar_geometric_nonlinearity"
+QUICK = "sensor_drift@fz_N"
+SOME = (ALWAYS, "modulus_error", "load_misalignment", "self_weight", "mounting_tilt", "dimension_error")
+"""Effects that could do some of what a sensor does; the whole catalogue is that of the challenge."""
+HIDDEN = {
+    "sensor_gain@fx_N": {"share": 0.02},
+    QUICK: {"size": 15.0},
+    "sensor_settling@fy_N": {"size": 8.0, "steps": 2.5},
+    "sensor_lag@x_mm": {"keeps": 0.1},
+}
+
+
+def some(among: tuple[str, ...] = SOME) -> dict[str, Effect]:
+    return {key: it for key, it in catalogue().items() if key in among or key.startswith("sensor_")}
+
+
+def doubted(campaign: Campaign) -> Campaign:
+    """Whose length is known to a tolerance: nobody vouches for all of it, and so not for its sensors."""
+    return replace(campaign, tolerance={"length_mm": 0.05})
+
+
+def read(hidden: dict[str, float]) -> Campaign:
+    plan = [test for test in bench_plan(12) if test.id in MIXED]
+    return doubted(measure("faulty", bench_rig(), plan, SENSORS, hidden, 5, GAUGES))
+
+
+def measured(name: str) -> Campaign:
+    """With a softer bar as well."""
+    return read(
+        {f"{name}.{key}": value for key, value in HIDDEN[name].items()} | {"modulus_error.scale": 0.93}
+    )
+
+
+@pytest.mark.parametrize(
+    ("name", "among"),
+    [(QUICK, (ALWAYS, "modulus_error")), *(pytest.param(it, SOME, marks=pytest.mark.long) for it in HIDDEN)],
+)
+def test_the_sensor_is_named_beside_the_effect(name: str, among: tuple[str, ...]) -> None:
+    found = diagnose(measured(name), Model(), some(among))
+    assert found.verdict == "identified" and found.decision.sets[0] == {ALWAYS, "modulus_error", name}
+    assert all(name in each for each in found.decision.sets)
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("fault", [growing_gain, creeping_gauge])
+def test_a_fault_of_another_form_is_not_named_as_one_of_these(fault: object) -> None:
+    campaign = doubted(with_fault(bench("modulus_error.scale", 0.93), fault))  # type: ignore[arg-type]
+    assert diagnose(campaign, Model(), catalogue()).verdict == "unknown"
+
+
+@pytest.mark.long
+def test_two_sensors_at_fault_at_once_are_no_name() -> None:
+    hidden = {"sensor_drift@fz_N.size": 15.0, "sensor_gain@fx_N.share": 0.02}
+    found = diagnose(read(hidden), Model(), catalogue())
+    assert found.verdict == "unknown"
+
+
+def test_only_one_fault_of_a_sensor_may_be_named() -> None:
+    cache = cached_fits(bench(), Model(), catalogue())
+    drift, gain = (catalogue()[kind].at("fz_N") for kind in ("sensor_drift", "sensor_gain"))  # type: ignore[attr-defined]
+    it = cache.with_candidates({**cache.candidates, drift.name: drift, gain.name: gain})
+    assert has_one_fault(it, frozenset({drift.name, "modulus_error"}))
+    assert not has_one_fault(it, frozenset({drift.name, gain.name}))
+    assert not has_one_fault(it, frozenset({"modulus_error"}))
+
+
+@pytest.mark.parametrize(
+    ("column", "named"),
+    [
+        ("fy_N<fx_N", "load_misalignment"),
+        pytest.param("fz_N<fx_N", "sensor_cross_talk@fz_N<fx_N", marks=pytest.mark.long),
+    ],
+)
+def test_cross_talk_is_no_turn_of_the_cell(column: str, named: str) -> None:
+    """Into fy it is one with a turn of the cell about z, where no side force is large: then both are told."""
+    found = diagnose(read({f"sensor_cross_talk@{column}.share": 0.005}), Model(), some())
+    assert found.sets == ((ALWAYS, named),)
+    told = [fault.words for fault in found.instead]
+    if named == "load_misalignment":
+        assert found.verdict == "ambiguous" and told == ["fy answers to fx"]
+    else:
+        assert found.verdict == "identified" and not told
+
+
+@pytest.mark.long
+def test_a_faulty_sensor_is_named_though_a_reading_was_knocked() -> None:
+    it = read({"sensor_lag@fx_N.keeps": 0.1})
+    test = it.tests[1]
+    wrench = test.data.wrench.copy()
+    wrench[3, 5] += 40.0 * it.noise.wrench[5]
+    tests = (it.tests[0], replace(test, data=replace(test.data, wrench=wrench)), *it.tests[2:])
+    found = diagnose(replace(it, tests=tests), Model(), some())
+    assert found.verdict == "identified" and found.sets == ((ALWAYS, "sensor_lag@fx_N"),)
+    assert [bad.cell for bad in found.readings.bad] == [(test.id, 3, "mz_Nmm")]
+    assert found.with_all == "unknown"
+
+
+@pytest.mark.long
+def test_a_sensor_that_is_vouched_for_is_not_at_fault() -> None:
+    exact = replace(read({"sensor_cross_talk@fz_N<fx_N.share": 0.005}), tolerance={})
+    assert exact.vouched and diagnose(exact, Model(), catalogue()).verdict == "unknown"
+
+
+def test_every_sensor_that_was_read_may_have_every_fault() -> None:
+    every = faults_of(catalogue().values(), bench(), CRITERIA)
+    # Four faults of thirteen columns, and cross-talk of every two of a load cell and of a tracker.
+    assert len(every) == 4 * 13 + 2 * 6 * 5
+    assert all(it.name == name and it.column for name, it in every.items())
