@@ -43,12 +43,8 @@ def tasks(seeds: int, pair_seeds: int, only: Sequence[str] = ()) -> list[Task]:
 
 def run(wanted: Iterable[Task], store: Path, workers: int) -> Iterator[Trial]:
     """The trials, those in the store first; the others are added to it as they are done."""
-    return trials.run({task[:4]: task for task in wanted}, _one, Trial, _key, store, workers)
+    return trials.run({task[:4]: task for task in wanted}, trial, Trial, _key, store, workers)
 
 
 def _key(it: Trial) -> tuple[Kind, tuple[str, ...], int, int]:
     return it.kind, it.effects, it.seed, it.steps
-
-
-def _one(task: Task) -> Trial:
-    return trial(*task)
