@@ -140,7 +140,7 @@ def thin(points: Floats, corners: Ints, limit: int) -> Triangles:
 
 
 def stations_within(counts: Ints, limit: int) -> npt.NDArray[np.bool_]:
-    """Which stations stay, given their numbers of points: every second, third, .. until `limit` is met."""
+    """Which stations (s,) stay, given their numbers of points (s,): every second, third, .. until `limit` is met."""
     change = np.ones(len(counts), dtype=bool)
     change[1:-1] = (counts[1:-1] != counts[:-2]) | (counts[1:-1] != counts[2:])
     kept = np.ones_like(change)
@@ -152,7 +152,7 @@ def stations_within(counts: Ints, limit: int) -> npt.NDArray[np.bool_]:
 
 
 def nearest_on_line(points: Floats, kept: npt.NDArray[np.bool_]) -> Ints:
-    """For each point the nearest kept one with the same y and z; itself where that line has none."""
+    """For each point (n, 3) the nearest kept one (n,) with the same y and z; itself where that line has none."""
     target = np.arange(len(points))
     _, line = np.unique(np.round(points[:, 1:], YZ_DECIMALS), axis=0, return_inverse=True)
     for members in np.split(np.argsort(line, kind="stable"), np.cumsum(np.bincount(line))[:-1]):

@@ -157,7 +157,8 @@ def chosen(states: list[Equilibrium], misfit: Callable[[Equilibrium], float]) ->
 
 
 def with_reasons(state: Equilibrium, missing: Mask) -> Equilibrium:
-    """The states, with the reason of each that was approached and not reached: is there none, or was it not found?"""
+    """The states (...), with the reason of each that was approached and not reached: is there none, or was it not
+    found?"""
     stuck = missing & ~state.converged
     stuck &= np.array([Reason.of(str(r)) is Reason.NOT_CONVERGED for r in state.reason.ravel()]).reshape(
         stuck.shape

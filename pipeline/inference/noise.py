@@ -93,7 +93,8 @@ def _eigenvalues(lengths: Sequence[int], fitted: Array | None) -> Array:
 
 
 def positive_form(weights: Array) -> float:
-    """P(sum of w_i z_i² > 0) for independent standard normal z_i (Imhof 1961, eq. 3.2), to about 1e-8."""
+    """P(sum of w_i z_i² > 0), weights (n,), for independent standard normal z_i (Imhof 1961, eq. 3.2), to about
+    1e-8."""
     if np.all(weights >= 0.0) or np.all(weights <= 0.0):
         return float(np.any(weights > 0.0))
     w = weights / np.linalg.norm(weights)

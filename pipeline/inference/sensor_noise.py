@@ -49,7 +49,7 @@ def from_repeats(readings: Array, group: NDArray[np.int64]) -> SigmaEstimate:
 
 
 def from_lines(paths: Sequence[tuple[Array, Array]]) -> SigmaEstimate:
-    """Sigma from the scatter about a straight line over the load, one line a path; paths as for `from_roughness`.
+    """Sigma from the scatter about a straight line over the load, one line a path: loads and readings (n,) of each.
 
     Pooled and unbiased as in `from_repeats`, nu = sum of readings less two a path, at least `FEWEST_FREE`. What bends
     or loops only adds to it. ValueError for loads or readings that are not finite.

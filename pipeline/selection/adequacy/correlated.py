@@ -249,7 +249,8 @@ def series_of(found: Fit, z: Array) -> list[Array]:
 
 
 def without_order(series: Sequence[Array], level: float) -> bool:
-    """Whether neighbouring residuals are no more alike than noise makes them."""
+    """Whether neighbouring residuals are no more alike than noise makes them; series: (n,) in the order of the
+    steps."""
     try:
         return lag_one(series).p_value >= level
     except ValueError:
