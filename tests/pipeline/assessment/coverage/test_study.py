@@ -7,8 +7,8 @@ from typing import Any
 
 import pytest
 
-from pipeline.assessment.coverage import study as module
-from pipeline.assessment.coverage.study import run, tasks
+from pipeline.assessment.coverage import __main__ as module
+from pipeline.assessment.coverage.__main__ import run, tasks
 from pipeline.assessment.coverage.table import joined, page, study
 from pipeline.assessment.coverage.trial import Trial
 from pipeline.assessment.trials import kept
