@@ -1,6 +1,6 @@
 """Where arithmetic ends: what anything is divided by at least, and what is rounding beside what it came from.
 
-All are powers of ten between the rounding of a double, 1.1e-16 of itself, and anything that a sensor tells.
+All but the first are relative, and powers of ten between the rounding of a double, 1.1e-16, and what a sensor tells.
 """
 
 TINY = 1e-300

@@ -1,8 +1,8 @@
 """Settings of the numerical methods of a fit and of what is judged by one: steps, rounds, tolerances.
 
-None of them decides what is named: that do the criteria (`pipeline.selection.criteria`). Where no derivation or
-measurement is told, a value was chosen by the founders. Those of the two solvers stand with them
-(`pipeline.inference.solvers`, `pipeline.inference.levenberg_marquardt`).
+Thresholds by which explanations are chosen are criteria and stand there (`pipeline.selection.criteria`), those of the
+two solvers with them (`pipeline.inference.solvers`, `pipeline.inference.levenberg_marquardt`). Where no derivation,
+measurement or source is told, a value is the founders' own.
 """
 
 from __future__ import annotations
@@ -193,7 +193,7 @@ class Draws:
     fewest: int = 100
     """Where the differences are so many that the bias is lost anyway."""
     at_once: int = 20
-    """In one array, for its size."""
+    """Draws in one array."""
     effort: int = 10**7
     """Draws times differences, from which there are fewer draws."""
 
