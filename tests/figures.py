@@ -160,7 +160,9 @@ def shapes() -> tuple[list[str], int]:
 
 def _shaped(text: str) -> bool:
     parts = [part.split(")")[0] for part in text.split("(")[1:]]
-    return any("," in part and all(_a_size(word) for word in part.split(",") if word.strip()) for part in parts)
+    return any(
+        "," in part and all(_a_size(word) for word in part.split(",") if word.strip()) for part in parts
+    )
 
 
 def _a_size(word: str) -> bool:
@@ -205,7 +207,11 @@ def _code(path: Path) -> int:
     text = path.read_text(encoding="utf-8").splitlines()
     told: set[int] = set()
     for node in ast.walk(parse(path)):
-        if isinstance(node, ast.Expr) and isinstance(node.value, ast.Constant) and isinstance(node.value.value, str):
+        if (
+            isinstance(node, ast.Expr)
+            and isinstance(node.value, ast.Constant)
+            and isinstance(node.value.value, str)
+        ):
             told.update(range(node.lineno, (node.end_lineno or node.lineno) + 1))
     return sum(
         bool(line.strip()) and not line.lstrip().startswith("#") and number not in told
@@ -227,7 +233,13 @@ def figures() -> tuple[Figure, ...]:
         _counted("files with an identifier of plays", 19, plays),
         _counted("numbers without a name, at module level", 98, lambda: literals(inside=False)),
         _counted("numbers without a name, in functions", 59, lambda: literals(inside=True)),
-        Figure("functions of arrays that give shapes, %", 100.0 * (1 - len(lacking) / every), 42, tuple(lacking), True),
+        Figure(
+            "functions of arrays that give shapes, %",
+            100.0 * (1 - len(lacking) / every),
+            42,
+            tuple(lacking),
+            True,
+        ),
         _counted("short modules of one importer", 50, lonely),
         _counted("imports by name", 0, hidden),
         _counted("circles of imports", 0, lambda: circle(import_graph())),

@@ -50,7 +50,8 @@ def _with(found: Diagnosis, answer: Answer, names: tuple[str, ...], on_progress:
     on_progress(" + ".join(names))
     cache = found.cache
     fit = cache.fit(frozenset(names))
-    own = answer_of(found, answer.sentences, fit)
+    own = answer_of(found, fit)
     last = error_of(fit, cache.whole, len(fit.model.free), judge(fit, cache.criteria))
-    update = {"effects": fit.model.names, "added": names, "error": (answer.error[0], last)}
+    error = (answer.error[0], last)
+    update = {"effects": fit.model.names, "added": names, "error": error, "sentences": answer.sentences}
     return Possible(own.model_copy(update=update), fit.model)

@@ -127,7 +127,7 @@ def diagnose(
     doctor = attempts.get("the look for mistakes of the table", lambda: suspicions(cache), ())
     if doctor:
         return _unsettled(cache, doctor, refused, attempts, _since(begin))
-    again = partial(_shelf_of, model, known)
+    again = partial(_cache_of, model, known)
     done, kinds = (
         settled(cache, again, attempts),
         all_sized(dict(sorted(known.items())), scale_for(campaign)).values(),
@@ -224,7 +224,7 @@ def _prepared(
     ), refused
 
 
-def _shelf_of(model: Model, known: Mapping[str, Effect], campaign: Campaign, before: FitCache) -> FitCache:
+def _cache_of(model: Model, known: Mapping[str, Effect], campaign: Campaign, before: FitCache) -> FitCache:
     """The empty fit cache of a campaign that is another's with other readings."""
     return _prepared(campaign, model, known, before.on_progress, before.criteria, before)[0]
 

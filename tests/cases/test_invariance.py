@@ -13,7 +13,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from pipeline.answer.wording.diagnosis import answered
+from pipeline.answer.of_diagnosis import answered
 from pipeline.campaign import Campaign, Rig, RigOfBars, Test, read
 from pipeline.inference.model import Model
 from pipeline.selection.diagnosis import Diagnosis, diagnose

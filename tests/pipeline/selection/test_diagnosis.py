@@ -9,8 +9,7 @@ from pathlib import Path
 import pytest
 from typer.testing import CliRunner
 
-from pipeline.answer.of_diagnosis import answer_of
-from pipeline.answer.wording.diagnosis import answered, sentences
+from pipeline.answer.of_diagnosis import answer_of, answered
 from pipeline.campaign import Campaign, write
 from pipeline.cli import app
 from pipeline.inference.model import Model
@@ -42,7 +41,7 @@ def test_small_loads_need_nothing() -> None:
     it = found(bench(ids=("axial_held_q+0", "axial_held_q+15")))
     assert it.verdict == "within_noise"
     assert it.sets == ((),)
-    assert sentences(it)[0].startswith("within_noise: the model explains the measurements")
+    assert answered(it).sentences[0].startswith("within_noise: the model explains the measurements")
 
 
 @pytest.mark.long
@@ -50,7 +49,7 @@ def test_held_out_tests_tell_of_physics_that_the_fitted_ones_do_not_show() -> No
     """6 mm sideways shorten the linkage by 70 µm; under axial loads nothing tells of it."""
     it = found(bench(ids=("axial_held_q+0", "lateral_q-15")))
     assert it.verdict == "identified" and it.sets == ((LARGE,),)
-    assert any("those held out need it" in said for said in sentences(it))
+    assert any("those held out need it" in said for said in answered(it).sentences)
     # What has a number is not theirs to choose.
     softer = found(bench("modulus_error.scale", 0.9, ids=("swing_q+0", "axial_held_q+15")))
     assert softer.verdict == "unknown"
@@ -86,7 +85,7 @@ def test_friction_is_named() -> None:
     ]
     std = dict(zip([f.name for f in it.model.free], it.fit.std, strict=True))["joint_friction.torque_Nmm"]
     assert abs(value - 200.0) < 3 * std
-    assert any("Only tests at q = 0° show it (swing_q+0):" in said for said in sentences(it))
+    assert any("Only tests at q = 0° show it (swing_q+0):" in said for said in answered(it).sentences)
 
 
 @pytest.mark.long
@@ -95,11 +94,11 @@ def test_what_several_angles_show_is_there_at_all_of_them() -> None:
         bench("joint_friction.torque_Nmm", 200.0, ("swing_q+0", "swing_q+30", "axial_held_q+0"))
     )
     assert "joint_friction" in everywhere.sets[0]
-    assert not any("Only tests at q" in said for said in sentences(everywhere))
+    assert not any("Only tests at q" in said for said in answered(everywhere).sentences)
     # One angle is all that there is: nothing was left out.
     one = found(bench("joint_friction.torque_Nmm", 200.0, ("swing_q+0", "axial_held_q+0")))
     assert "joint_friction" in one.sets[0]
-    assert not any("Only tests at q" in said for said in sentences(one))
+    assert not any("Only tests at q" in said for said in answered(one).sentences)
 
 
 def test_axial_tests_alone_cannot_tell() -> None:
@@ -111,7 +110,7 @@ def test_axial_tests_alone_cannot_tell() -> None:
     control = it.next_test.choices[0].test.control
     assert it.next_test.apart, "lateral loads tell the modulus from a soft hinge"
     assert control[1] == "displacement"
-    said = sentences(it)
+    said = answered(it).sentences
     assert said[0].startswith("ambiguous: ")
     assert any(s.startswith("Next test: ") for s in said)
 
@@ -130,7 +129,7 @@ def test_the_record_of_an_ambiguous_case() -> None:
 def test_a_load_cell_whose_gain_grows_is_unknown() -> None:
     it = found(with_fault(bench(ids=("axial_held_q+30", "lateral_q+0")), growing_gain))
     assert it.verdict == "unknown"
-    said = " ".join(sentences(it))
+    said = " ".join(answered(it).sentences)
     assert "nothing known explains it" in said
     assert "fx has a gain that grows" in said
 
