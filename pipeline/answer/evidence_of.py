@@ -20,7 +20,7 @@ from pipeline.discrepancy.description import descriptions
 from pipeline.inference.driving import column_name
 from pipeline.selection.adequacy.judgement import SIZE, judge
 from pipeline.selection.adequacy.untested import in_units
-from pipeline.selection.cost import cost_of
+from pipeline.selection.cost import misfit
 from pipeline.selection.diagnosis import Diagnosis
 from pipeline.selection.exclusion import needed, worse
 from pipeline.selection.possible_tests import menu
@@ -97,11 +97,11 @@ def _rivals(it: Diagnosis) -> Iterator[RivalSet]:
     if len(it.sets) < 2:
         return
     cache = it.cache
-    least = min(map(frozenset, it.sets), key=lambda names: cost_of(cache, names))
+    least = min(map(frozenset, it.sets), key=lambda names: misfit(cache, names))
     for names in it.sets:
         yield RivalSet(
             effects=names,
-            above_best=worse(cache, frozenset(names), least),
+            above_best=round(worse(cache, frozenset(names), least), 6),
             would_exclude=max(needed(cache, frozenset(names), least), cache.criteria.exclusion_least),
         )
 

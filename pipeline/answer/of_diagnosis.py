@@ -39,7 +39,8 @@ from pipeline.selection.unknown_zeros import Zero
 
 
 def answered(it: Diagnosis, found: Fit | None = None) -> Answer:
-    """The diagnosis as a record with its sentences. found: whose numbers it has, default those of the first set."""
+    """The diagnosis as a record with its sentences. found: whose parameters it has, default those of the first set;
+    effects, errors and sentences stay those of the first set."""
     answer = answer_of(it, found)
     own = answer if found is None or found is it.fit else answer_of(it)
     return answer.model_copy(update={"sentences": sentences(own)})

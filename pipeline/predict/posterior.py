@@ -25,6 +25,7 @@ from numpy.typing import NDArray
 from pipeline.inference.fit import Fit
 from pipeline.inference.model import Model
 from pipeline.inference.nuisances import FARTHEST, Nominal, departed, nominals
+from pipeline.inference.prior import weight
 from pipeline.selection.criteria import CRITERIA
 
 Array = NDArray[np.float64]
@@ -72,7 +73,7 @@ class Posterior:
     @cached_property
     def precision(self) -> Array:
         """(P + K, P + K)"""
-        weak = np.full(self.count, CRITERIA.plausible**-2)
+        weak = np.full(self.count, weight(CRITERIA.plausible) ** 2)
         widened = self.data / self.factor**2
         return np.asarray(widened + np.diag(np.concatenate([weak, np.ones(len(self.numbers))])))
 

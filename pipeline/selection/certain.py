@@ -8,7 +8,7 @@ more. The effect is certain where the rival is still worse by far.
 from __future__ import annotations
 
 from pipeline.selection.adequacy.free_patterns import falls
-from pipeline.selection.cost import cost, cost_of
+from pipeline.selection.cost import cost, misfit
 from pipeline.selection.first_order_costs import estimates
 from pipeline.selection.fit_cache import FitCache, Names
 from pipeline.selection.rivals import Found
@@ -26,7 +26,7 @@ def certain(found: Found, sets: tuple[Names, ...]) -> tuple[str, ...]:
     mine = falls(fit, criteria, criteria.certain_patterns)
     limit = fit.degrees + criteria.excess_deviations * (2.0 * max(fit.degrees, 1)) ** 0.5
     count = next((k for k, left in enumerate(mine) if left <= limit), len(mine) - 1)
-    beside = cost_of(cache, best) - mine[0]
+    beside = misfit(cache, best) - mine[0]
     needed = (criteria.certain_sigmas * max(1.0, fit.rms)) ** 2
     least = mine[count] + beside + needed
     return tuple(name for name in names if _beaten(cache, best, name, count + criteria.certain_more, least))
@@ -36,7 +36,7 @@ def _beaten(cache: FitCache, best: Names, name: str, patterns: int, least: float
     """Whether every rival without an effect leaves more than this with so many patterns."""
     for rival in _rivals(cache, best, name):
         left = falls(cache.fit(rival), cache.criteria, patterns)
-        if cost_of(cache, rival) - left[0] + left[-1] < least:
+        if misfit(cache, rival) - left[0] + left[-1] < least:
             return False
     return True
 

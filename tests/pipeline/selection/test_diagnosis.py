@@ -10,6 +10,7 @@ import pytest
 from typer.testing import CliRunner
 
 from pipeline.answer.of_diagnosis import answer_of, answered
+from pipeline.answer.record import Answer
 from pipeline.campaign import Campaign, write
 from pipeline.cli import app
 from pipeline.inference.model import Model
@@ -62,9 +63,9 @@ def test_numbers_of_what_explains_little_are_worth_no_solutions() -> None:
     it = diagnose(tests, Model(), {name: EFFECTS[name] for name in (LARGE, "load_misalignment")})
     assert it.verdict == "unknown" and it.sets == ((LARGE, "load_misalignment"),)
     answer = answer_of(it)
-    assert answer.evaluations == it.fits.evaluations
+    assert answer.evaluations == it.cache.evaluations
     assert [value.interval for value in answer.parameters.values()] == ["wald"] * 3
-    assert answer_of(axial()).evaluations > axial().fits.evaluations, "what explains it is"
+    assert answer_of(axial()).evaluations > axial().cache.evaluations, "what explains it is"
 
 
 def test_of_what_is_not_measured_yet_nothing_is_tested() -> None:
@@ -113,6 +114,25 @@ def test_axial_tests_alone_cannot_tell() -> None:
     said = answered(it).sentences
     assert said[0].startswith("ambiguous: ")
     assert any(s.startswith("Next test: ") for s in said)
+
+
+def test_a_diagnosis_about_another_of_its_sets_is_of_that_set_throughout() -> None:
+    it = axial()
+    second = it.sets[1]
+    about = answered(it.about(second))
+    assert about.added == second and about.error[-1].effects[-len(second) :] == second
+    assert {name.rpartition(".")[0] for name in about.parameters} == set(second)
+    said = about.sentences
+    assert said[0].startswith(f"ambiguous: {' + '.join(second)} or ")
+    assert any(each.startswith(f"{second[0]}: ") and " Fitted: " in each for each in said)
+
+    def apart(answer: Answer) -> dict[frozenset[tuple[str, ...]], float]:
+        test = answer.next_test or {}
+        pairs = [frozenset(map(tuple, pair)) for pair in test["tells_apart"]]
+        return dict(zip(pairs, test["expected_chi_square"], strict=True))
+
+    # The next test tells the same sets apart, whichever stands first.
+    assert apart(about) == apart(answered(it)) != {}
 
 
 def test_the_record_of_an_ambiguous_case() -> None:
