@@ -244,6 +244,16 @@ def test_a_sigma_far_too_large_is_a_claim_that_the_scatter_refutes() -> None:
     assert answer("t15_sigma_far_too_large").verdict == "within_noise"
 
 
+def test_seven_readings_refute_a_sigma_a_hundred_times_too_large(tmp_path: Path) -> None:
+    """Too few for differences of four steps: the scatter about a parabola is what counts then."""
+    text = (DATA / "c04_dial_softer" / "campaign.toml").read_text()
+    (tmp_path / "campaign.toml").write_text(text.replace("z_mm = 0.0127", "z_mm = 1.0"))
+    (tmp_path / "measurements.csv").write_bytes((DATA / "c04_dial_softer" / "measurements.csv").read_bytes())
+    result = compare_models(read(tmp_path))
+    assert any("a sigma of 1 is given, but the readings scatter far less" in said for said in result.remarks)
+    assert "not within the noise; z is 18 % more than the model says" in sentence(result)
+
+
 def test_a_further_effect_never_leaves_more() -> None:
     campaign = read(DATA / "t12_add_worse")
     found = add(campaign, Model(), [catalogue()["modulus_error"]])
