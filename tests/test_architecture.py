@@ -245,6 +245,18 @@ def test_files_are_read_below_what_they_describe() -> None:
     assert used == {"pipeline.errors"}
 
 
+def test_sentences_and_tables_are_made_from_records_alone() -> None:
+    """What an answer says can be said of its file again: nothing is worked out while it is written."""
+    records = {"pipeline.answer.evidence", "pipeline.answer.record", "pipeline.answer.value"}
+    plain = {"pipeline.parameter_names", "pipeline.terminal", "reports.quantities"}
+    for folder in ("pipeline.answer.wording", "pipeline.answer.tables"):
+        for module, names in import_graph().items():
+            if module.startswith(folder):
+                others = {name for name in names if not name.startswith("pipeline.answer.wording")}
+                others = {name for name in others if not name.startswith("pipeline.answer.tables")}
+                assert others <= records | plain, f"{module}: {sorted(others - records - plain)}"
+
+
 def test_nothing_but_a_campaigns_readers_asks_for_the_kind_of_a_rig() -> None:
     here = {path: tree for path, tree in trees().items() if path.is_relative_to(ROOT / "pipeline")}
     readers = ROOT / "pipeline" / "campaign"

@@ -9,9 +9,9 @@ from pydantic import BaseModel
 
 from docs.made.allowed import allowed, anchor, default_of, unit_of
 from docs.made.described import descriptions, summary
+from pipeline.answer import evidence, value
 from pipeline.answer import law as law_record
 from pipeline.answer import record as answer
-from pipeline.answer import value
 from pipeline.bar import tables as bar
 from pipeline.campaign import tables as campaign
 from pipeline.campaign.mapped import schema as mapped
@@ -80,6 +80,14 @@ ANSWERS: dict[str, type[BaseModel]] = {
     "UnknownZero": answer.UnknownZero,
     "SetAside": answer.SetAside,
     "FoundNoise": answer.FoundNoise,
+    "Evidence": evidence.Evidence,
+    "Explained": evidence.Explained,
+    "RivalSet": evidence.RivalSet,
+    "SensorInstead": evidence.SensorInstead,
+    "LookAlike": evidence.LookAlike,
+    "FailedCheck": evidence.FailedCheck,
+    "NearMiss": evidence.NearMiss,
+    "RestOfChannel": evidence.RestOfChannel,
     "Comparison": compare.Comparison,
     "compare ModelError": compare.ModelError,
     "TestError": compare.TestError,

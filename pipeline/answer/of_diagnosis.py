@@ -6,17 +6,19 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from pipeline.answer.evidence_of import evidence_of
 from pipeline.answer.record import (
     Answer,
     Candidate,
     Certain,
     Correlation,
+    DoctorFinding,
     FoundNoise,
     SetAside,
     UnknownZero,
 )
 from pipeline.answer.summary import changes, confusable, error_of, nominals_of, undetermined, values_of
-from pipeline.answer.wording.doctor import doctor_finding
+from pipeline.answer.wording.diagnosis import sentences
 from pipeline.attempt import Attempts
 from pipeline.campaign import Campaign
 from pipeline.campaign.names import COORDINATES
@@ -27,6 +29,7 @@ from pipeline.provenance import commit, versions
 from pipeline.selection.cost import taken
 from pipeline.selection.cross_validation import crossvalidated, crossvalidated_with
 from pipeline.selection.diagnosis import Diagnosis
+from pipeline.selection.doctor import Suspicion
 from pipeline.selection.fit_cache import FitCache, Names
 from pipeline.selection.mistakes.base import columns_of, sigmas_of
 from pipeline.selection.next_test import NextTest
@@ -35,8 +38,16 @@ from pipeline.selection.reading_noise import Readings
 from pipeline.selection.unknown_zeros import Zero
 
 
-def answer_of(it: Diagnosis, sentences: tuple[str, ...] = (), found: Fit | None = None) -> Answer:
-    """The diagnosis as a record. found: whose numbers it has, default those of the first set."""
+def answered(it: Diagnosis, found: Fit | None = None) -> Answer:
+    """The diagnosis as a record with its sentences. found: whose parameters it has, default those of the first set;
+    effects, errors and sentences stay those of the first set."""
+    answer = answer_of(it, found)
+    own = answer if found is None or found is it.fit else answer_of(it)
+    return answer.model_copy(update={"sentences": sentences(own)})
+
+
+def answer_of(it: Diagnosis, found: Fit | None = None) -> Answer:
+    """The diagnosis as a record without its sentences. found: whose numbers it has, as in `answered`."""
     cache, whole, found = it.cache, it.cache.whole, found or it.fit
     before, attempts = cache.fit(frozenset()), Attempts()
     land = profile_likelihood(found, whole)
@@ -86,13 +97,24 @@ def answer_of(it: Diagnosis, sentences: tuple[str, ...] = (), found: Fit | None 
         nominals=()
         if it.doctor
         else attempts.get("what was written about the rig", lambda: nominals_of(found, cache.criteria), ()),
+        evidence=evidence_of(it, attempts),
         not_done=(*it.failed, *attempts.failed),
-        sentences=sentences,
         evaluations=cache.evaluations + land.evaluations,
         seconds=it.seconds,
         commit=commit(),
         versions=versions(),
         data=dict(it.campaign.digests),
+    )
+
+
+def doctor_finding(it: Suspicion) -> DoctorFinding:
+    """As a record."""
+    return DoctorFinding(
+        hypothesis=it.mistake.words,
+        column=", ".join(it.mistake.columns),
+        chi_square_before=it.before,
+        chi_square_after=it.after,
+        mend=it.mistake.mend,
     )
 
 

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from typing import Any, Literal
 
+from pipeline.answer.evidence import Evidence
 from pipeline.answer.law import LawFound
 from pipeline.answer.value import Value
 from pipeline.record import Record
@@ -94,6 +95,8 @@ class NominalValue(Record):
     """What the number is."""
     seen: bool
     """Whether these tests say more of it than was written."""
+    moved: bool = False
+    """Whether it fits best farther from what was written than its tolerance explains."""
 
 
 class UnknownZero(Record):
@@ -246,6 +249,8 @@ class Answer(Record):
     laws: tuple[LawFound, ...] = ()
     """Laws beyond the catalogue: of what is left where the verdict is unknown or within_noise; of all that was
     measured where they explain it by fewer numbers than the sets of effects, or as well (ambiguous)."""
+    evidence: Evidence | None = None
+    """What the verdict of diagnose rests on; None where nothing was searched."""
     not_done: tuple[str, ...] = ()
     """Optional parts that failed, and why."""
     next_test: dict[str, Any] | None = None

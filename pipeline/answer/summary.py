@@ -58,6 +58,7 @@ def nominals_of(found: Fit, criteria: Criteria) -> tuple[NominalValue, ...]:
             unit=it.parameter.unit,
             meaning=it.parameter.meaning,
             seen=bool(std < criteria.nominal_seen),
+            moved=bool(abs(u) > criteria.nominal_moved),
         )
         for it, u, std in zip(numbers, found.residual.estimate, stds, strict=True)
     )

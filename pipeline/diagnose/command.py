@@ -6,9 +6,9 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from pipeline.add.command import starting_model
+from pipeline.answer.of_diagnosis import answered
 from pipeline.answer.record import Answer
 from pipeline.answer.tables.diagnosis import show
-from pipeline.answer.wording.diagnosis import answered
 from pipeline.campaign import read
 from pipeline.command import usable
 from pipeline.discover.beyond_catalogue import with_laws

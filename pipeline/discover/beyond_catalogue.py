@@ -30,7 +30,7 @@ from pipeline.inference.load_cases import LoadCases, load_cases
 from pipeline.inference.model import Model
 from pipeline.selection.adequacy.bad_readings import set_aside
 from pipeline.selection.adequacy.judgement import judge
-from pipeline.selection.cost import cost_of, root_of, taken
+from pipeline.selection.cost import misfit, root_of, taken
 from pipeline.selection.diagnosis import Diagnosis
 from pipeline.selection.fit_cache import Names
 
@@ -129,7 +129,7 @@ def _may_compete(it: Diagnosis, best: Names) -> bool:
     of a free function at its site."""
     without = it.cache.fit(root_of(it.cache, best))
     seen = mapped(fitted_to(without.model, _fitted(it)), it.cache.candidates)
-    gained = without.chi_square - cost_of(it.cache, best)
+    gained = without.chi_square - misfit(it.cache, best)
     return 2.0 * criteria.LAW_GAINS * seen.best + criteria.LAW_MORE >= gained
 
 
@@ -155,7 +155,7 @@ def _standing(it: Diagnosis, found: Discovery) -> _Law | None:
 
 def _cost_of_set(it: Diagnosis, names: Names) -> float:
     own = names - root_of(it.cache, names)
-    return cost_of(it.cache, names) + taken(it.cache, own) * _of_one(it)
+    return misfit(it.cache, names) + taken(it.cache, own) * _of_one(it)
 
 
 def _of_one(it: Diagnosis) -> float:

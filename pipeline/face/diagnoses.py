@@ -9,11 +9,11 @@ from typing import TYPE_CHECKING
 from rich.console import RenderableType
 
 from pipeline.answer.law import LawFound
+from pipeline.answer.of_diagnosis import answered
 from pipeline.answer.record import Answer
 from pipeline.answer.tables.added import parameter_table
 from pipeline.answer.tables.diagnosis import candidate_table, waterfall
 from pipeline.answer.tables.headline import headline
-from pipeline.answer.wording.diagnosis import answered
 from pipeline.discover.beyond_catalogue import with_laws
 from pipeline.discover.table import law_table
 from pipeline.discover.words import said_of

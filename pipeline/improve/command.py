@@ -8,8 +8,8 @@ from pathlib import Path
 from rich.live import Live
 
 from pipeline.add.command import starting_model
+from pipeline.answer.of_diagnosis import answered
 from pipeline.answer.record import Answer
-from pipeline.answer.wording.diagnosis import answered
 from pipeline.campaign import Campaign, read
 from pipeline.command import usable
 from pipeline.discover.beyond_catalogue import with_laws

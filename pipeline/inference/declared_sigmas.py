@@ -20,7 +20,7 @@ from pipeline.inference.fit import Fit, unfitted
 from pipeline.inference.load_cases import load_cases
 from pipeline.inference.model import Model
 from pipeline.inference.residual import whitening
-from pipeline.inference.sensor_noise import from_roughness
+from pipeline.inference.sensor_noise import FEWEST, from_parabolas, from_roughness
 from pipeline.inference.subsets import carried
 
 Array = NDArray[np.float64]
@@ -76,6 +76,8 @@ def _by_scatter(found: Fit) -> Iterator[tuple[int, float]]:
             values = found.residual.values[rows, channel]
             paths.append((np.arange(rows.size, dtype=float), values))
         it = from_roughness(paths)
+        if it.differences < FEWEST:
+            it = from_parabolas(paths)
         if it.value is not None and it.std is not None and it.value + SURE * it.std < 1.0 / TEN:
             yield int(channel), it.value
 

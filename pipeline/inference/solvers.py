@@ -13,6 +13,7 @@ from scipy.optimize import least_squares
 from pipeline.inference.load_cases import LoadCases
 from pipeline.inference.objective import Evaluation, Objective
 from pipeline.inference.predicted import Prediction
+from pipeline.inference.prior import weight
 from vjm.work import spent
 
 Array = NDArray[np.float64]
@@ -50,7 +51,7 @@ class Pulled:
         free = aim.model.free
         scale = np.array([abs(each.parameter.typical) for each in free])
         null = np.array([each.parameter.null for each in free])
-        return cls(aim, scale, null, np.eye(len(free)) / plausible)
+        return cls(aim, scale, null, np.eye(len(free)) * weight(plausible))
 
     def residuals(self, there: Evaluation) -> Array:
         """(N + 1 + P,)"""

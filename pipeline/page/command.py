@@ -9,8 +9,8 @@ from pydantic import ValidationError
 
 from meshes.files import replacing
 from pipeline.add.command import starting_model
+from pipeline.answer.of_diagnosis import answered
 from pipeline.answer.record import Answer
-from pipeline.answer.wording.diagnosis import answered
 from pipeline.campaign import read
 from pipeline.campaign.reading import DESCRIPTION
 from pipeline.command import redraw, usable

@@ -4,13 +4,11 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from pipeline.answer.of_diagnosis import answer_of
+from pipeline.answer.of_diagnosis import answered
 from pipeline.answer.record import Answer
-from pipeline.answer.summary import error_of
 from pipeline.callbacks import OnProgress
 from pipeline.inference.model import Model
 from pipeline.page.record import RivalPage
-from pipeline.selection.adequacy.judgement import judge
 from pipeline.selection.diagnosis import Diagnosis
 
 MOST = 4
@@ -30,13 +28,13 @@ def possible(
 ) -> tuple[Possible, ...]:
     """The sets that a verdict leaves, the simplest first; one where it is not ambiguous.
 
-    answer: that of the diagnosis, which is the first of them. Each has effects, numbers and the last error of its own
-    set; sentences and candidates are those of the diagnosis.
+    answer: that of the diagnosis, which is the first of them. Each of the others is the diagnosis with its
+    own set as the first.
     """
     first = Possible(answer, found.model)
     if found.verdict != "ambiguous":
         return (first,)
-    return (first, *(_with(found, answer, names, on_progress) for names in found.sets[1:most]))
+    return (first, *(_with(found, names, on_progress) for names in found.sets[1:most]))
 
 
 def pages_of(sets: tuple[Possible, ...]) -> tuple[RivalPage, ...]:
@@ -45,12 +43,8 @@ def pages_of(sets: tuple[Possible, ...]) -> tuple[RivalPage, ...]:
     return tuple(RivalPage(effects=it.effects, error=it.error[-1], parameters=it.parameters) for it in every)
 
 
-def _with(found: Diagnosis, answer: Answer, names: tuple[str, ...], on_progress: OnProgress) -> Possible:
-    """The answer with another set in the place of the first."""
+def _with(found: Diagnosis, names: tuple[str, ...], on_progress: OnProgress) -> Possible:
+    """The answer with another set as the first."""
     on_progress(" + ".join(names))
-    cache = found.cache
-    fit = cache.fit(frozenset(names))
-    own = answer_of(found, answer.sentences, fit)
-    last = error_of(fit, cache.whole, len(fit.model.free), judge(fit, cache.criteria))
-    update = {"effects": fit.model.names, "added": names, "error": (answer.error[0], last)}
-    return Possible(own.model_copy(update=update), fit.model)
+    about = found.about(names)
+    return Possible(answered(about), about.model)

@@ -13,9 +13,6 @@ from reports.quantities import short, sigma
 from vjm.effects import effect_of
 from vjm.effects.base import Effect
 
-APART = 10.0
-"""A difference of BIC from which it speaks very strongly, by Kass and Raftery, J. Am. Stat. Assoc. 90 (1995) 773."""
-
 SOURCES = (
     "Virtual joints (Eqs. 1 to 10), closed form (Eq. 11): A. Pashkevich, A. Klimchik, S. Caro, D. Chablat, Stiffness "
     "modelling of parallelogram-based parallel manipulators.",
@@ -103,9 +100,8 @@ def _apart(answer: Answer) -> Iterator[Following]:
 
 
 def _behind(evidence: float) -> str:
-    if evidence > APART:
-        return f"BIC {short(evidence)} behind: excluded"
-    return f"BIC {short(evidence, 2)} behind: not needed" if evidence > 0.0 else "BIC as good"
+    """BIC shows how far a set is behind; what a verdict excludes is decided by the cost of sets, not by it."""
+    return f"BIC {short(evidence, 2)} behind the best set" if evidence > 0.0 else "BIC as good"
 
 
 def assumptions(campaign: Campaign, names: tuple[str, ...], known: Mapping[str, Effect]) -> Iterator[str]:
@@ -130,7 +126,8 @@ def assumptions(campaign: Campaign, names: tuple[str, ...], known: Mapping[str, 
 
 _READING = (
     "An error of 1 sigma is noise. The error of the fitted tests is over their degrees of freedom.",
-    "Evidence is BIC less that of the best set, for the best set that was fitted with the effect in it.",
+    "Evidence is BIC less that of the best set, for the best set that was fitted with the effect in it: it shows how "
+    "far that is behind and decides nothing.",
 )
 
 

@@ -20,7 +20,7 @@ from scipy.stats import ncx2, norm
 
 from pipeline.plan.seen import Seen
 from pipeline.selection.confusability import multiple_correlation
-from pipeline.selection.cost import numbers
+from pipeline.selection.cost import looks, numbers
 from pipeline.selection.criteria import CRITERIA
 from vjm.effects.base import Effect, Parameter
 
@@ -71,8 +71,7 @@ def visible(them: Seen, candidates: Mapping[str, Effect]) -> list[Visible]:
     for name, effect in candidates.items():
         if name not in free or not effect.parameters:
             continue
-        looks = max(len(candidates), 1) * max(1, len(effect.probes))
-        least = needed(numbers(effect), looks)
+        least = needed(numbers(effect), looks(effect, len(candidates)))
         for k, parameter in enumerate(effect.parameters[: 1 if effect.probes else None]):
             shown = _curve(free[name], them.probes.get(name, ()), k, parameter)
             mine = free[name][len(free[name]) // 2][:, min(k, free[name][0].shape[1] - 1)]

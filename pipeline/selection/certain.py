@@ -13,7 +13,7 @@ import numpy as np
 
 from pipeline.inference.fit import Fit
 from pipeline.selection.adequacy.patterns import Shape, left_of, shapes
-from pipeline.selection.cost import cost, cost_of
+from pipeline.selection.cost import cost, misfit
 from pipeline.selection.criteria import Criteria
 from pipeline.selection.first_order_costs import estimates
 from pipeline.selection.fit_cache import FitCache, Names
@@ -35,7 +35,7 @@ def certain(found: Found, sets: tuple[Names, ...]) -> tuple[str, ...]:
     mine = falls(fit, criteria, criteria.certain_patterns)
     limit = fit.degrees + criteria.excess_deviations * (2.0 * max(fit.degrees, 1)) ** 0.5
     count = next((k for k, left in enumerate(mine) if left <= limit), len(mine) - 1)
-    beside = cost_of(cache, best) - mine[0]
+    beside = misfit(cache, best) - mine[0]
     needed = (criteria.certain_sigmas * max(1.0, fit.rms)) ** 2
     least = mine[count] + beside + needed
     return tuple(name for name in names if _beaten(cache, best, name, count + criteria.certain_more, least))
@@ -45,7 +45,7 @@ def _beaten(cache: FitCache, best: Names, name: str, patterns: int, least: float
     """Whether every rival without an effect leaves more than this with so many patterns."""
     for rival in _rivals(cache, best, name):
         left = falls(cache.fit(rival), cache.criteria, patterns)
-        if cost_of(cache, rival) - left[0] + left[-1] < least:
+        if misfit(cache, rival) - left[0] + left[-1] < least:
             return False
     return True
 

@@ -8,23 +8,24 @@ import numpy as np
 
 from pipeline.inference.fit import Fit
 from pipeline.inference.load_cases import LOST
+from pipeline.inference.prior import implausibility
 from pipeline.selection.fit_cache import FitCache, Names
 from vjm.effects.base import Effect
 
 
 def cost(cache: FitCache, names: Names) -> float:
     """Chi-square of the fit, how far its numbers are from plausible ones, and what each effect has to show."""
-    return cost_of(cache, names) + price(cache, names) + cache.fit(names).residual.spread
+    return misfit(cache, names) + price(cache, names) + cache.fit(names).residual.spread
 
 
-def cost_of(cache: FitCache, names: Names) -> float:
+def misfit(cache: FitCache, names: Names) -> float:
     """Chi-square of the fit, what choices of sides took off it, and of its numbers, each
     `Criteria.plausible` typical sizes a sigma."""
     found = cache.fit(names)
     return (
         found.chi_square
         + found.residual.doubt
-        + implausibility(found, cache.criteria.plausible)
+        + implausibility(found.model.free, found.model.values, cache.criteria.plausible)
         + _lost(cache, found)
     )
 
@@ -40,26 +41,26 @@ def _lost(cache: FitCache, found: Fit) -> float:
     return float(np.sum(np.maximum(squares - LOST**2 * np.sum(whole.predicted[rows], axis=1), 0.0) + LOST**2))
 
 
-def implausibility(found: Fit, plausible: float) -> float:
-    """Chi-square of the numbers alone, each so many typical sizes a sigma."""
-    return float(
-        sum(
-            ((value - f.parameter.null) / (plausible * f.parameter.typical)) ** 2
-            for f, value in zip(found.model.free, found.model.values, strict=True)
-        )
-    )
-
-
 def numbers(effect: Effect) -> int:
     """Degrees of freedom that an effect takes: one for an effect that is there or not."""
     return max(1, len(effect.parameters))
 
 
 def entry(cache: FitCache, name: str) -> float:
-    """Fall of chi-square below which an effect is not let in. One with kinks had several looks, one at each probe."""
+    """Fall of chi-square below which an effect is not let in."""
     effect = cache.candidates[name]
-    looks = max(len(cache.candidates), 1) * max(1, len(effect.probes))
-    return cache.criteria.entry(numbers(effect), looks)
+    return entry_for(cache, numbers(effect), looks(effect, len(cache.candidates)))
+
+
+def entry_for(cache: FitCache, parameters: int, among: int) -> float:
+    """Fall of chi-square that so many further parameters have to show, the best among so many looks: of effects, of
+    faults of sensors and of their zeros alike."""
+    return cache.criteria.entry(parameters, among)
+
+
+def looks(effect: Effect, candidates: int) -> int:
+    """In how many ways an effect among so many candidates could have shown by chance: one with kinks at each probe."""
+    return max(candidates, 1) * max(1, len(effect.probes))
 
 
 def price(cache: FitCache, names: Iterable[str]) -> float:

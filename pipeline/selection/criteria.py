@@ -1,7 +1,7 @@
 """Every threshold by which a diagnosis chooses, in one record: what it is, its unit, and where its value is from.
 
 A threshold of "own" source was set by the founders on benches with a known hidden effect; what hangs on each is shown
-by the sensitivity study (`pipeline.selection.sensitivity`), which doubles and halves them one by one. Tolerances of
+by the sensitivity study (`pipeline.assessment.sensitivity`), which doubles and halves them one by one. Tolerances of
 solvers are no criteria and stand where the solver is.
 """
 

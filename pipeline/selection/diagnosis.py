@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 from time import perf_counter
 
@@ -17,11 +17,11 @@ from pipeline.inference.declared_sigmas import trusted_and_fit
 from pipeline.inference.estimated_sigmas import completed
 from pipeline.inference.fit import Fit
 from pipeline.inference.load_cases import load_cases
-from pipeline.inference.model import Model
+from pipeline.inference.model import Model, at_bound
 from pipeline.inference.suitable import check_suitable, scale_for, sized_model
 from pipeline.selection.adequacy.judgement import Judgement, judge
 from pipeline.selection.certain import certain
-from pipeline.selection.confusability import Likeness
+from pipeline.selection.confusability import Likeness, likenesses
 from pipeline.selection.correlated_rows import NONE, AlikeRows, alike_rows
 from pipeline.selection.criteria import CRITERIA, Criteria
 from pipeline.selection.cross_validation import agreement
@@ -111,6 +111,29 @@ class Diagnosis:
         """The model with the first set, fitted."""
         return self.fit.model
 
+    def about(self, names: tuple[str, ...]) -> Diagnosis:
+        """The same with another of its sets as the first: its fit, checks, bounds and what could be taken for it.
+
+        The fit goes along its own line of what was written about the rig, as that of the first set does. Nothing is
+        known of how often it would be chosen without a test. ValueError for a set that is none of them.
+        """
+        order = [self.sets.index(names), *(k for k in range(len(self.sets)) if self.sets[k] != names)]
+        sets = tuple(self.decision.sets[k] for k in order)
+        fit = self.cache.with_own_line(sets[0])
+        decision = replace(
+            self.decision,
+            sets=sets,
+            fit=fit,
+            alike=tuple(likenesses(self.cache, sets[0])),
+            at_bound=at_bound(fit.model),
+        )
+        test = self.next_test
+        if test is not None:
+            place = {k: number for number, k in enumerate(order)}
+            test = replace(test, parted={(place[a], place[b]): v for (a, b), v in test.parted.items()})
+        judgement = judge(fit, self.cache.criteria)
+        return replace(self, decision=decision, judgement=judgement, agreement={}, next_test=test)
+
 
 def diagnose(
     campaign: Campaign,
@@ -127,7 +150,7 @@ def diagnose(
     doctor = attempts.get("the look for mistakes of the table", lambda: suspicions(cache), ())
     if doctor:
         return _unsettled(cache, doctor, refused, attempts, _since(begin))
-    again = partial(_shelf_of, model, known)
+    again = partial(_cache_of, model, known)
     done, kinds = (
         settled(cache, again, attempts),
         all_sized(dict(sorted(known.items())), scale_for(campaign)).values(),
@@ -224,7 +247,7 @@ def _prepared(
     ), refused
 
 
-def _shelf_of(model: Model, known: Mapping[str, Effect], campaign: Campaign, before: FitCache) -> FitCache:
+def _cache_of(model: Model, known: Mapping[str, Effect], campaign: Campaign, before: FitCache) -> FitCache:
     """The empty fit cache of a campaign that is another's with other readings."""
     return _prepared(campaign, model, known, before.on_progress, before.criteria, before)[0]
 

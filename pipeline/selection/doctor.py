@@ -22,10 +22,11 @@ from pipeline.inference.linear_prediction import predict_linear
 from pipeline.inference.load_cases import LoadCases, load_cases
 from pipeline.inference.multistart import best_fit
 from pipeline.inference.predicted import Prediction
+from pipeline.inference.prior import implausibility
 from pipeline.inference.residual import residual
 from pipeline.inference.solvers import Effort
 from pipeline.inference.suitable import scale_for
-from pipeline.selection.cost import cost_of, implausibility
+from pipeline.selection.cost import misfit
 from pipeline.selection.criteria import Criteria
 from pipeline.selection.faulty_sensor import least_with_a_fault
 from pipeline.selection.first_order import FirstOrder, first_order
@@ -95,7 +96,7 @@ def _least_with_kinks(cache: FitCache, root: Names, enough: float) -> float:
         cache.on_progress(f"whether {name} explains as much")
         model = before.model.with_effects([effect])
         there = best_fit(model, cache.whole, [name], before.prediction, None, plausible, Effort(known=enough))
-        out = min(out, there.chi_square + implausibility(there, plausible))
+        out = min(out, there.chi_square + implausibility(there.model.free, there.model.values, plausible))
     return out
 
 
@@ -173,8 +174,8 @@ class Table:
         leaders = sorted(single, key=lambda name: -single[name])[: cache.criteria.doctor_effects]
         sets = [root, *(root | {name} for name in leaders)]
         cache.fit_all({names: {} for names in sets[1:]})
-        best = min(sets, key=lambda names: cost_of(cache, names))
-        return cost_of(cache, best), best
+        best = min(sets, key=lambda names: misfit(cache, names))
+        return misfit(cache, best), best
 
     def mended(self, mistake: Mistake) -> Table:
         """The table without a mistake, with the sigmas that its scatter then allows."""

@@ -4,9 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from pipeline.answer.of_diagnosis import found_noise
+from pipeline.answer.of_diagnosis import doctor_finding, found_noise
 from pipeline.answer.record import DoctorFinding, FoundNoise
-from pipeline.answer.wording.doctor import doctor_finding
 from pipeline.callbacks import OnProgress
 from pipeline.campaign import Campaign
 from pipeline.inference.model import Model

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from pipeline.selection.cost import cost_of, seen
+from pipeline.selection.cost import misfit, seen
 from pipeline.selection.fit_cache import FitCache, Names
 
 
@@ -36,7 +36,7 @@ def excluded(cache: FitCache, rival: Names, best: Names) -> bool:
 
 def worse(cache: FitCache, rival: Names, best: Names) -> float:
     """Chi-square by which a rival is worse."""
-    return cost_of(cache, rival) - cost_of(cache, best)
+    return misfit(cache, rival) - misfit(cache, best)
 
 
 def needed(cache: FitCache, rival: Names, best: Names) -> float:

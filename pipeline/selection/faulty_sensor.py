@@ -14,6 +14,7 @@ import numpy as np
 from pipeline.campaign import Campaign
 from pipeline.campaign.names import channel_columns
 from pipeline.inference.suitable import columns_read
+from pipeline.selection.cost import entry_for
 from pipeline.selection.criteria import Criteria
 from pipeline.selection.fit_cache import FitCache, Names
 from vjm.effects.base import Effect
@@ -51,7 +52,7 @@ def with_promising_faults(cache: FitCache, known: Iterable[Effect], best: Names)
     for names in dict.fromkeys([best, frozenset[str]()]):
         beside = {name: cache.candidates[name] for name in cache.order(names)}
         gains = _gains(cache.with_candidates({**beside, **every}), names, every)
-        worth = [name for name in gains if gains[name] > criteria.entry(1, len(every))]
+        worth = [name for name in gains if gains[name] > entry_for(cache, 1, len(every))]
         chosen += sorted(worth, key=lambda name: -gains[name])[: criteria.faults_looked_at]
     if not chosen:
         return None

@@ -18,6 +18,7 @@ from scipy.optimize import lsq_linear
 from pipeline.inference.eliminated import Marginal
 from pipeline.inference.fit import Fit
 from pipeline.inference.orthonormal_basis import basis
+from pipeline.inference.prior import away, weight
 from pipeline.inference.rounding import RANK, ROUNDING, TINY
 from pipeline.selection.signatures import Look, Signature
 
@@ -89,16 +90,16 @@ class FirstOrder:
     def _weighed(self) -> tuple[Array, dict[str, list[Array]]]:
         """The same, with how plausible the numbers are: of the fit and of what is added, each a reading more."""
         free = self.fit.model.free
-        scale = self.plausible * np.array([f.parameter.typical for f in free])
-        away = (self.fit.model.values - np.array([f.parameter.null for f in free])) / scale
+        scale = np.array([abs(f.parameter.typical) for f in free]) / weight(self.plausible)
+        far = away(free, self.fit.model.values, self.plausible)
         own = [size for s in self.signatures.values() for size in s.sizes]
         zeros = self.base.shape[1] - len(free)
         # What is looked at stands for more readings than it has; numbers do not.
         fitted = np.sqrt(self.share) * np.hstack([np.diag(1.0 / scale), np.zeros((len(free), zeros))])
-        added = np.sqrt(self.share) * np.diag(np.array(own) / self.plausible)
+        added = np.sqrt(self.share) * np.diag(np.array(own) * weight(self.plausible))
         residual, base, flat = self._marginal
         base = np.vstack([base, fitted, np.zeros((len(own), base.shape[1]))])
-        residual = np.concatenate([residual, -np.sqrt(self.share) * away, np.zeros(len(own))])
+        residual = np.concatenate([residual, -np.sqrt(self.share) * far, np.zeros(len(own))])
         return self._split(
             *_free_of(base, residual, np.vstack([flat, np.zeros((len(free), len(own))), added]))
         )

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from pipeline.selection.cost import cost, cost_of, price, root_of
+from pipeline.selection.cost import cost, misfit, price, root_of
 from pipeline.selection.fit_cache import FitCache, Names
 
 
@@ -43,7 +43,7 @@ def fit_from(cache: FitCache, names: Names) -> None:
         fewer = names - {name}
         if fewer not in cache.fits or not cache.candidates[name].parameters:
             continue
-        gap, said = cost_of(cache, fewer) - cost_of(cache, names), _said(cache, names, name)
+        gap, said = misfit(cache, fewer) - misfit(cache, names), _said(cache, names, name)
         if cost(cache, fewer) > cost(cache, names) and said < cache.criteria.needless * price(cache, [name]):
             again += [fewer] if gap > cache.criteria.elsewhere * said + cache.criteria.elsewhere_least else []
     cache.fit_again(again, names)

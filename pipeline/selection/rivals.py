@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from pipeline.selection.cost import cost, cost_of, excess, taken
+from pipeline.selection.cost import cost, excess, misfit, taken
 from pipeline.selection.exclusion import possible
 from pipeline.selection.few_rows import few, fit_together
 from pipeline.selection.first_order_costs import estimates, raw
@@ -51,4 +51,4 @@ def with_rivals(cache: FitCache, best: Names) -> Found:
     if winner != best:
         return with_rivals(cache, winner)
     simple = [n for n in cache.fits if len(n) <= len(best) or taken(cache, n) <= taken(cache, best)]
-    return Found(cache, best, tuple(sorted(possible(cache, simple, best), key=lambda n: cost_of(cache, n))))
+    return Found(cache, best, tuple(sorted(possible(cache, simple, best), key=lambda n: misfit(cache, n))))

@@ -11,7 +11,7 @@ from pipeline.attempt import Attempts
 from pipeline.inference.fit import Fit, unfitted
 from pipeline.selection.adequacy.judgement import HELD_OUT, judge
 from pipeline.selection.adequacy.untested import untested
-from pipeline.selection.cost import cost_of
+from pipeline.selection.cost import misfit
 from pipeline.selection.exclusion import possible
 from pipeline.selection.fit_cache import FitCache, Names
 from pipeline.selection.rivals import Found
@@ -68,8 +68,8 @@ def _with_what_held_out_tests_need(found: Found) -> Found:
         # That the fitted tests may like it a little less is chance: what it leaves of them is noise as well.
         if judge(cache.fit(more), cache.criteria).noise:
             # With it the data may exclude less than they did without.
-            worst = cost_of(cache, best) + cache.criteria.held_out_gap
-            near = [n for n in cache.fits if len(n) <= len(best) and cost_of(cache, n) < worst]
+            worst = misfit(cache, best) + cache.criteria.held_out_gap
+            near = [n for n in cache.fits if len(n) <= len(best) and misfit(cache, n) < worst]
             sets = list(dict.fromkeys(n | {name} for n in near))
             return replace(found, best=more, rivals=tuple(possible(cache, sets, more)), beyond=name)
     return found

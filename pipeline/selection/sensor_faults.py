@@ -9,7 +9,7 @@ from scipy.stats import chi2
 
 from pipeline.inference.fit import Fit
 from pipeline.selection.adequacy.patterns import scores
-from pipeline.selection.cost import cost, cost_of, numbers
+from pipeline.selection.cost import cost, entry_for, misfit, numbers
 from pipeline.selection.criteria import Criteria
 from pipeline.selection.doctor import Suspicion
 from pipeline.selection.fit_cache import FitCache, Names
@@ -44,7 +44,7 @@ def faults_instead(found: Found) -> tuple[Instead, ...]:
             continue
         if any(name in cache.candidates[other].includes for other in without):
             continue
-        gain = cost_of(cache, without) - cost_of(cache, best)
+        gain = misfit(cache, without) - misfit(cache, best)
         enough = gain - cache.criteria.apart(numbers(effect) - 1)
         every = sorted(_faults(cache, name, without, gain), key=lambda it: -it.explains)
         out += [it for it in every[:1] if it.explains >= enough]
@@ -97,9 +97,10 @@ def zero_first(found: Found, explained: bool) -> Instead | None:
         fit = cache.fit(names)
         for zero in zeros(fit, criteria)[:1]:
             left = fit.chi_square - zero.gain
-            total = cost(cache, names) - zero.gain + zero.price
+            entry = entry_for(cache, 1, zero.looks)
+            total = cost(cache, names) - zero.gain + entry
             noise = left <= float(chi2.isf(criteria.zero_chance, max(fit.degrees - 1, 1)))
-            worth = zero.gain > zero.price and total < cost(cache, best) and not _plainer(fit, zero, criteria)
+            worth = zero.gain > entry and total < cost(cache, best) and not _plainer(fit, zero, criteria)
             if worth and (noise or left < most / criteria.zero_factor):
                 out.append((total, Instead("", names, zero.words, zero.gain, most, zero)))
     return min(out, key=lambda it: it[0])[1] if out else None

@@ -32,8 +32,7 @@ whose tangent says nothing of one as long as the linkage. What is only read may 
 class Zero:
     """A constant that a channel reads too much. tests: ids of those it is in. value, std: in `unit`. gain: chi-square
     that it takes off, after the numbers of the fit took their part; looks: how many constants were looked at. unloaded:
-    whether the model expects nothing of the channel there, so that the readings are nothing but this constant.
-    price: chi-square that noise alone takes off by the best of so many constants, once in two hundred campaigns."""
+    whether the model expects nothing of the channel there, so that the readings are nothing but this constant."""
 
     column: str
     tests: tuple[str, ...]
@@ -44,7 +43,6 @@ class Zero:
     gain: float
     looks: int
     unloaded: bool
-    price: float
 
     @property
     def words(self) -> str:
@@ -110,9 +108,7 @@ def _zero(
     rows = np.isin(whole.test, tests) & whole.predicted[:, channel]
     unloaded = bool(rows.any() and np.all(np.abs(expected[rows, channel]) < criteria.zero_alone * abs(value)))
     name = column_name(channel, whole.campaign.gauges)
-    return Zero(
-        name, ids, everywhere, value, std, unit, (value / std) ** 2, looks, unloaded, criteria.entry(1, looks)
-    )
+    return Zero(name, ids, everywhere, value, std, unit, (value / std) ** 2, looks, unloaded)
 
 
 def _constants(whole: LoadCases) -> Iterator[tuple[int, tuple[int, ...]]]:

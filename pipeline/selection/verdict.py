@@ -13,9 +13,10 @@ from pipeline.answer.record import Verdict
 from pipeline.attempt import Attempts
 from pipeline.inference.fit import Fit
 from pipeline.inference.model import at_bound
+from pipeline.inference.prior import implausibility
 from pipeline.selection.adequacy.judgement import Judgement
 from pipeline.selection.confusability import Likeness, likenesses
-from pipeline.selection.cost import implausibility, is_noise, taken
+from pipeline.selection.cost import is_noise, taken
 from pipeline.selection.determined import determined, undetermined
 from pipeline.selection.exclusion import needed, worse
 from pipeline.selection.fit_cache import FitCache, Names
@@ -137,17 +138,21 @@ def _whole(cache: FitCache, names: Names) -> bool:
 def _implausible(found: Found) -> Iterator[Names]:
     """Sets as simple as the best one that fit as well and are out only because their numbers would be implausible."""
     cache, best = found.cache, found.best
-    plausible = cache.criteria.plausible
-    mine = implausibility(cache.fit(best), plausible)
+    mine = _implausibility(cache, best)
     for names in cache.fits:
         if names == best or names in found.rivals or not names or best < names or names < best:
             continue
         if len(names) > len(best) and taken(cache, names) > taken(cache, best):
             continue
-        far = implausibility(cache.fit(names), plausible) - mine
+        far = _implausibility(cache, names) - mine
         limit = max(cache.criteria.exclusion_least, needed(cache, names, best))
         if worse(cache, names, best) > limit >= worse(cache, names, best) - max(far, 0.0):
             yield names
+
+
+def _implausibility(cache: FitCache, names: Names) -> float:
+    model = cache.fit(names).model
+    return implausibility(model.free, model.values, cache.criteria.plausible)
 
 
 def _simplicity(cache: FitCache, names: Names) -> tuple[int, int, float]:

@@ -8,8 +8,8 @@ from typing import Literal
 
 from pipeline.add.command import starting_model
 from pipeline.add.fitting import Added, add
+from pipeline.answer.of_diagnosis import answered
 from pipeline.answer.record import Answer
-from pipeline.answer.wording.diagnosis import answered
 from pipeline.callbacks import OnProgress
 from pipeline.campaign import read
 from pipeline.campaign.reading import DESCRIPTION

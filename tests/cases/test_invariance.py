@@ -13,7 +13,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from pipeline.answer.wording.diagnosis import answered
+from pipeline.answer.of_diagnosis import answered
 from pipeline.campaign import Campaign, Rig, RigOfBars, Test, read
 from pipeline.inference.model import Model
 from pipeline.selection.diagnosis import Diagnosis, diagnose
@@ -121,7 +121,7 @@ def test_a_shifted_channel_is_first_a_zero(channel: int) -> None:
     ],
 )
 def test_a_larger_set_never_leaves_more_than_one_that_it_contains(name: str) -> None:
-    fits = found(read(DATA / name)).fits
+    fits = found(read(DATA / name)).cache
     pairs = 0
     for small, one in fits.fits.items():
         for large, other in fits.fits.items():

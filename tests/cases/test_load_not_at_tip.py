@@ -14,7 +14,7 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_bvp
 
-from pipeline.answer.wording.diagnosis import answered
+from pipeline.answer.of_diagnosis import answered
 from pipeline.campaign import BadCampaign, Campaign, read, write
 from pipeline.campaign.gauge import Gauge
 from pipeline.campaign.rigs.bar import BarRig

@@ -16,8 +16,9 @@ import pytest
 
 from pipeline.add.command import add_effects, starting_model
 from pipeline.add.fitting import add
+from pipeline.answer.of_diagnosis import answered
 from pipeline.answer.record import Answer
-from pipeline.answer.wording.diagnosis import answered
+from pipeline.answer.wording.diagnosis import sentences
 from pipeline.campaign import read
 from pipeline.compare.models import compare_models
 from pipeline.compare.table import sentence
@@ -102,8 +103,8 @@ def test_every_table_has_its_verdict(name: str) -> None:
     assert found.verdict == VERDICTS[name], found.sentences
     assert not any(word in said for said in found.sentences for word in LAPACK)
     assert not found.not_done
-    # Nothing that is not finite can be written.
-    assert found.text()
+    # Nothing that is not finite can be written, and what is written is all that the sentences need.
+    assert sentences(Answer.model_validate_json(found.text())) == found.sentences
 
 
 @pytest.mark.long
@@ -241,6 +242,16 @@ def test_a_sigma_far_too_large_is_a_claim_that_the_scatter_refutes() -> None:
     # 3 µm that a bar drawn to 0.05 mm may be shorter by: one function says so for both.
     assert compare_models(campaign).model_of("vjm").tolerated
     assert answer("t15_sigma_far_too_large").verdict == "within_noise"
+
+
+def test_seven_readings_refute_a_sigma_a_hundred_times_too_large(tmp_path: Path) -> None:
+    """Too few for differences of four steps: the scatter about a parabola is what counts then."""
+    text = (DATA / "c04_dial_softer" / "campaign.toml").read_text()
+    (tmp_path / "campaign.toml").write_text(text.replace("z_mm = 0.0127", "z_mm = 1.0"))
+    (tmp_path / "measurements.csv").write_bytes((DATA / "c04_dial_softer" / "measurements.csv").read_bytes())
+    result = compare_models(read(tmp_path))
+    assert any("a sigma of 1 is given, but the readings scatter far less" in said for said in result.remarks)
+    assert "not within the noise; z is 18 % more than the model says" in sentence(result)
 
 
 def test_a_further_effect_never_leaves_more() -> None:

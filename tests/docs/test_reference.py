@@ -36,6 +36,7 @@ PAGES = {
 SCHEMAS = {**TABLES, **ANSWERS}
 RECORDS = (
     "pipeline.answer.record",
+    "pipeline.answer.evidence",
     "pipeline.compare.record",
     "pipeline.discover.record",
     "pipeline.answer.law",

@@ -15,8 +15,8 @@ import numpy as np
 
 from pipeline.add.command import starting_model
 from pipeline.add.fitting import add
+from pipeline.answer.of_diagnosis import answered
 from pipeline.answer.record import Answer, Verdict
-from pipeline.answer.wording.diagnosis import answered
 from pipeline.campaign import Campaign, read
 from pipeline.compare.models import compare_models
 from pipeline.errors import InputError

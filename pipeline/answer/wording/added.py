@@ -6,7 +6,6 @@ from collections.abc import Iterator
 
 from pipeline.answer.record import LEVEL, Answer, ModelError
 from pipeline.parameter_names import parted
-from pipeline.selection.criteria import CRITERIA
 from reports.quantities import Estimate, short, sigma, value_text
 
 CLEARLY = 1.0 - LEVEL
@@ -76,7 +75,7 @@ def _details(answer: Answer) -> Iterator[str]:
     for name in _absent(answer):
         yield f"{name} is not larger than zero by these tests: its interval begins where the effect is absent."
     yield from limits(answer)
-    yield from written(answer, CRITERIA.nominal_moved)
+    yield from written(answer)
     for group in answer.undetermined:
         if len(group) == 1:
             yield f"{group[0]} is not determined by these tests: they say nothing about it."
@@ -94,9 +93,9 @@ def limits(answer: Answer) -> Iterator[str]:
         yield f"{' + '.join(names)} would fit as well, but only with an implausible size."
 
 
-def written(answer: Answer, moved: float) -> Iterator[str]:
-    """What was written about the rig and fits best farther from that than `moved` tolerances, and what is not seen."""
-    far = sorted((it for it in answer.nominals if abs(it.pull) > moved), key=lambda it: -abs(it.pull))
+def written(answer: Answer) -> Iterator[str]:
+    """What was written about the rig and fits best far from that, and what is not seen."""
+    far = sorted((it for it in answer.nominals if it.moved), key=lambda it: -abs(it.pull))
     if far:
         said = "; ".join(
             f"{it.name} = {value_text(Estimate(it.value, it.std))}{'' if it.unit == '1' else f' {it.unit}'}, written "

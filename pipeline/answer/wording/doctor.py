@@ -1,21 +1,9 @@
-"""The mistakes of a table as records, and in a sentence."""
+"""The mistakes of a table in sentences."""
 
 from __future__ import annotations
 
 from pipeline.answer.record import DoctorFinding
-from pipeline.selection.doctor import Suspicion
 from reports.quantities import short
-
-
-def doctor_finding(it: Suspicion) -> DoctorFinding:
-    """As a record."""
-    return DoctorFinding(
-        hypothesis=it.mistake.words,
-        column=", ".join(it.mistake.columns),
-        chi_square_before=it.before,
-        chi_square_after=it.after,
-        mend=it.mistake.mend,
-    )
 
 
 def doctor_sentence(found: tuple[DoctorFinding, ...]) -> str:

@@ -20,7 +20,7 @@ MOMENT = {
     "N·m": THOUSAND,
     "kgf·mm": KGF,
     "kgf·m": THOUSAND * KGF,
-    "kgf·cm": 10.0 * KGF,
+    "kgf·cm": UNITS["kgf·cm"].factor,
     "lbf·in": POUND * INCH,
     "N·µm": 1.0 / THOUSAND,
 }

@@ -6,7 +6,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from pipeline.answer.wording.diagnosis import answered
+from pipeline.answer.of_diagnosis import answered
 from pipeline.discover import beyond_catalogue, search
 from pipeline.discover.beyond_catalogue import with_laws
 from pipeline.discover.effect_file import effect_text, name_of, write_effect

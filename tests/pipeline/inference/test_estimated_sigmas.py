@@ -9,7 +9,7 @@ from pipeline.assessment.virtual.plan import SENSORS
 from pipeline.campaign import Campaign, Data, Noise, ParallelogramRig, Test
 from pipeline.inference.estimated_sigmas import completed
 from pipeline.inference.load_cases import load_cases
-from pipeline.inference.sensor_noise import from_lines
+from pipeline.inference.sensor_noise import from_lines, from_parabolas
 from tests.pipeline.bench import bench
 from vjm import paper
 
@@ -100,3 +100,15 @@ def test_scatter_about_lines_is_unbiased() -> None:
     # 4 degrees of freedom: a standard deviation of 0.36, over the root of 2000.
     assert abs(float(np.mean(np.array(values, dtype=float))) - 1.0) < 4.0 * 0.36 / np.sqrt(2000.0)
     assert from_lines([(load[:4], load[:4])]).value is None
+
+
+def test_scatter_about_parabolas_is_unbiased_and_blind_to_one() -> None:
+    rng = np.random.default_rng(5)
+    load = 1e6 + np.array([0.0, 1.0, 2.5, 3.0, 4.0, 5.5, 6.0])
+    noise = rng.normal(size=(2000, 7))
+    bent = 2.0 + 3.0 * (load - 1e6) - 5.0 * (load - 1e6) ** 2
+    values = [from_parabolas([(load, bent + each)]).value for each in noise]
+    assert abs(float(np.mean(np.array(values, dtype=float))) - 1.0) < 4.0 * 0.36 / np.sqrt(2000.0)
+    alone = [from_parabolas([(load, each)]).value for each in noise[:20]]
+    np.testing.assert_allclose(values[:20], alone, rtol=1e-6)
+    assert from_parabolas([(load[:6], load[:6])]).value is None

@@ -7,8 +7,8 @@ import pytest
 from pipeline.inference.fit import Fit, fit
 from pipeline.inference.load_cases import load_cases
 from pipeline.inference.model import Model
+from pipeline.inference.prior import implausibility
 from pipeline.inference.solvers import far, trust_region
-from pipeline.selection.cost import implausibility
 from pipeline.selection.criteria import CRITERIA
 from pipeline.selection.determined import undetermined
 from tests.pipeline.selection.bench import AXIAL, MIXED, bench
@@ -19,7 +19,7 @@ BENT = "bar_geometric_nonlinearity"
 
 def pulled(found: Fit) -> float:
     """What both make least: chi-square, and how far the parameters are from plausible ones."""
-    return found.chi_square + implausibility(found, CRITERIA.plausible)
+    return found.chi_square + implausibility(found.model.free, found.model.values, CRITERIA.plausible)
 
 
 @pytest.mark.parametrize(

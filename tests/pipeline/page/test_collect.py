@@ -146,8 +146,8 @@ def test_before_anything_is_measured_the_page_says_so(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("candidate", "said"),
     [
-        (Candidate(effect="load_offset", fit=1.5, evidence=80.0), "BIC 80 behind: excluded"),
-        (Candidate(effect="load_offset", fit=0.99, evidence=4.0), "BIC 4 behind: not needed"),
+        (Candidate(effect="load_offset", fit=1.5, evidence=80.0), "BIC 80 behind the best set"),
+        (Candidate(effect="load_offset", fit=0.99, evidence=4.0), "BIC 4 behind the best set"),
         (Candidate(effect="base_compliance", fit=0.98, evidence=1.0), "fits as well"),
         (Candidate(effect="load_offset"), "does not show"),
     ],

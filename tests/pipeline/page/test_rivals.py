@@ -6,7 +6,7 @@ from functools import cache
 
 import pytest
 
-from pipeline.answer.wording.diagnosis import answered
+from pipeline.answer.of_diagnosis import answered
 from pipeline.campaign import Campaign
 from pipeline.inference.model import Model
 from pipeline.inference.suitable import Known, known_effects

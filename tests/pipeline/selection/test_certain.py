@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from pipeline.answer.wording.diagnosis import answered
+from pipeline.answer.of_diagnosis import answered
 from pipeline.campaign import Campaign
 from pipeline.inference.load_cases import load_cases
 from pipeline.inference.model import Model

@@ -9,8 +9,8 @@ from pathlib import Path
 import pytest
 from typer.testing import CliRunner
 
-from pipeline.answer.of_diagnosis import answer_of
-from pipeline.answer.wording.diagnosis import answered, sentences
+from pipeline.answer.of_diagnosis import answer_of, answered
+from pipeline.answer.record import Answer
 from pipeline.campaign import Campaign, write
 from pipeline.cli import app
 from pipeline.inference.model import Model
@@ -42,7 +42,7 @@ def test_small_loads_need_nothing() -> None:
     it = found(bench(ids=("axial_held_q+0", "axial_held_q+15")))
     assert it.verdict == "within_noise"
     assert it.sets == ((),)
-    assert sentences(it)[0].startswith("within_noise: the model explains the measurements")
+    assert answered(it).sentences[0].startswith("within_noise: the model explains the measurements")
 
 
 @pytest.mark.long
@@ -50,7 +50,7 @@ def test_held_out_tests_tell_of_physics_that_the_fitted_ones_do_not_show() -> No
     """6 mm sideways shorten the linkage by 70 µm; under axial loads nothing tells of it."""
     it = found(bench(ids=("axial_held_q+0", "lateral_q-15")))
     assert it.verdict == "identified" and it.sets == ((LARGE,),)
-    assert any("those held out need it" in said for said in sentences(it))
+    assert any("those held out need it" in said for said in answered(it).sentences)
     # What has a number is not theirs to choose.
     softer = found(bench("modulus_error.scale", 0.9, ids=("swing_q+0", "axial_held_q+15")))
     assert softer.verdict == "unknown"
@@ -63,9 +63,9 @@ def test_numbers_of_what_explains_little_are_worth_no_solutions() -> None:
     it = diagnose(tests, Model(), {name: EFFECTS[name] for name in (LARGE, "load_misalignment")})
     assert it.verdict == "unknown" and it.sets == ((LARGE, "load_misalignment"),)
     answer = answer_of(it)
-    assert answer.evaluations == it.fits.evaluations
+    assert answer.evaluations == it.cache.evaluations
     assert [value.interval for value in answer.parameters.values()] == ["wald"] * 3
-    assert answer_of(axial()).evaluations > axial().fits.evaluations, "what explains it is"
+    assert answer_of(axial()).evaluations > axial().cache.evaluations, "what explains it is"
 
 
 def test_of_what_is_not_measured_yet_nothing_is_tested() -> None:
@@ -86,7 +86,7 @@ def test_friction_is_named() -> None:
     ]
     std = dict(zip([f.name for f in it.model.free], it.fit.std, strict=True))["joint_friction.torque_Nmm"]
     assert abs(value - 200.0) < 3 * std
-    assert any("Only tests at q = 0° show it (swing_q+0):" in said for said in sentences(it))
+    assert any("Only tests at q = 0° show it (swing_q+0):" in said for said in answered(it).sentences)
 
 
 @pytest.mark.long
@@ -95,11 +95,11 @@ def test_what_several_angles_show_is_there_at_all_of_them() -> None:
         bench("joint_friction.torque_Nmm", 200.0, ("swing_q+0", "swing_q+30", "axial_held_q+0"))
     )
     assert "joint_friction" in everywhere.sets[0]
-    assert not any("Only tests at q" in said for said in sentences(everywhere))
+    assert not any("Only tests at q" in said for said in answered(everywhere).sentences)
     # One angle is all that there is: nothing was left out.
     one = found(bench("joint_friction.torque_Nmm", 200.0, ("swing_q+0", "axial_held_q+0")))
     assert "joint_friction" in one.sets[0]
-    assert not any("Only tests at q" in said for said in sentences(one))
+    assert not any("Only tests at q" in said for said in answered(one).sentences)
 
 
 def test_axial_tests_alone_cannot_tell() -> None:
@@ -111,9 +111,28 @@ def test_axial_tests_alone_cannot_tell() -> None:
     control = it.next_test.choices[0].test.control
     assert it.next_test.apart, "lateral loads tell the modulus from a soft hinge"
     assert control[1] == "displacement"
-    said = sentences(it)
+    said = answered(it).sentences
     assert said[0].startswith("ambiguous: ")
     assert any(s.startswith("Next test: ") for s in said)
+
+
+def test_a_diagnosis_about_another_of_its_sets_is_of_that_set_throughout() -> None:
+    it = axial()
+    second = it.sets[1]
+    about = answered(it.about(second))
+    assert about.added == second and about.error[-1].effects[-len(second) :] == second
+    assert {name.rpartition(".")[0] for name in about.parameters} == set(second)
+    said = about.sentences
+    assert said[0].startswith(f"ambiguous: {' + '.join(second)} or ")
+    assert any(each.startswith(f"{second[0]}: ") and " Fitted: " in each for each in said)
+
+    def apart(answer: Answer) -> dict[frozenset[tuple[str, ...]], float]:
+        test = answer.next_test or {}
+        pairs = [frozenset(map(tuple, pair)) for pair in test["tells_apart"]]
+        return dict(zip(pairs, test["expected_chi_square"], strict=True))
+
+    # The next test tells the same sets apart, whichever stands first.
+    assert apart(about) == apart(answered(it)) != {}
 
 
 def test_the_record_of_an_ambiguous_case() -> None:
@@ -130,7 +149,7 @@ def test_the_record_of_an_ambiguous_case() -> None:
 def test_a_load_cell_whose_gain_grows_is_unknown() -> None:
     it = found(with_fault(bench(ids=("axial_held_q+30", "lateral_q+0")), growing_gain))
     assert it.verdict == "unknown"
-    said = " ".join(sentences(it))
+    said = " ".join(answered(it).sentences)
     assert "nothing known explains it" in said
     assert "fx has a gain that grows" in said
 

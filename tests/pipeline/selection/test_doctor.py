@@ -7,8 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from pipeline.answer.of_diagnosis import answer_of
-from pipeline.answer.wording.diagnosis import sentences
+from pipeline.answer.of_diagnosis import answer_of, answered
 from pipeline.campaign import Campaign, Data
 from pipeline.check import _examined
 from pipeline.compare.models import compare_models
@@ -110,14 +109,14 @@ def test_nothing_is_named_before_it_is_settled() -> None:
     it = diagnose(wrong, Model(), catalogue())
     answer = answer_of(it)
     assert answer.verdict == "unknown" and answer.effects == () and answer.added == ()
-    first = sentences(it)[0]
+    first = answered(it).sentences[0]
     said = (
         "unknown: it looks as if all forces are in kgf or fy_N is in kgf: these readings cannot tell which; "
     )
     assert first.startswith(f"{said}chi-square with the best single effect falls from ")
     assert first.endswith("Nothing is named before that is settled.")
     assert answer.doctor[0].mend.startswith("multiply fx_N, fy_N, fz_N by 9.80665 (N in kgf)")
-    assert any(answer.doctor[0].mend in said for said in sentences(it))
+    assert any(answer.doctor[0].mend in said for said in answered(it).sentences)
     assert "all forces are in kgf" in sentence(compare_models(wrong))
     assert any("Doctor: it looks as if all forces are in kgf" in line for line in _examined(wrong))
 
@@ -128,4 +127,4 @@ def test_a_zero_of_one_column_is_told_as_a_zero() -> None:
     it = diagnose(wrong, Model(), catalogue())
     answer = answer_of(it)
     assert answer.zeros[0].column == "x" and answer.zeros[0].value == pytest.approx(30.0, abs=1.0)
-    assert sentences(it)[0].startswith("unknown: x starts at 30")
+    assert answered(it).sentences[0].startswith("unknown: x starts at 30")

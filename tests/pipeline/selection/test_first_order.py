@@ -12,6 +12,7 @@ import pytest
 from pipeline.inference.fit import Fit
 from pipeline.inference.load_cases import load_cases
 from pipeline.inference.model import Model
+from pipeline.inference.prior import implausibility
 from pipeline.selection.confusability import multiple_correlation
 from pipeline.selection.cost import entry
 from pipeline.selection.criteria import CRITERIA
@@ -80,7 +81,8 @@ def test_what_takes_implausible_numbers_off_another_is_worth_that(share: float) 
         share,
         CRITERIA.plausible,
     )
-    assert about.gain(["other"]).value == pytest.approx(2.0, rel=1e-4)
+    alone = implausibility(model.free, model.values, CRITERIA.plausible)
+    assert alone == pytest.approx(4.0) and about.gain(["other"]).value == pytest.approx(alone / 2, rel=1e-4)
 
 
 def test_thresholds() -> None:

@@ -8,8 +8,8 @@ from functools import cache
 import numpy as np
 import pytest
 
+from pipeline.answer.of_diagnosis import answered
 from pipeline.answer.record import Answer
-from pipeline.answer.wording.diagnosis import answered
 from pipeline.attempt import Attempts
 from pipeline.campaign import Campaign
 from pipeline.campaign.names import channel_columns

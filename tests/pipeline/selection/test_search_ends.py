@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import pytest
 
-from pipeline.answer.wording.diagnosis import sentences
+from pipeline.answer.of_diagnosis import answered
 from pipeline.assessment.coverage.trial import campaign
 from pipeline.inference.model import Model
 from pipeline.selection.criteria import CRITERIA
@@ -26,5 +26,5 @@ def test_what_was_not_compared_with_all_is_not_named() -> None:
         it = found(most)
         assert it.found.ended
         assert it.verdict == "unknown" and len(it.cache.fits) <= len(whole.cache.fits)
-        said = " ".join(sentences(it))
+        said = " ".join(answered(it).sentences)
         assert "The search ended" in said or "the search ended" in said

@@ -7,8 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from pipeline.answer.of_diagnosis import answer_of
-from pipeline.answer.wording.diagnosis import sentences
+from pipeline.answer.of_diagnosis import answer_of, answered
 from pipeline.campaign import Data
 from pipeline.improve.steps import certain
 from pipeline.inference.model import Model
@@ -36,7 +35,7 @@ def test_a_gauge_that_creeps_a_little_is_no_tilt(seed: int) -> None:
     answer = answer_of(it)
     assert answer.verdict == "ambiguous" and answer.alternatives == ((ALWAYS,),)
     assert it.next_test is None and certain(it) == {ALWAYS}
-    said = sentences(it)
+    said = answered(it).sentences
     assert "mounting_tilt or a fault of a sensor; these tests cannot tell" in said[0]
     assert any("Instead of mounting_tilt a sensor may be at fault" in each for each in said)
     assert not any("No test of these kinds" in each for each in said)

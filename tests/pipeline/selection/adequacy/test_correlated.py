@@ -7,8 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from pipeline.answer.of_diagnosis import answer_of
-from pipeline.answer.wording.diagnosis import sentences
+from pipeline.answer.of_diagnosis import answer_of, answered
 from pipeline.assessment.virtual.bench import measure
 from pipeline.assessment.virtual.plan import GAUGES, SENSORS, bench_plan
 from pipeline.campaign import Campaign
@@ -106,7 +105,7 @@ def test_it_is_told_beside_a_verdict_that_stands() -> None:
     assert it.sets == ((ALWAYS,),) and it.verdict == "identified"
     (noise,) = answer_of(it).noise
     assert noise.column == "fz_N" and noise.correlation == pytest.approx(0.7, abs=0.1)
-    assert any("fz_N (0.7" in each and "times as wide" in each for each in sentences(it))
+    assert any("fz_N (0.7" in each and "times as wide" in each for each in answered(it).sentences)
 
 
 @pytest.mark.long
@@ -115,5 +114,5 @@ def test_it_is_one_explanation_where_nothing_known_explains_the_rest() -> None:
     it = diagnose(read(tuple(range(6, 12)), 0.7, {"modulus_error.scale": 0.93}), Model(), catalogue())
     assert it.verdict == "unknown" and it.alike_rows.beside == {ALWAYS, "modulus_error"}
     assert {each.channel for each in it.alike_rows.sensors} >= {FZ, MX}
-    said = next(each for each in sentences(it) if "correlated from row to row" in each)
+    said = next(each for each in answered(it).sentences if "correlated from row to row" in each)
     assert f"beside {ALWAYS} + modulus_error it explains all" in said
