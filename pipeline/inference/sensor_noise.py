@@ -61,8 +61,8 @@ def from_lines(paths: Sequence[tuple[Array, Array]]) -> SigmaEstimate:
 
 
 def from_parabolas(paths: Sequence[tuple[Array, Array]]) -> SigmaEstimate:
-    """The same about a parabola, one a path (n,), at least `FEWEST_CURVED` degrees of freedom: of paths that are too short
-    for the differences of `from_roughness`."""
+    """The same about a parabola, one a path (n,), at least `FEWEST_CURVED` degrees of freedom: of paths that are
+    too short for the differences of `from_roughness`."""
     return _about(paths, 2, FEWEST_CURVED, "parabolas")
 
 
