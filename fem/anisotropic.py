@@ -77,7 +77,7 @@ def turned(tensor: Floats, turn: Floats) -> Floats:
 
 
 def isotropic_tensor(material: Isotropic) -> Floats:
-    """C_abcd = λ δ_ab δ_cd + μ (δ_ac δ_bd + δ_ad δ_bc), MPa."""
+    """(3, 3, 3, 3) C_abcd = λ δ_ab δ_cd + μ (δ_ac δ_bd + δ_ad δ_bc), MPa."""
     d = np.eye(3)
     shear = np.einsum("ac,bd->abcd", d, d) + np.einsum("ad,bc->abcd", d, d)
     return np.asarray(material.lame * np.einsum("ab,cd->abcd", d, d) + material.shear_modulus * shear)
@@ -106,7 +106,7 @@ def tensor_of(material: Isotropic | Orthotropic) -> Floats:
 
 
 def in_frame(material: Isotropic | Orthotropic, turn: Floats) -> Isotropic | Orthotropic:
-    """The material in a mesh that has been turned."""
+    """The material in a mesh that has been turned by a rotation (3, 3)."""
     if isinstance(material, Isotropic):
         return material
     axes = tuple((float(x), float(y), float(z)) for x, y, z in np.array(material.axes) @ turn.T)

@@ -135,7 +135,7 @@ def slope_products(linkage: Linkage, fields: Sequence[Floats]) -> Floats:
 
 
 def scaled_mode(model: LinearModel, load: float, motion: Floats) -> Mode:
-    """The mode with its largest nodal displacement made +1 mm, and the plane it moves in."""
+    """The mode of unknowns (size,) with its largest nodal displacement made +1 mm, and the plane it moves in."""
     r = model.reduction
     fields = r.fields(motion, r.rest)
     norms = [np.linalg.norm(f.reshape(-1, 3), axis=1) for f in fields]
@@ -149,7 +149,8 @@ def scaled_mode(model: LinearModel, load: float, motion: Floats) -> Mode:
 
 
 def plane_of(linkage: Linkage, fields: Sequence[Floats]) -> str:
-    """The plane in which the bars' axes move most, or "torsion" if they hardly move."""
+    """The plane in which the bars' axes move most, or "torsion" if they hardly move; of each bar (3 n,)
+    displacements of its nodes."""
     sideways, total = np.zeros(2), 0.0
     for member, field in zip(linkage.members, fields, strict=True):
         mesh, u = member.space.mesh, field.reshape(-1, 3)

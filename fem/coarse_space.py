@@ -34,7 +34,7 @@ def linear_in_quadratic(mesh: SolidMesh) -> tuple[sp.csr_matrix, Ints]:
 
 
 def prolongation(reduction: Reduction, free: Ints) -> sp.csr_matrix:
-    """Sparse (len(free), coarse unknowns) from the coarse unknowns to the unknowns `free` of a linkage at rest."""
+    """Sparse (m, c) from the c coarse unknowns to the unknowns `free` (m,) of a linkage at rest."""
     blocks, borders = [], []
     for index, member in enumerate(reduction.linkage.members):
         nodes, corners = linear_in_quadratic(member.space.mesh)

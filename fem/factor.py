@@ -116,7 +116,8 @@ class Factor(ABC):
 
 
 def checked(matrix: Operator, rhs: Floats, x: Floats, scale: float) -> tuple[Floats, float]:
-    """`x` if it solves the system, and the largest residual; `scale` is the largest entry of the matrix."""
+    """`x` (n, ...) if it solves the system for `rhs` (n, ...), and the largest residual; `scale` is the largest
+    entry of the matrix."""
     if not np.all(np.isfinite(x)):
         raise SolveError(
             "the linear system has no finite solution: the model is not held, or a value is not finite"

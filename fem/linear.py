@@ -119,7 +119,7 @@ class LinearModel:
 
 
 def submatrix(matrix: sp.csr_matrix, kept: Ints) -> sp.csr_matrix:
-    """Rows and columns `kept`, in rising order, of a sparse square matrix."""
+    """Rows and columns `kept` (k,), in rising order, of a sparse square matrix."""
     count = len(kept)
     if count and kept[-1] == count - 1:
         return matrix[:count, :count]

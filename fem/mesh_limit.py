@@ -24,7 +24,8 @@ class Limit:
 
 
 def limit(coarse: Floats, fine: Floats, power: float = POWER) -> Limit:
-    """The limit of matrices on two meshes of which one halves the cells of the other, falling as h to a power."""
+    """The limit of matrices (n, n) on two meshes of which one halves the cells of the other, falling as h to a
+    power."""
     step = fine - coarse
 
     def beyond(p: float) -> Floats:
@@ -36,7 +37,8 @@ def limit(coarse: Floats, fine: Floats, power: float = POWER) -> Limit:
 
 
 def swept_limit(coarse: Floats, fine: Floats, torsion: TorsionLimit) -> Limit:
-    """The limit of a sweep's K_b on two nested meshes whose sections have the torsion constants `torsion.levels`.
+    """The limit of a sweep's K_b (6, 6) on two nested meshes whose sections have the torsion constants
+    `torsion.levels`.
 
     What the section's mesh does to torsion follows the corners of the section and no power of h that is known before:
     it is taken out of both matrices, and what is left falls as other entries do.

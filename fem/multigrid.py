@@ -112,5 +112,5 @@ class MultigridFactor(Factor):
 
 
 def safe_ratio(a: Floats, b: Floats) -> Floats:
-    """a / b, and zero where b is zero: a right-hand side that is solved already."""
+    """a / b, all (...), and zero where b is zero: a right-hand side that is solved already."""
     return np.divide(a, b, out=np.zeros_like(a), where=b != 0.0)

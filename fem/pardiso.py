@@ -127,7 +127,8 @@ def upper_triangle(matrix: sp.csr_matrix) -> sp.csr_matrix:
 def call(
     phase: int, handle: np.ndarray, settings: np.ndarray, upper: sp.csr_matrix, rhs: Floats, x: Floats
 ) -> int:
-    """Call pardiso; `handle` and `settings` are changed in place. Returns its error code."""
+    """Call pardiso; `handle` (64,), `settings` (64,) and `x`, like `rhs` (n,) or (n, k), are changed in place.
+    Returns its error code."""
 
     def number(value: int) -> Any:
         return ctypes.byref(ctypes.c_int32(value))

@@ -128,7 +128,10 @@ class PartBar:
 
 
 def pressed(points: Floats, facets: Mapping[str, Ints], pull: float) -> dict[str, Ints]:
-    """The facets of a bore (or of a shaft's end) that a pin presses when it pulls along `pull` x: those facing it."""
+    """The facets of a bore (or of a shaft's end) that a pin presses when it pulls along `pull` x: those facing it.
+
+    points: (n, 3). facets: numbers (m, k) of nodes by their kind.
+    """
     found = {}
     for kind, own in facets.items():
         _, normals, _ = facet_normals(points, own[:, : CORNERS[kind]])

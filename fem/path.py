@@ -188,7 +188,8 @@ def settle(
 
 
 def approached(model: LinearModel, free: Ints, state: State, factor: Factor, limit: float) -> State:
-    """The state after steps with an earlier tangent, those of them that take most of the residual off."""
+    """The state after steps of the unknowns `free` (m,) with an earlier tangent, those of them that take most of the
+    residual off."""
     r = model.reduction
     best, least = state, np.inf
     for _ in range(STALE):
@@ -209,7 +210,7 @@ def approached(model: LinearModel, free: Ints, state: State, factor: Factor, lim
 
 
 def equilibrium(r: Reduction, state: State, residual: Floats, iterations: int, unstable: int) -> Equilibrium:
-    """The point of the path at a state with its generalised forces."""
+    """The point of the path at a state with its generalised forces (size,)."""
     shift = state.at.pose.position - r.linkage.point
     displacement = np.concatenate((shift, rotation_vector(state.at.pose.orientation)))
     return Equilibrium(displacement, residual[r.platform(PLATFORM)], iterations, unstable)

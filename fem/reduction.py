@@ -246,12 +246,12 @@ def bordered(rows: sp.csr_matrix, numbers: Numbers, border: sp.csr_matrix, size:
 
 
 def filled(matrix: Floats) -> sp.csr_matrix:
-    """A small matrix as a sparse one with all of its entries, zeros included."""
+    """A small matrix (m, n) as a sparse one with all of its entries, zeros included."""
     rows, columns = matrix.shape
     indices = np.tile(np.arange(columns), rows)
     return sp.csr_matrix((matrix.ravel(), indices, np.arange(rows + 1) * columns), shape=matrix.shape)
 
 
 def node_dofs(nodes: Ints) -> Ints:
-    """Displacement unknowns of nodes, node by node."""
+    """Displacement unknowns (3 n,) of nodes (n,), node by node."""
     return (3 * nodes[:, None] + np.arange(3)).ravel()

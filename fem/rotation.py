@@ -12,7 +12,7 @@ def cross_matrix(v: Floats) -> Floats:
 
 
 def rotation(vector: Floats) -> Floats:
-    """Rotation matrix of a rotation vector in rad (Rodrigues' formula)."""
+    """Rotation matrix (3, 3) of a rotation vector (3,) in rad (Rodrigues' formula)."""
     w = cross_matrix(np.asarray(vector, float))
     angle = float(np.linalg.norm(vector))
     # sinc keeps both factors exact at angle zero.
@@ -20,7 +20,7 @@ def rotation(vector: Floats) -> Floats:
 
 
 def rotation_vector(matrix: Floats) -> Floats:
-    """Rotation vector, rad, of a rotation matrix by less than π."""
+    """Rotation vector (3,), rad, of a rotation matrix (3, 3) by less than π."""
     axis = 0.5 * np.array(
         [matrix[2, 1] - matrix[1, 2], matrix[0, 2] - matrix[2, 0], matrix[1, 0] - matrix[0, 1]]
     )

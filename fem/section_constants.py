@@ -53,7 +53,10 @@ def section_constants(section: Section, nu: float, size: float | None = None) ->
 
 
 def shear_area(basis: skfem.Basis, d: Floats, along: Floats, moment: float, nu: float) -> float:
-    """Shear area for a force along one axis; `moment` is the second moment for bending by that force."""
+    """Shear area, mm², for a force along one axis; `moment` is the second moment for bending by that force, mm⁴.
+
+    d: (2, cells, q) mm², at q points of each cell. along: (cells, q) the coordinate along the force, mm.
+    """
     psi = basis.interpolate(solve_poisson(basis, d, 2.0 * (1.0 + nu) * along))
     tau = (psi.grad - d) / (2.0 * (1.0 + nu) * moment)
     return float(1.0 / np.sum(np.sum(tau**2, axis=0) * basis.dx))

@@ -6,12 +6,14 @@
 from collections.abc import Callable
 from typing import Protocol
 
+import numpy as np
 import scipy.sparse as sp
+from scipy.sparse.linalg import splu
 
 from fem.factor import Factor, SolveError, SolveRecord, checked
 from fem.multigrid import MultigridFactor
 from fem.pardiso import PardisoFactor, has_pardiso
-from fem.superlu import SuperLUFactor
+from meshes.solid import Floats
 
 __all__ = [
     "Factor",
@@ -35,6 +37,34 @@ Coarse = Callable[[], sp.csr_matrix]
 # takes twice the time of SuperLU and ten times that of pardiso (106 000 unknowns, 1.1 GiB): pardiso takes 6.3 GiB at
 # 335 000 and about 17 at 800 000, SuperLU 3.1 GiB at 106 000 and about 5 at 150 000.
 LARGE = {"pardiso": 800_000, "SuperLU": 150_000}
+
+
+class SuperLUFactor(Factor):
+    """LU factors of a symmetric matrix, definite or not: scipy's SuperLU with the ordering for symmetric patterns,
+    everywhere at hand, one thread."""
+
+    name = "SuperLU"
+
+    matrix: sp.csr_matrix
+
+    def prepare(self) -> None:
+        options = {"SymmetricMode": True, "DiagPivotThresh": 0.001}
+        try:
+            self.lu = splu(self.matrix.tocsc(), permc_spec="MMD_AT_PLUS_A", options=options)
+        except RuntimeError as error:
+            raise SolveError(f"the matrix cannot be factorised ({error}): the model is not held") from error
+
+    @property
+    def negative_eigenvalues(self) -> int:
+        """Number of negative pivots, equal to that of negative eigenvalues of the symmetric matrix."""
+        swapped = not np.array_equal(self.lu.perm_r, self.lu.perm_c)
+        if swapped:
+            raise SolveError("the inertia is not available: the factorisation left the diagonal")
+        return int(np.count_nonzero(self.lu.U.diagonal() < 0.0))
+
+    def solve(self, rhs: Floats) -> Floats:
+        x = self.lu.solve(np.ascontiguousarray(rhs))
+        return np.asarray(x + self.lu.solve(rhs - self.matrix @ x))
 
 
 class Solver(Protocol):

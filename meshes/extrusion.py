@@ -124,7 +124,7 @@ def edge_points(patch: Patch, start: int, end: int, arc: bool, count: int) -> Fl
 
 
 def patch_grid(patch: Patch, along_u: int, along_v: int) -> Floats:
-    """Grid (along_u, along_v, 2) between the four edges; u runs along the first edge, v along the second."""
+    """Grid (m, n, 2) between the four edges, mm; u runs along the first edge at m places, v along the second at n."""
     near, far = (
         edge_points(patch, 0, 1, patch.arcs[0], along_u),
         edge_points(patch, 3, 2, patch.arcs[2], along_u),

@@ -83,7 +83,7 @@ def written(values: tuple[float, ...]) -> str:
 
 
 def triple(values: Floats) -> tuple[float, float, float]:
-    """Three plain numbers."""
+    """Three plain numbers of an array (3,)."""
     x, y, z = (float(v) for v in values)
     return x, y, z
 
@@ -141,7 +141,10 @@ def _cylinder(points: Floats, normals: Floats) -> tuple[Floats, Floats, float] |
 def on_surface(
     points: Floats, facets: Mapping[str, Ints], surface: Surface, size: float, near: float = ON
 ) -> dict[str, Ints]:
-    """The facets of the boundary all of whose corners lie on a surface, and that stand along it."""
+    """The facets of the boundary all of whose corners lie on a surface, and that stand along it.
+
+    points: (n, 3) mm. facets: numbers (m, k) of nodes by their kind. size: mm, of the part.
+    """
     close = surface.distance(points) < near * size
     found = {}
     for kind, own in facets.items():
@@ -178,7 +181,10 @@ def area_and_centre(points: Floats, facets: Mapping[str, Ints]) -> tuple[float, 
 
 
 def patches(points: Floats, facets: Mapping[str, Ints], angle: float = 0.6) -> list[dict[str, Ints]]:
-    """The boundary parted along its edges: facets whose normals differ by less than `angle`, rad, hang together."""
+    """The boundary parted along its edges: facets whose normals differ by less than `angle`, rad, hang together.
+
+    points: (n, 3). facets: numbers (m, k) of nodes by their kind.
+    """
     import scipy.sparse as sp
     from scipy.sparse.csgraph import connected_components
 

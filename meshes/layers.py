@@ -127,7 +127,8 @@ def as_sweep(mesh: SolidMesh) -> SweptMesh:
 
 
 def require_ends(mesh: SolidMesh, slots: tuple[Ints, ...]) -> None:
-    """Raise ValueError unless the faces base and tip are the first and the last plane."""
+    """Raise ValueError unless the faces base and tip are the first and the last plane; slots: nodes (m,) of each
+    plane and layer."""
     for name, nodes in (("base", slots[0]), ("tip", slots[-1])):
         if not np.array_equal(mesh.face_nodes(name), np.sort(nodes)):
             raise ValueError(f"the mesh is no sweep: its face {name!r} is not the whole plane at that end")
@@ -138,7 +139,9 @@ def layer_shapes(
 ) -> tuple[tuple[Layer, ...], Ints]:
     """The different layers and the number of each layer's shape; ValueError where a layer is not drawn along x.
 
-    slots : nodes of plane, layer, plane, layer, .. plane, each in the order of `row`
+    row   : (n,) number of the line along the bar that each node stands on
+    slots : nodes (m,) of plane, layer, plane, layer, .. plane, each in the order of `row`
+    cells : numbers (c, k) of nodes of each layer
     """
     shapes: list[Layer] = []
     known: dict[bytes, int] = {}
@@ -154,7 +157,8 @@ def layer_shapes(
 
 
 def signature(row: Ints, parts: tuple[Ints, ...], cells: Ints) -> bytes:
-    """Equal for layers that differ in their place along x, their thickness and their numbering only."""
+    """Equal for layers that differ in their place along x, their thickness and their numbering only; row (n,),
+    nodes (m,) of each of the parts and cells (c, k) as for `layer_shapes`."""
     level = np.zeros(len(row), dtype=np.int64)
     for number, nodes in enumerate(parts):
         level[nodes] = number
@@ -165,7 +169,8 @@ def signature(row: Ints, parts: tuple[Ints, ...], cells: Ints) -> bytes:
 
 
 def unit_layer(mesh: SolidMesh, row: Ints, parts: tuple[Ints, ...], cells: Ints) -> Layer:
-    """The layer of these cells, 1 mm thick."""
+    """The layer of these cells (c, k), 1 mm thick; row (n,) and nodes (m,) of each of the parts as for
+    `layer_shapes`."""
     used = np.unique(cells)
     number = np.full(len(mesh.points), -1, dtype=np.int64)
     number[used] = np.arange(len(used))

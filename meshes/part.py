@@ -131,7 +131,8 @@ def boundary(blocks: tuple[tuple[str, Ints], ...]) -> dict[str, Ints]:
 
 
 def bodies(blocks: tuple[tuple[str, Ints], ...], points: int) -> Ints:
-    """Number of the body that each of `points` nodes belongs to: cells that share a node are one; -1: none."""
+    """Number (n,) of the body that each of `points` nodes belongs to: cells (m, k) that share a node are one; -1:
+    none."""
     import scipy.sparse as sp
     from scipy.sparse.csgraph import connected_components
 

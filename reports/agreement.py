@@ -69,7 +69,7 @@ def panel(top: Axes, bottom: Axes, curves: Sequence[Json]) -> None:
 
 
 def joined(curves: Sequence[Json], model: str) -> tuple[Floats, Floats]:
-    """x and Fx of all branches of a model, x rising; of the springs, the distributed ones."""
+    """x mm and Fx N, (n,) each, of all branches of a model, x rising; of the springs, the distributed ones."""
     mine = [c for c in curves if c["model"] == model and (model != "vjm" or c["spring_at"] == "distributed")]
     x = np.array([v for c in mine for v in c["x_mm"]])
     force = np.array([v for c in mine for v in c["fx_N"]])

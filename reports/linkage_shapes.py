@@ -128,7 +128,7 @@ def picture(found: Sequence[Bent]) -> bytes:
 
 
 def render(bent: Bent, top: float) -> npt.NDArray[np.uint8]:
-    """One of them over the outline of the unloaded bars, cropped to what is drawn."""
+    """One of them over the outline of the unloaded bars, cropped to what is drawn: pixels (rows, columns, 3)."""
     require_egl()
     import pyvista
 

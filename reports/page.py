@@ -2,6 +2,7 @@
 
 import base64
 import json
+from collections import Counter
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Any
@@ -13,10 +14,12 @@ from plotly.offline import get_plotlyjs
 
 from reports import bars
 from reports.blocks import Block, Columns, Details, Explorer, Figure, Section
-from reports.pooling import pooled
 
 TEMPLATES = Path(__file__).parent / "templates"
 CONFIG = {"responsive": True, "displaylogo": False}
+SHORT = 40
+"""Characters up to which a part is cheaper where it stands."""
+KEY = "$"
 
 
 def render(title: str, sections: Sequence[Section], template: str = "validation.html.j2") -> str:
@@ -100,6 +103,47 @@ def explorer(block: Explorer) -> Markup:
         "config": CONFIG,
     }
     return _json(said)
+
+
+def pooled(items: Sequence[Any]) -> tuple[list[Any], list[Any]]:
+    """JSON without its repetitions: the items with every longer part that occurs twice as {"$": number}, and the pool
+    by number."""
+    counts: Counter[str] = Counter()
+    for item in items:
+        _count(item, counts)
+    numbers: dict[str, int] = {}
+    pool: list[Any] = []
+
+    def replaced(part: Any) -> Any:
+        if not isinstance(part, dict | list):
+            return part
+        text = json.dumps(part, sort_keys=True)
+        if len(text) <= SHORT or counts[text] < 2:
+            return _inside(part, replaced)
+        if text not in numbers:
+            inner = _inside(part, replaced)
+            numbers[text] = len(pool)
+            pool.append(inner)
+        return {KEY: numbers[text]}
+
+    return [replaced(item) for item in items], pool
+
+
+def _count(part: Any, counts: Counter[str]) -> None:
+    """Every part once for each place; inside of what has been seen nothing is counted again."""
+    if not isinstance(part, dict | list):
+        return
+    text = json.dumps(part, sort_keys=True)
+    counts[text] += 1
+    if counts[text] == 1:
+        for inner in part.values() if isinstance(part, dict) else part:
+            _count(inner, counts)
+
+
+def _inside(part: Any, change: Any) -> Any:
+    if isinstance(part, dict):
+        return {key: change(value) for key, value in part.items()}
+    return [change(value) for value in part]
 
 
 def _json(said: Any) -> Markup:

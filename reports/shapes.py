@@ -136,7 +136,7 @@ def picture(shapes: Shapes, count: int = 3) -> bytes:
 
 
 def render(shapes: Shapes, mode: Mode) -> npt.NDArray[np.uint8]:
-    """One mode over the outline of the undeformed bar, cropped to what is drawn."""
+    """One mode over the outline of the undeformed bar, cropped to what is drawn: pixels (rows, columns, 3)."""
     require_egl()
     import pyvista
 
@@ -178,7 +178,7 @@ def lower(plotter: Any, points: Floats) -> None:
 
 
 def crop(image: npt.NDArray[np.uint8], margin: int = MARGIN) -> npt.NDArray[np.uint8]:
-    """The picture without its white border."""
+    """The picture (rows, columns, 3) without its white border."""
     inked = np.min(image, axis=2) < 250
     if not inked.any():
         return image

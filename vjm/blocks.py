@@ -169,7 +169,7 @@ class _Whole:
 def unstable_directions(
     mechanism: Mechanism, rows: tuple[ChainRows, ...], found: Solution, control: Control, members: np.ndarray
 ) -> np.ndarray:
-    """Number of unstable directions of these members, chain by chain; -1 where it is not known.
+    """Number (m,) of unstable directions of these members (m,), chain by chain; -1 where it is not known.
 
     Inertia adds up over the elimination (E. V. Haynsworth, "Determination of the inertia of a partitioned
     Hermitian matrix", Linear Algebra and its Applications 1, 1968): what each chain's matrix has beyond the six

@@ -252,7 +252,8 @@ def nearby(
     drives: Drives,
     memory: Array,
 ) -> Equilibrium:
-    """As `equilibrium`, by Newton's method alone: what wants a more careful approach has not converged."""
+    """As `equilibrium`, by Newton's method alone: what wants a more careful approach has not converged. targets
+    (..., 6); memory (..., M) before the step."""
     problem, first, _, batch = _posed(mechanism, targets, held, start, drives, memory)
     return record(problem, directly(problem, first, TOLERANCE), batch)
 

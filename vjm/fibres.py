@@ -69,7 +69,8 @@ class Fibres:
 
 
 def lobatto(points: int) -> tuple[Array, Array]:
-    """Places from -1 to 1 and weights of sum one of a Gauss-Lobatto rule, which has the ends among its points."""
+    """Places (n,) from -1 to 1 and weights (n,) of sum one of a Gauss-Lobatto rule of n points, which has the ends
+    among them."""
     polynomial = np.polynomial.legendre.Legendre.basis(points - 1)
     inner = np.sort(polynomial.deriv().roots().real)
     at = np.concatenate([[-1.0], inner, [1.0]])

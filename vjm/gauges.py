@@ -56,7 +56,7 @@ class Gauge:
 
 
 def path_numbers(elements: tuple[Element, ...], chain: Chain) -> tuple[Chain, np.ndarray]:
-    """A path whose joints are the first ones of a chain, or tied to its, with the numbers of its coordinates."""
+    """A path whose joints are the first ones of a chain, or tied to its, with the numbers (n,) of its coordinates."""
     path = Chain(elements)
     ties = {joint.tie: k for k, joint in enumerate(chain.joints) if joint.tie is not None}
     numbers = [k if joint.tie is None else ties[joint.tie] for k, joint in enumerate(path.joints)]

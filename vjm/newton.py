@@ -53,7 +53,7 @@ class Iterate:
 
 
 def unsolved(start: Array) -> Iterate:
-    """The state before the first iteration."""
+    """The state before the first iteration, of unknowns (B, N)."""
     count = len(start)
     return Iterate(
         start.copy(),

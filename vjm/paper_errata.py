@@ -66,7 +66,8 @@ def moving_last_factor(linkage: Parallelogram) -> Array:
 
 
 def eq_6_step(chain: ElasticChain, pose: Array, coordinates: Array, inverted: bool) -> tuple[Array, Array]:
-    """One step of Eq. 6, literally, its block matrix inverted or as printed: lambda', coordinates'."""
+    """One step of Eq. 6, literally, its block matrix inverted or as printed: lambda' (6,), coordinates' (n,), of a
+    pose (6,) and coordinates (n,)."""
     kinematics = chain.chain.kinematics(coordinates)
     j_theta, j_q = kinematics.jacobian[:, chain.virtual], kinematics.jacobian[:, chain.passive]
     compliance = np.linalg.inv(chain.stiffness)

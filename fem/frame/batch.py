@@ -13,12 +13,12 @@ T = TypeVar("T")
 
 
 def take(record: T, index: Ints) -> T:
-    """The record of the tests at `index`."""
+    """The record of the tests at `index` (k,): arrays (B, ...) become (k, ...)."""
     return _mapped(record, lambda a: a[index])
 
 
 def put(record: T, index: Ints, part: T) -> T:
-    """The record with the tests at `index` replaced by those of `part`."""
+    """The record with the tests at `index` (k,) replaced by those of `part`: arrays (B, ...) and (k, ...)."""
     if isinstance(record, np.ndarray):
         out = record.copy()
         out[index] = part

@@ -66,14 +66,14 @@ class AxisFlexibility:
 
 @dataclass(frozen=True)
 class JointClearance:
-    """± play along the bar in each base hinge, with a soft centring spring (`laws.play`)."""
+    """± play along the bar in each base hinge, with a soft centring spring (`joints.play`)."""
 
     play_mm: float = 0.0
 
 
 @dataclass(frozen=True)
 class JointFriction:
-    """Coulomb torque in each hinge with an elastic start (`laws.friction`), relaxed in the unloaded linkage."""
+    """Coulomb torque in each hinge with an elastic start (`joints.friction`), relaxed in the unloaded linkage."""
 
     torque_Nmm: float = 0.0
     presliding_rad: float = 1e-3
@@ -88,7 +88,7 @@ class JointTorsionalStiffness:
 
 @dataclass(frozen=True)
 class ContactStiffening:
-    """Hertz-like contact along the bar in each base hinge (`laws.contact`)."""
+    """Hertz-like contact along the bar in each base hinge (`joints.contact`)."""
 
     c_mm_per_N23: float = 0.0
 
@@ -153,7 +153,7 @@ class SelfWeight:
 
 @dataclass(frozen=True)
 class MaterialYield:
-    """Strain at which a fibre yields (`fibres`, `laws.yielding`)."""
+    """Strain at which a fibre yields (`fibres`)."""
 
     strain: float = inf
 

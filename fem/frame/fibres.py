@@ -6,17 +6,19 @@ The elastic part of the element is untouched; what yields is subtracted: at thre
     ΔN = Σ EA w ε_p, ΔM_y = Σ EA w z ε_p, ΔM_z = -Σ EA w y ε_p.
 An element with a rigid end yields over its flexible stretch, the shorter one of its two planes.
 Source of the layered section: E. A. de Souza Neto, D. Peric, D. R. J. Owen, Computational Methods for Plasticity,
-Wiley 2008; the law of a fibre is `laws.yielding`.
+Wiley 2008; the law of a fibre is `plastic_strain`.
 """
 
 from dataclasses import dataclass
 
 import numpy as np
 
-from fem.frame.laws.yielding import plastic_strain
 from fem.frame.local import Reference, add_planes
 from meshes.solid import Floats
 
+HARDENING = 0.01
+"""Tangent modulus past yield over the elastic one: of the order of structural aluminium and steel at small strain."""
+_H = HARDENING / (1.0 - HARDENING)
 # Gauss-Lobatto rules on (-1, 1), weights of sum one.
 _STATIONS, _STATION_WEIGHTS = np.array([-1.0, 0.0, 1.0]), np.array([1.0, 4.0, 1.0]) / 6.0
 _A, _B = np.sqrt((15.0 - 2.0 * np.sqrt(15.0)) / 33.0), np.sqrt((15.0 + 2.0 * np.sqrt(15.0)) / 33.0)
@@ -77,6 +79,20 @@ def curvatures(ref: Reference) -> Floats:
             rate[..., s, plane, 4 + plane] = 1.0 / ref.extent[..., plane] + a * turn
             rate[..., s, plane, 1 + plane] = a * slope
     return rate
+
+
+def plastic_strain(strain: Floats, before: Floats, limit: Floats) -> tuple[Floats, Floats]:
+    """A fibre that yields, linear elastic up to a strain, then linear kinematic hardening: new plastic strain and its
+    derivative for the strain, from the plastic strain before; yield strain `limit`; all (...).
+
+    Stress over E: s = ε - ε_p; yielding where |s - H ε_p| exceeds the yield strain, with H = r / (1 - r) and r the
+    tangent over the elastic modulus. Closed-form return mapping.
+    Source: J. C. Simo, T. J. R. Hughes, Computational Inelasticity, Springer 1998, section 1.4 (box 1.5).
+    """
+    trial = strain - before * (1.0 + _H)
+    over = np.maximum(np.abs(trial) - limit, 0.0)
+    new = before + np.sign(trial) * over / (1.0 + _H)
+    return new, np.where(over > 0.0, 1.0 / (1.0 + _H), 0.0)
 
 
 def yielded(

@@ -107,7 +107,8 @@ class _Here:
 
 
 def run(model: Model, histories: Histories, mechanism: Bools) -> Records:
-    """Follow every history from its settled, unloaded state, in which the hinges carry nothing."""
+    """Follow every history from its settled, unloaded state, in which the hinges carry nothing; mechanism (B, 6) as for
+    `settled`."""
     first = settled(model, mechanism)
     count, steps = histories.temperature.shape
     zero = first.gauge

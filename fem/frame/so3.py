@@ -20,7 +20,7 @@ def hat(v: Floats) -> Floats:
 
 
 def cross(a: Floats, b: Floats) -> Floats:
-    """a x b along the last axis."""
+    """a x b (..., 3) of vectors (..., 3)."""
     a0, a1, a2 = a[..., 0], a[..., 1], a[..., 2]
     b0, b1, b2 = b[..., 0], b[..., 1], b[..., 2]
     return np.stack((a1 * b2 - a2 * b1, a2 * b0 - a0 * b2, a0 * b1 - a1 * b0), axis=-1)
@@ -32,17 +32,17 @@ def outer(a: Floats, b: Floats) -> Floats:
 
 
 def dot(a: Floats, b: Floats) -> Floats:
-    """Scalar product along the last axis."""
+    """Scalar product (...) of vectors (..., n)."""
     return np.asarray(np.einsum("...i,...i->...", a, b))
 
 
 def apply(matrix: Floats, vector: Floats) -> Floats:
-    """Matrix times vector."""
+    """Matrix (..., m, n) times vector (..., n)."""
     return np.asarray((matrix @ vector[..., None])[..., 0])
 
 
 def transpose(matrix: Floats) -> Floats:
-    """Transpose of the last two axes."""
+    """Transpose (..., n, m) of matrices (..., m, n)."""
     return np.swapaxes(matrix, -1, -2)
 
 
@@ -78,5 +78,5 @@ def log_rate(v: Floats) -> Floats:
 
 
 def orthonormal(matrix: Floats) -> Floats:
-    """The nearest rotation of an almost orthonormal matrix, to second order in its defect."""
+    """The nearest rotation (..., 3, 3) of an almost orthonormal matrix, to second order in its defect."""
     return matrix @ (1.5 * IDENTITY - 0.5 * transpose(matrix) @ matrix)

@@ -49,7 +49,7 @@ def is_mirrored(layer: Layer, axis: int) -> bool:
 
 
 def sorted_rows(cells: Ints) -> Ints:
-    """Cells as sets of nodes in one order."""
+    """Cells (m, k) as sets of nodes in one order."""
     inside = np.sort(cells, axis=1)
     return np.asarray(inside[np.lexsort(inside.T[::-1])])
 

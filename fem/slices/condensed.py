@@ -65,7 +65,7 @@ Factors = tuple[Floats, ...]
 
 
 def cholesky(matrix: Floats) -> Floats:
-    """Lower Cholesky factor of a symmetric matrix; SolveError if it is not positive definite."""
+    """Lower Cholesky factor (k, k) of a symmetric matrix; SolveError if it is not positive definite."""
     try:
         return np.asarray(np.linalg.cholesky(matrix))
     except np.linalg.LinAlgError as error:
@@ -143,6 +143,7 @@ def doubled(half: Prism, rigid: Floats) -> tuple[Prism, Factors]:
     """Two equal prisms in series, and the Cholesky factors of the plane between: of its unknowns along x, and across.
 
     With mirrored halves the plane's stiffness first + D first D has nothing between the two kinds of unknowns.
+    rigid: (k, 6) as for `without_rigid`.
     """
     p, s = half.along, half.turned
     lower = cholesky(2.0 * half.first[:p, :p]), cholesky(2.0 * half.first[p:, p:])
@@ -180,7 +181,7 @@ def without_rigid(prism: Prism, rigid: Floats) -> Prism:
 
 
 def subtract_product(target: Floats, a: Floats, b: Floats) -> None:
-    """target -= a bᵀ in place, for a square `target` that lies row by row."""
+    """target -= a bᵀ in place, for a `target` (k, k) that lies row by row; a and b (k, r)."""
     dgemm(-1.0, b, a, 1.0, target.T, trans_b=1, overwrite_c=1)
 
 

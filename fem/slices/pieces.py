@@ -64,7 +64,10 @@ def plane_solved(half: Prism, factors: Factors, columns: Floats) -> Floats:
 
 
 def pieces_of_run(unit: Slice, start: int, count: int, rigid: Floats) -> list[Piece]:
-    """Pieces of the binary digits of `count`, shortest first; of slices that are no prism one for each layer."""
+    """Pieces of the binary digits of `count`, shortest first; of slices that are no prism one for each layer.
+
+    rigid: (k, 6) as for `condensed.without_rigid`.
+    """
     if not isinstance(unit.ends, Prism):
         return [Piece(start + i, 1, unit, (), unit.ends) for i in range(count)]
     found: list[Piece] = []

@@ -134,7 +134,10 @@ def run_joined(held: Floats | None, unit: Stretch, count: int, rigid: Floats) ->
 
 
 def powers(unit: Stretch, count: int, rigid: Floats) -> Iterator[Stretch]:
-    """The stretches of the binary digits of `count` layers, shortest first; what is no prism once for each layer."""
+    """The stretches of the binary digits of `count` layers, shortest first; what is no prism once for each layer.
+
+    rigid: (k, 6) as for `condensed.without_rigid`.
+    """
     if not isinstance(unit, Prism):
         yield from [unit] * count
         return

@@ -5,19 +5,18 @@ from __future__ import annotations
 from collections.abc import Callable, Hashable, Iterator, Mapping
 from functools import partial
 from pathlib import Path
-from typing import TypeVar
+from typing import Any, TypeVar
 
 from pydantic import BaseModel, ValidationError
 
 from pipeline.pools import pool
 
-Task = TypeVar("Task")
 Trial = TypeVar("Trial", bound=BaseModel)
 
 
 def run(
-    wanted: Mapping[Hashable, Task],
-    one: Callable[[Task], Trial],
+    wanted: Mapping[Hashable, tuple[Any, ...]],
+    one: Callable[..., Trial],
     kind: type[Trial],
     key: Callable[[Trial], Hashable],
     store: Path,
@@ -25,7 +24,7 @@ def run(
 ) -> Iterator[Trial]:
     """The trials that are wanted, those in the store first; the others are added to it as they are done.
 
-    wanted: tasks by the key of their trial. one: does a task; a function of a module.
+    wanted: arguments of a trial by its key. one: makes a trial of them; a function of a module.
     """
     known = {key(each): each for each in kept(store, kind)}
     yield from (known[name] for name in wanted if name in known)
@@ -34,7 +33,7 @@ def run(
         return
     store.parent.mkdir(parents=True, exist_ok=True)
     with store.open("a", encoding="utf-8") as file, pool(workers) as computed:
-        for found in computed(partial(one, task) for task in missing):
+        for found in computed(partial(one, *task) for task in missing):
             file.write(found.model_dump_json() + "\n")
             file.flush()
             yield found

@@ -135,7 +135,8 @@ def placed(case: FileCase, brought: Brought) -> Placed:
 def material_of(
     case: FileCase, regions: tuple[str, ...], region_of: Any, turn: Floats
 ) -> Isotropic | Regional:
-    """The material of a mesh that has been turned; ValueError for a region without one, or one without a region."""
+    """The material of a mesh that has been turned by (3, 3); ValueError for a region without one, or one without a
+    region."""
     if isinstance(case.material, OrthotropicMaterial):
         return Regional((in_frame(law_of(case.material), turn),), np.zeros_like(region_of))
     if case.material is not None:
@@ -187,7 +188,8 @@ def checked_quality(placed: Placed) -> dict[str, float]:
 
 
 def elastic_limit(matrices: list[Floats], placed: Placed) -> Limit:
-    """K_b of two nested meshes without their error; of one mesh itself, its error not known and counted as nothing."""
+    """K_b (6, 6) of two nested meshes without their error; of one mesh itself, its error not known and counted as
+    nothing."""
     drawn = placed.brought.drawn
     if drawn is not None and isinstance(placed.bars[-1].material, Isotropic):
         return swept_limit(matrices[-2], matrices[-1], torsion_limit(drawn.flats[-2:]))
@@ -195,7 +197,7 @@ def elastic_limit(matrices: list[Floats], placed: Placed) -> Limit:
 
 
 def limited(matrices: list[Floats], kind: str) -> Limit:
-    """The same by the power of h alone, which the kind of cells says."""
+    """The same of K_b (6, 6) by the power of h alone, which the kind of cells says."""
     if len(matrices) == 1:
         return Limit(matrices[0], np.zeros((6, 6)))
     return limit(matrices[-2], matrices[-1], SWEPT_POWER if kind == SWEPT else POWER)

@@ -118,7 +118,7 @@ class PartLinkage:
 
 
 def couplings(stiffness: Floats) -> list[str]:
-    """Entries beside the eight that are not negligible, largest first, by name with their share."""
+    """Entries of a 6x6 beside the eight that are not negligible, largest first, by name with their share."""
     root = np.sqrt(np.diag(stiffness))
     share = np.abs(stiffness) / np.outer(root, root)
     found = {

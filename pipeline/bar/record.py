@@ -74,7 +74,7 @@ class BarRecord(Record):
 
 
 def named_entries(matrix: Floats) -> dict[str, tuple[int, int]]:
-    """Places of the entries on and above the diagonal that are not negligible, by name (K11, K26)."""
+    """Places of the entries of a 6x6 on and above the diagonal that are not negligible, by name (K11, K26)."""
     scale = np.sqrt(np.abs(np.diag(matrix)))
     return {
         f"K{i + 1}{j + 1}": (i, j)

@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from pipeline.campaign.rig import Solvable
 from pipeline.inference.load_cases import LOST, Group, LoadCases
+from pipeline.inference.settings import BIFURCATION
 from vjm import lagrangian
 from vjm.bent import along, leave, neutral_is_stable
 from vjm.equilibrium import Equilibrium, drive_values, unloaded
@@ -24,13 +25,6 @@ from vjm.stability import reduced_modes
 
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
-TINY = 1e-7
-"""mm, rad, N or N·mm: no sensor tells so little from nothing."""
-SAME = 1e-6
-"""Relative difference from which readings, or energies, tell two sides apart."""
-FLAT = 0.2
-"""Of the lowest eigenvalue without load: a path that ends with less has come to its greatest load. The last equilibrium
-is found within 1/128 of the way, and the eigenvalue goes with the root of what is left."""
 _GAUGES = 12
 
 
@@ -134,7 +128,9 @@ def _that_read_otherwise(sides: Sequence[Equilibrium], used: Mask) -> list[Equil
     out: list[Equilibrium] = []
     for side in sides:
         alike = (
-            np.abs(side.readings - other.readings) <= SAME * np.abs(side.readings) + TINY for other in out
+            np.abs(side.readings - other.readings)
+            <= BIFURCATION.same * np.abs(side.readings) + BIFURCATION.nothing
+            for other in out
         )
         if not any(np.all(same[used]) for same in alike):
             out.append(side)
@@ -155,13 +151,14 @@ def _read(state: Equilibrium, nominal: Array) -> Array:
 def chosen(states: list[Equilibrium], misfit: Callable[[Equilibrium], float]) -> int:
     """Number of the states that fit best; of those that fit alike, the ones of least energy, else the first."""
     costs = np.array([misfit(state) for state in states])
-    alike = np.flatnonzero(costs <= costs.min() * (1.0 + SAME) + SAME)
+    alike = np.flatnonzero(costs <= costs.min() * (1.0 + BIFURCATION.same) + BIFURCATION.same)
     energy = np.array([np.sum(np.where(lost(states[k]), 0.0, states[k].energy)) for k in alike])
-    return int(alike[np.flatnonzero(energy <= energy.min() * (1.0 + SAME))[0]])
+    return int(alike[np.flatnonzero(energy <= energy.min() * (1.0 + BIFURCATION.same))[0]])
 
 
 def with_reasons(state: Equilibrium, missing: Mask) -> Equilibrium:
-    """The states, with the reason of each that was approached and not reached: is there none, or was it not found?"""
+    """The states (...), with the reason of each that was approached and not reached: is there none, or was it not
+    found?"""
     stuck = missing & ~state.converged
     stuck &= np.array([Reason.of(str(r)) is Reason.NOT_CONVERGED for r in state.reason.ravel()]).reshape(
         stuck.shape
@@ -175,6 +172,6 @@ def with_reasons(state: Equilibrium, missing: Mask) -> Equilibrium:
         held = np.asarray(last.held)
         rest = replace(start, drives=last.drives, unknowns=_at_rest(state.mechanism, last.drives))
         least = [reduced_modes(replace(s, memory=last.memory), held).values[0] for s in (rest, last)]
-        if 0.0 < least[1] < FLAT * least[0]:
+        if 0.0 < least[1] < BIFURCATION.flat * least[0]:
             reason[place] = Reason.NO_EQUILIBRIUM
     return replace(state, reason=reason)

@@ -27,22 +27,13 @@ from pipeline.inference.model import Model
 from pipeline.inference.predicted import Prediction
 from pipeline.inference.prediction import predict
 from pipeline.inference.residual import Residual, residual
+from pipeline.inference.settings import CROSSINGS
 from pipeline.inference.stops import Bounds, sided
 from pipeline.inference.subsets import ARRAYS, states_at, states_with
 from vjm.mechanism import initial_memory
 
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
-CROSSINGS = 4
-"""Stops that a row crosses, at most, to where it fits better."""
-BADLY = 0.05
-"""Chance that noise makes a row so bad that other sides are tried: sides tried for all rows would take up noise."""
-MOST = 0.5
-"""Part of the rows: a model that fits fewer has other faults than their sides."""
-WITHIN = 4.0
-"""Sigmas of the inputs within which a stop may have been touched."""
-WORTH = 1e-3
-"""Of chi-square: a row that a stop charges with less stays."""
 
 
 def on_best_sides(model: Model, cases: LoadCases, start: Prediction | None = None) -> Prediction:
@@ -66,9 +57,9 @@ def on_best_sides(model: Model, cases: LoadCases, start: Prediction | None = Non
 def _crossed(model: Model, cases: LoadCases, here: Prediction) -> Prediction:
     """Rows that a stop charges on its other side where that is better, from there on too."""
     new = np.ones(len(cases.test), dtype=bool)
-    for _ in range(CROSSINGS):
+    for _ in range(CROSSINGS.most):
         left = residual(cases, here)
-        rows = _whole(cases, (left.charge > WORTH) & new)
+        rows = _whole(cases, (left.charge > CROSSINGS.worth) & new)
         if not rows.size:
             return here
         there = _better(model, cases, here, rows, left.across, here)
@@ -81,11 +72,13 @@ def _misplaced(cases: LoadCases, here: Prediction) -> Iterator[tuple[Mask, Array
     """For each stop rows (R,) that fit badly and are near it, and the inputs (R, 7) just beyond it; none where half of
     all rows fit badly: there the model is wrong, not a side missed."""
     bounds, sigma = Bounds.of(here, cases.input_sigma), cases.input_sigma
-    bad = _squares(residual(cases, here)) > chi2.isf(BADLY, np.maximum(cases.predicted.sum(axis=1), 1))
-    if np.mean(bad) < MOST:
+    bad = _squares(residual(cases, here)) > chi2.isf(
+        CROSSINGS.badly, np.maximum(cases.predicted.sum(axis=1), 1)
+    )
+    if np.mean(bad) < CROSSINGS.rows:
         for number in range(bounds.room.shape[1]):
             way, far = bounds.beyond(number)
-            yield bad & (far < WITHIN), here.shift + sigma * way
+            yield bad & (far < CROSSINGS.within), here.shift + sigma * way
 
 
 def _reached(model: Model, cases: LoadCases, start: Prediction | None, held: bool) -> Prediction:

@@ -12,6 +12,7 @@ from pipeline.campaign import Campaign, Gauge, Test
 from pipeline.campaign.names import DISPLACEMENTS, TEMPERATURE, WRENCHES, gauge_column
 from pipeline.campaign.reading import DESCRIPTION
 from pipeline.inference.driving import control_channels, driving
+from pipeline.inference.rounding import EQUAL, ROUNDING
 from pipeline.inference.sensor_noise import FEWEST, SigmaEstimate, from_lines, from_repeats, from_roughness
 
 Array = NDArray[np.float64]
@@ -70,7 +71,7 @@ def _sigma(campaign: Campaign, channel: int) -> tuple[float, str]:
     lines = from_lines(_paths_over(campaign, channel, _load))
     largest = max(float(np.abs(known).max(initial=0.0)) for known in map(_known, _columns(campaign, channel)))
     # Differences of equal readings are zero but for rounding.
-    real = [each for each in rough if each.value is not None and each.value > 1e-12 * largest]
+    real = [each for each in rough if each.value is not None and each.value > ROUNDING * largest]
     rounded = not real and rough[0].differences >= FEWEST
     found = real if rounded or lines.value is None else [*real, lines]
     if found:
@@ -179,4 +180,4 @@ def _steps_of(readings: Array) -> Array:
     """Differences between the values that occur, beyond those of arithmetic."""
     known = _known(readings)
     steps = np.diff(np.unique(known))
-    return np.asarray(steps[steps > 1e-9 * np.abs(known).max(initial=0.0)])
+    return np.asarray(steps[steps > EQUAL * np.abs(known).max(initial=0.0)])

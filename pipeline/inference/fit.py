@@ -17,6 +17,8 @@ from pipeline.inference.nuisances import lined, nominals
 from pipeline.inference.objective import Objective
 from pipeline.inference.predicted import Prediction
 from pipeline.inference.residual import Residual, residual
+from pipeline.inference.rounding import SQUARED, TINY
+from pipeline.inference.settings import PROFILE
 from pipeline.inference.solvers import ALL, Effort, End, Solver, Watch, far
 from pipeline.inference.subsets import at_rows, joined
 
@@ -85,9 +87,9 @@ class Fit:
         scale = np.array([abs(each.parameter.typical) for each in self.model.free])
         scaled = self.jacobian * scale
         values, vectors = np.linalg.eigh(scaled.T @ scaled)
-        seen = values > 1e-12 * max(values.max(initial=0.0), 1e-300)
+        seen = values > SQUARED * max(values.max(initial=0.0), TINY)
         inverse = (vectors[:, seen] / values[seen]) @ vectors[:, seen].T
-        hidden = np.sum(vectors[:, ~seen] ** 2, axis=1) > 1e-6
+        hidden = np.sum(vectors[:, ~seen] ** 2, axis=1) > PROFILE.shared**2
         inverse[hidden, hidden] = np.inf
         return np.asarray(inverse * scale[:, None] * scale)
 

@@ -43,7 +43,8 @@ def predict_frame(
 def by_elements(
     rig: Rig, load_cases: LoadCases, tangent: Callable[[], Prediction], moved: Array
 ) -> Prediction:
-    """Readings of finite elements of this kind of rig, zeros not yet taken out. ValueError where there are none."""
+    """Readings of finite elements of this kind of rig, zeros not yet taken out; moved (R, 7) as shift of
+    `predict_frame`. ValueError where there are none."""
     raise ValueError(f"finite elements of a {rig.kind} are not to be had")
 
 

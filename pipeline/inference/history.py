@@ -10,17 +10,12 @@ from numpy.typing import NDArray
 
 from pipeline.campaign.rig import Solvable
 from pipeline.inference.load_cases import Group
+from pipeline.inference.settings import HISTORY
 from vjm.equilibrium import Equilibrium, equilibrium, nearby
 from vjm.mechanism import initial_memory
 from vjm.reasons import Reason
 
 Array = NDArray[np.float64]
-ROUNDS = 8
-"""Times that all steps are solved at once; what does not fit together then goes step by step."""
-PATIENCE = 16
-"""Iterations for a step after the one before; what yields is found in few or by less of a step."""
-SAME = 1e-10
-"""Of its largest value: by so much a memory may differ from the one that the step before leaves."""
 
 
 def history(
@@ -67,7 +62,11 @@ def _kept(
     from there with it; what needs more has not converged."""
     here = state.member(some)
     size = np.maximum(np.max(np.abs(state.memory), axis=(0, 1)), np.max(np.abs(memory), axis=0))
-    new = np.any(np.abs(here.memory - memory) > SAME * size, axis=-1) | ~here.converged | (here.unstable > 0)
+    new = (
+        np.any(np.abs(here.memory - memory) > HISTORY.same * size, axis=-1)
+        | ~here.converged
+        | (here.unstable > 0)
+    )
     if not new.any():
         return state
     tests, step = some[0][new], some[1]
@@ -93,7 +92,7 @@ def _all_at_once(
         memory[:, 1:] = start.memory[:, 1:]
     state = _solved(mechanism, group, inputs, start, memory)
     new = np.ones(shape, dtype=bool)
-    for _ in range(ROUNDS):
+    for _ in range(HISTORY.rounds):
         memory, new = _handed_on(state, memory, new)
         if not new.any():
             break
@@ -113,7 +112,7 @@ def _handed_on(state: Equilibrium, memory: Array, new: NDArray[np.bool_]) -> tup
         test, step = np.nonzero(new[:, :-1])
         left = replace(state.member((test, step)), memory=memory[test, step]).next_memory
         size = np.maximum(size, np.max(np.abs(left), axis=0))
-        other = np.any(np.abs(left - memory[test, step + 1]) > SAME * size, axis=-1)
+        other = np.any(np.abs(left - memory[test, step + 1]) > HISTORY.same * size, axis=-1)
         test, step = test[other], step[other] + 1
         memory[test, step] = left[other]
         new = np.zeros_like(new)
@@ -133,7 +132,7 @@ def _solved(
     targets, channels = group.targets, np.broadcast_to(group.channels[:, None], group.targets.shape)
     drives = {name: value[some] for name, value in inputs.items()}
     if start is None:
-        return equilibrium(mechanism, targets[some], channels[some], limit=PATIENCE, drives=drives)
+        return equilibrium(mechanism, targets[some], channels[some], limit=HISTORY.patience, drives=drives)
     return nearby(mechanism, targets[some], channels[some], start, drives, memory)
 
 
@@ -151,7 +150,7 @@ def _next(
         group.targets[tests, step],
         group.channels[tests],
         before,
-        limit=PATIENCE,
+        limit=HISTORY.patience,
         drives={name: value[tests, step] for name, value in inputs.items()},
     )
 

@@ -23,7 +23,9 @@ from pipeline.inference.load_cases import LoadCases
 from pipeline.inference.model import Free
 from pipeline.inference.objective import Objective
 from pipeline.inference.predicted import Prediction
-from pipeline.inference.profile_likelihood import BLIND, CLOSE, NEARLY, RISE, STEPS, ProfileLikelihood, Range
+from pipeline.inference.profile_likelihood import RISE, ProfileLikelihood, Range
+from pipeline.inference.rounding import AT_BOUND, EXACTLY
+from pipeline.inference.settings import PROFILE
 from pipeline.inference.solvers import WORK, allowance
 from pipeline.inference.stops import sided
 from pipeline.inference.subsets import at_rows
@@ -33,13 +35,6 @@ from vjm.work import at_most
 Array = NDArray[np.float64]
 Out = TypeVar("Out")
 Z = float(norm.ppf(0.975))
-ROUNDING = 1e-14
-"""Of the largest eigenvalue of a matrix of unit columns: what is less is rounding."""
-PROFILES = 2.0
-"""Of the work of one fit, that all intervals may take: of 590 benches the dearest, five numbers of which two are of a
-friction, takes a little more than one, the 60 benches whose work was counted a fifth at most."""
-FARTHER = 3.0
-"""Times the distance at which a profile is looked at next, at most, where it has not risen enough."""
 
 
 @dataclass(frozen=True)
@@ -81,7 +76,7 @@ def profile_likelihood(best: Fit, load_cases: LoadCases) -> ProfileLikelihood:
         ranges,
         best.residual.aimed,
         best.residual.aimed_by,
-        most=PROFILES * WORK * allowance(own),
+        most=PROFILE.work * WORK * allowance(own),
     )
 
 
@@ -98,11 +93,11 @@ class _Near:
 
     def residuals(self, values: Array) -> Array:
         """(N + 1,)"""
-        return self.aim.at(values, self.near, slopes=False, within=CLOSE).residuals
+        return self.aim.at(values, self.near, slopes=False, within=PROFILE.close).residuals
 
     def both(self, values: Array) -> tuple[Array, Array]:
         """(N + 1,) and (N + 1, P)"""
-        found = self.aim.at(values, self.near, within=CLOSE)
+        found = self.aim.at(values, self.near, within=PROFILE.close)
         return found.residuals, found.jacobian
 
 
@@ -173,7 +168,7 @@ def _looked(land: ProfileLikelihood, k: int) -> Interval | dict[int, float]:
         return {side: _distance(land, k, side, variance) for side in sides}
     # One look a side, the others moved along; what they could still gain makes the rise no larger.
     rises = [land.chi_square(land.values + side * reach * way) - land.least for side in sides]
-    if all(abs(rise - RISE) < NEARLY * RISE for rise in rises):
+    if all(abs(rise - RISE) < PROFILE.nearly * RISE for rise in rises):
         return Interval(value, std, value - reach, value + reach, "wald")
     return {side: reach * _farther(rise) for side, rise in zip(sides, rises, strict=True)}
 
@@ -187,8 +182,8 @@ def _distance(land: ProfileLikelihood, k: int, side: int, variance: float) -> fl
 def _farther(rise: float) -> float:
     """Times a distance with this rise at which a parabola has risen by 3.841, within reason; 1 where it rose by so much
     that it is none, and the others will have to move another way."""
-    times = Z / float(np.sqrt(max(rise, 1e-9)))
-    return 1.0 if times < 1.0 / FARTHER else min(times, FARTHER)
+    times = Z / float(np.sqrt(max(rise, PROFILE.least_rise)))
+    return 1.0 if times < 1.0 / PROFILE.farther else min(times, PROFILE.farther)
 
 
 def _profile(land: ProfileLikelihood, k: int, ends: dict[int, float | None]) -> Interval:
@@ -218,14 +213,14 @@ def _end(land: ProfileLikelihood, k: int, side: int, guess: float) -> float | No
 
 def _shift(land: ProfileLikelihood, k: int, side: int, guess: float, room: float, way: Array) -> float | None:
     """Distance from the value at which the profile has risen by 3.841; None if the bound comes first."""
-    if room <= 1e-6 * (land.ranges[k].high - land.ranges[k].low):
+    if room <= AT_BOUND * (land.ranges[k].high - land.ranges[k].low):
         return None
     inside, below, outside, above = 0.0, 0.0, np.inf, np.inf
-    step = min(max(guess, 1e-9 * room), room)
-    for _ in range(STEPS):
+    step = min(max(guess, PROFILE.first * room), room)
+    for _ in range(PROFILE.steps):
         rise, way = land.rise(k, side * step, way)
         height = float(np.sqrt(max(rise, 0.0)))
-        if abs(height - Z) < CLOSE * Z:
+        if abs(height - Z) < PROFILE.close * Z:
             return step
         if height < Z:
             if step >= room:
@@ -234,12 +229,12 @@ def _shift(land: ProfileLikelihood, k: int, side: int, guess: float, room: float
         else:
             outside, above = step, height
         if np.isinf(outside):
-            step = min(room, step * max(_farther(rise), 1.2))
+            step = min(room, step * max(_farther(rise), PROFILE.no_less_far))
             continue
         # The square root of a parabola is a line; kept off the ends of the bracket it also halves a jump.
-        part = float(np.clip((Z - below) / (above - below), 0.1, 0.9))
+        part = float(np.clip((Z - below) / (above - below), PROFILE.off_ends, 1.0 - PROFILE.off_ends))
         step = inside + part * (outside - inside)
-        if outside - inside < CLOSE * outside:
+        if outside - inside < PROFILE.close * outside:
             return step
     return step
 
@@ -252,11 +247,11 @@ def has_an_end(land: ProfileLikelihood, k: int) -> bool:
     if not std < width:
         return False
     rooms = {side: span.room(value, side) for side in (-1, 1)}
-    if max(rooms.values()) > FARTHER * Z * std:
+    if max(rooms.values()) > PROFILE.farther * Z * std:
         return True
     for side, room in rooms.items():
         most = RISE + (0.0 if span.end(side) is None else span.doubt)
-        if room > 1e-6 * width and land.rise(k, side * room, way, most)[0] > most:
+        if room > AT_BOUND * width and land.rise(k, side * room, way, most)[0] > most:
             return True
     return False
 
@@ -266,7 +261,7 @@ def holds_null(land: ProfileLikelihood, k: int) -> bool:
     span = land.ranges[k]
     way, variance = land.ridge(k)
     shift = float(np.clip(span.null, span.low, span.high)) - float(land.values[k])
-    if not np.sqrt(variance) < span.high - span.low or abs(shift) <= 1e-6 * (span.high - span.low):
+    if not np.sqrt(variance) < span.high - span.low or abs(shift) <= AT_BOUND * (span.high - span.low):
         return True
     most = RISE + (span.doubt if span.one_sided else 0.0)
     return land.rise(k, shift, way, most)[0] < most
@@ -287,7 +282,7 @@ def correlations(land: ProfileLikelihood, least: float = 0.9) -> list[tuple[int,
     scaled = land.jacobian[:, seen] / np.linalg.norm(land.jacobian[:, seen], axis=0)
     values, axes = np.linalg.eigh(scaled.T @ scaled)
     # Numbers that go together exactly leave a value that is rounding, of either sign.
-    covariance = (axes / np.maximum(values, ROUNDING * values.max())) @ axes.T
+    covariance = (axes / np.maximum(values, EXACTLY * values.max())) @ axes.T
     std = np.sqrt(np.diag(covariance))
     both = covariance / np.outer(std, std)
     pairs = [
@@ -306,11 +301,11 @@ def only_together(land: ProfileLikelihood) -> list[tuple[int, ...]]:
     if free.size < 2:
         return []
     _, values, ways = np.linalg.svd(land.jacobian[:, free] / sizes[free], full_matrices=True)
-    hidden = ways[int(np.sum(values > BLIND * values.max())) :]
+    hidden = ways[int(np.sum(values > PROFILE.blind * values.max())) :]
     groups: list[set[int]] = []
     for way in hidden:
         # Any mixture of hidden directions is hidden: sets that share a number are one.
-        joined = {int(k) for k in free[np.abs(way) > 1e-3]}
+        joined = {int(k) for k in free[np.abs(way) > PROFILE.shared]}
         for group in [g for g in groups if g & joined]:
             groups.remove(group)
             joined |= group

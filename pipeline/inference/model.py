@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from pipeline.campaign import Gauge, Rig
 from pipeline.campaign.rig import Solvable
+from pipeline.inference.rounding import AT_BOUND
 from pipeline.parameter_names import path_of
 from vjm.effects import shipped
 from vjm.effects.base import Effect, Parameter
@@ -149,7 +150,7 @@ def at_bound(model: Model) -> tuple[str, ...]:
     out = []
     for each, value in zip(model.free, model.values, strict=True):
         low, high = each.bounds
-        near = 1e-6 * (high - low)
+        near = AT_BOUND * (high - low)
         ends = ((low, each.parameter.low), (high, each.parameter.high))
         physical = [end for end, own in ends if own != each.parameter.null]
         if any(abs(value - end) <= near for end in physical):

@@ -17,6 +17,8 @@ from pipeline.inference.nuisances import beside
 from pipeline.inference.objective import Objective
 from pipeline.inference.parallel_fits import fits_at_once
 from pipeline.inference.predicted import Prediction
+from pipeline.inference.rounding import AT_BOUND
+from pipeline.inference.settings import LADDER
 from pipeline.inference.solvers import ALL, Effort, far
 from pipeline.inference.subsets import at_rows
 from pipeline.inference.thinning import thinned
@@ -24,21 +26,6 @@ from vjm.effects.base import Effect
 
 Array = NDArray[np.float64]
 Watch = Callable[[str], None]
-SIZES = tuple(10.0 ** np.linspace(-1.0, 1.0, 5))
-"""In typical sizes of the effect, a factor of three apart."""
-LARGEST = 1e3
-HOPELESS = 4.0
-"""A ladder ends where chi-square is so many times that of its best rung, and grows."""
-WORTH = 1.0
-"""Fall of chi-square that is worth another fit, in the mean square of what the first one leaves."""
-BETWEEN = 4
-"""Looks between the last rung at which an effect does not show and the first at which there is too much of it."""
-BELOW = 3
-"""Rungs below the first one, at most."""
-MINIMA = 2
-"""Valleys of the ladder that are fitted."""
-FOOT = 1.5
-"""Times the best rung, from which the foot of the ladder is no valley: it is the model without the effect."""
 
 
 def best_fit(
@@ -69,7 +56,7 @@ def best_fit(
     begins, present = [model], model
     for effect in kinked:
         ladders = [_ladder(begin, effect, *look, watch) for begin in begins]
-        found = [each for found, _ in ladders for each in found][:MINIMA]
+        found = [each for found, _ in ladders for each in found][: LADDER.minima]
         spent += sum(count for _, count in ladders)
         if not found:
             present = present.without(effect.name)
@@ -85,7 +72,7 @@ def best_fit(
         typical = _typical(fits[0].model, new)
         spent += 1
         # Where the linear step from there promises no more there is nothing to find.
-        if height(typical, own, near) < fits[0].chi_square - WORTH * max(fits[0].rms, 1.0) ** 2:
+        if height(typical, own, near) < fits[0].chi_square - LADDER.worth * max(fits[0].rms, 1.0) ** 2:
             fits.append(fit(typical, load_cases, start, watch, plausible, effort))
     best = min(fits, key=lambda each: each.order)
     best = best if present.names == model.names else at_null(model, best)
@@ -122,7 +109,7 @@ def _ladder(
     count = len(it.places) + 1
     if min(it.heights) >= ground:
         return [], count
-    valleys = _valleys(it.heights, int(np.sum(load_cases.predicted)))[:MINIMA]
+    valleys = _valleys(it.heights, int(np.sum(load_cases.predicted)))[: LADDER.minima]
     return [rung(it.places[k]) for k in valleys], count
 
 
@@ -142,9 +129,9 @@ class _Ladder:
             at = {s.name: _rung(s, size, at[s.name]) for s in self.sizes}
             self._look(len(self.places), at)
             least = min(self.heights)
-            if self.heights[-1] > HOPELESS * least and self.heights[-1] == max(self.heights[-2:]):
+            if self.heights[-1] > LADDER.hopeless * least and self.heights[-1] == max(self.heights[-2:]):
                 break
-        for _ in range(BETWEEN):
+        for _ in range(LADDER.between):
             edge = _edge(self.heights)
             if not edge:
                 break
@@ -153,10 +140,10 @@ class _Ladder:
 
     def dig(self, ground: float) -> None:
         """Down from the first rung where that is the best and leaves no less than the ground: a smaller one may."""
-        for _ in range(BELOW):
+        for _ in range(LADDER.below):
             if not ground <= self.heights[0] == min(self.heights):
                 break
-            part = SIZES[0] / SIZES[1]
+            part = LADDER.sizes[0] / LADDER.sizes[1]
             first = self.places[0]
             nulls = {s.name: s.parameter.null for s in self.sizes}
             self._look(0, {name: null + part * (first[name] - null) for name, null in nulls.items()})
@@ -174,10 +161,10 @@ def _valleys(heights: list[float], count: int) -> list[int]:
     """
     padded = [np.inf, *heights, np.inf]
     found: list[int] = []
-    rim = WORTH * min(heights) / count if far(min(heights), count) else 0.0
+    rim = LADDER.worth * min(heights) / count if far(min(heights), count) else 0.0
     for k in sorted(range(len(heights)), key=lambda k: heights[k]):
         low = heights[k] <= padded[k] and heights[k] < padded[k + 2]
-        low &= k > 0 or heights[k] <= FOOT * min(heights)
+        low &= k > 0 or heights[k] <= LADDER.foot * min(heights)
         if low and all(max(heights[min(k, j) : max(k, j) + 1]) - heights[k] >= rim for j in found):
             found.append(k)
     return found
@@ -188,8 +175,8 @@ def _edge(heights: list[float]) -> int:
 
     Up to such an edge the effect does not show, and beyond it there is too much of it: what is between may be best.
     """
-    worse = [k for k, height in enumerate(heights) if height > heights[0] + WORTH]
-    return worse[0] if worse and worse[0] > 1 and min(heights) > heights[0] - WORTH else 0
+    worse = [k for k, height in enumerate(heights) if height > heights[0] + LADDER.worth]
+    return worse[0] if worse and worse[0] > 1 and min(heights) > heights[0] - LADDER.worth else 0
 
 
 def _rung(each: Free, size: float, before: float) -> float:
@@ -203,10 +190,10 @@ def _rung(each: Free, size: float, before: float) -> float:
 
 def _rungs(heights: list[float]) -> Iterator[float]:
     """Sizes to try; beyond the last one as long as each is better than all before."""
-    yield from SIZES
-    size = SIZES[-1]
-    while heights[-1] == min(heights) and size < LARGEST:
-        size *= SIZES[1] / SIZES[0]
+    yield from LADDER.sizes
+    size = LADDER.sizes[-1]
+    while heights[-1] == min(heights) and size < LADDER.largest:
+        size *= LADDER.sizes[1] / LADDER.sizes[0]
         yield size
 
 
@@ -220,11 +207,13 @@ def height(model: Model, load_cases: LoadCases, start: Prediction | None) -> flo
         return here.chi_square
     scale = np.array([abs(each.parameter.typical) for each in model.free])
     bounds = np.array([each.bounds for each in model.free]).T - np.clip(model.values, *_bounds(model))
-    step = lsq_linear(here.jacobian * scale, here.whitened, bounds=bounds / scale + _ROUNDING)
+    step = lsq_linear(here.jacobian * scale, here.whitened, bounds=_apart(bounds / scale))
     return 2.0 * float(step.cost) + here.residual.charged
 
 
-_ROUNDING = np.array([[-1e-9], [1e-9]])
+def _apart(bounds: Array) -> Array:
+    """Bounds (2, P), by typical sizes, that are apart where a number stands at one."""
+    return bounds + np.array([[-LADDER.room], [LADDER.room]])
 
 
 def _bounds(model: Model) -> Array:
@@ -237,7 +226,7 @@ def _doubtful(found: Fit, load_cases: LoadCases, new: Collection[str]) -> bool:
     if not mine.any():
         return False
     low, high = _bounds(found.model)
-    near = 1e-6 * (high - low)
+    near = AT_BOUND * (high - low)
     values, std = found.model.values, found.std
     ended = (values - low <= near) | (high - values <= near) | ~(std < high - low)
     return bool(ended[mine].any() or found.prediction.lost[load_cases.fitted].any())

@@ -7,9 +7,13 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.integrate import quad
 from scipy.linalg import block_diag
-from scipy.stats import chi2
+from scipy.stats import chi2, norm
+
+from pipeline.inference.settings import IMHOF
 
 Array = NDArray[np.float64]
+MEDIAN = float(norm.ppf(0.75))
+"""Median magnitude of noise, in sigmas."""
 
 
 @dataclass(frozen=True)
@@ -89,7 +93,8 @@ def _eigenvalues(lengths: Sequence[int], fitted: Array | None) -> Array:
 
 
 def positive_form(weights: Array) -> float:
-    """P(sum of w_i z_i² > 0) for independent standard normal z_i (Imhof 1961, eq. 3.2), to about 1e-8."""
+    """P(sum of w_i z_i² > 0), weights (n,), for independent standard normal z_i (Imhof 1961, eq. 3.2), to about
+    1e-8."""
     if np.all(weights >= 0.0) or np.all(weights <= 0.0):
         return float(np.any(weights > 0.0))
     w = weights / np.linalg.norm(weights)
@@ -101,5 +106,11 @@ def positive_form(weights: Array) -> float:
         return float(np.sin(theta) * np.exp(-fall) / u)
 
     # Over the logarithm of u: the tail of few weights falls slowly, that of many within u of one.
-    value = quad(lambda t: integrand(np.exp(t)) * np.exp(t), -30.0, 40.0, limit=500, epsabs=1e-10)[0]
+    value = quad(
+        lambda t: integrand(np.exp(t)) * np.exp(t),
+        IMHOF.low,
+        IMHOF.high,
+        limit=IMHOF.pieces,
+        epsabs=IMHOF.error,
+    )[0]
     return float(np.clip(0.5 + value / np.pi, 0.0, 1.0))

@@ -16,19 +16,13 @@ import numpy as np
 
 from pipeline.inference.load_cases import LoadCases
 from pipeline.inference.model import Model
-from pipeline.inference.nuisances import FARTHEST, beside, departed, departures, lined, nominals
+from pipeline.inference.nuisances import beside, departed, departures, lined, nominals
 from pipeline.inference.objective import Evaluation, Objective
 from pipeline.inference.predicted import Prediction
+from pipeline.inference.settings import WRITTEN
 from pipeline.inference.solvers import ALL, Effort, End, idle
 
 Solve = Callable[[Objective, Prediction | None], End]
-SAME = 0.1
-"""Of chi-square, or of its mean square where that is more: numbers that change it by no more are where they fit
-best."""
-ROUNDS = 4
-"""Steps of these numbers, at most: far above noise they need not settle."""
-CHORDS = 1
-"""Of them along a line that may be another model's."""
 
 
 def along_a_line(
@@ -41,11 +35,11 @@ def along_a_line(
     if cases.by_nominal is None:
         return end
     numbers, count = nominals(cases.campaign), end.evaluations
-    for number in range(ROUNDS):
+    for number in range(WRITTEN.rounds):
         there = end.there
-        at = np.clip(there.residual.estimate, -FARTHEST, FARTHEST)
+        at = np.clip(there.residual.estimate, -WRITTEN.farthest, WRITTEN.farthest)
         moved, near = departed(there.objective.model.at(there.values), numbers, at), there.prediction
-        if number > CHORDS:
+        if number > WRITTEN.chords:
             near = lined(moved, cases, near)
             cases, count = replace(cases, by_nominal=near.by_nominal), count + 2
         aim = Objective(moved, cases)
@@ -69,7 +63,7 @@ def with_line(model: Model, found: Prediction, line: Prediction | None, cases: L
 def _same(old: Evaluation, new: Evaluation) -> bool:
     before, after = _total(old), _total(new)
     count = new.residuals.size
-    return abs(after - before) <= max(SAME * max(1.0, after / count), idle(after, count))
+    return abs(after - before) <= max(WRITTEN.same * max(1.0, after / count), idle(after, count))
 
 
 def _total(there: Evaluation) -> float:

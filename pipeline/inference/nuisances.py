@@ -18,6 +18,7 @@ from pipeline.inference.load_cases import LoadCases
 from pipeline.inference.model import Model, Term
 from pipeline.inference.predicted import Prediction
 from pipeline.inference.prediction import predict
+from pipeline.inference.settings import WRITTEN
 from pipeline.inference.suitable import columns_read
 from pipeline.parameter_names import path_of
 from vjm.effects.base import Parameter
@@ -27,12 +28,6 @@ from vjm.tolerances.base import Tolerance
 from vjm.tolerances.gain import Gain
 
 Array = NDArray[np.float64]
-FARTHEST = 5.0
-"""Standard deviations from its nominal value at which a number is linearised, at most."""
-ROUGHLY = 1
-"""Order of differences: a thousandth of a derivative, of numbers known to a few hundredths, is nothing."""
-STEP = 0.5
-"""Standard deviations over which what is no number of a mechanism is differenced."""
 
 
 @dataclass(frozen=True)
@@ -81,9 +76,9 @@ def _gains(campaign: Campaign) -> Iterator[Nominal]:
 
 
 def departed(model: Model, numbers: tuple[Nominal, ...], at: Array) -> Model:
-    """The model with what was written at (K,) standard deviations from it, no farther than `FARTHEST`."""
+    """The model with what was written at (K,) standard deviations from it, no farther than `WRITTEN.farthest`."""
     values: dict[str, dict[str, float]] = {}
-    kept = np.clip(at, -FARTHEST, FARTHEST)
+    kept = np.clip(at, -WRITTEN.farthest, WRITTEN.farthest)
     for each, u in zip(numbers, kept, strict=True):
         own = values.setdefault(each.tolerance.name, each.tolerance.nulls)
         own[each.parameter.name] = each.parameter.null + float(u) * each.deviation
@@ -113,17 +108,17 @@ def lined(model: Model, cases: LoadCases, near: Prediction | None) -> Prediction
     own = {each.path for each in numbers}
     moved = Model((*here, *model.terms), _fixed(here, own) | _fixed(model.terms, set()))
     shift = None if near is None else near.shift
-    found = predict(moved, cases, start=near, shift=shift, order=ROUGHLY)
+    found = predict(moved, cases, start=near, shift=shift, order=WRITTEN.order)
     names = [each.name for each in moved.free]
     order = [names.index(each.path) for each in numbers]
     deviations = np.array([each.deviation for each in numbers])
     out = np.asarray(found.by_free[..., order] * deviations)
     for k in [k for k, each in enumerate(numbers) if each.parameter.name == POSTURE]:
         # No number of the mechanism: the tests are solved again at another angle.
-        there = departed(model, numbers, at + STEP * np.eye(len(numbers))[k])
+        there = departed(model, numbers, at + WRITTEN.step * np.eye(len(numbers))[k])
         other = predict(there, cases, slopes=False, start=found, shift=shift, order=0)
         both = ~(other.lost | found.lost)
-        out[both, :, k] = (other.values - found.values)[both] / STEP
+        out[both, :, k] = (other.values - found.values)[both] / WRITTEN.step
     return replace(found, by_free=found.by_free[..., :0], nominal=at, by_nominal=out)
 
 

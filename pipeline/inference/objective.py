@@ -23,15 +23,9 @@ from pipeline.inference.nuisances import departures, nominals
 from pipeline.inference.predicted import Prediction
 from pipeline.inference.prediction import predict
 from pipeline.inference.residual import Residual, residual
+from pipeline.inference.settings import INPUTS
 
 Array = NDArray[np.float64]
-NEAR = 0.1
-"""Of their sigmas: inputs are settled when a step moves them by no more."""
-SAME = 1e-3
-"""Of chi-square, of which noise makes one for every reading, or of its mean square where that is more: inputs are
-settled too when a step changes the sum of squares by no more."""
-ROUNDS = 6
-"""Steps of the inputs, at most. Far above noise they may not settle: no verdict hangs on how much is left there."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -83,8 +77,10 @@ class Evaluation:
         model, total, same = it.model.at(self.values), float(found.aimed @ found.aimed), np.inf
         while True:
             off = _off(here, found)
-            settled = off.max(initial=0.0) <= NEAR or same <= SAME * max(1.0, total / found.aimed.size)
-            if settled or rounds >= self.rounds + ROUNDS or float(np.sum(off**2)) <= within:
+            settled = off.max(initial=0.0) <= INPUTS.near or same <= INPUTS.same * max(
+                1.0, total / found.aimed.size
+            )
+            if settled or rounds >= self.rounds + INPUTS.rounds or float(np.sum(off**2)) <= within:
                 return Evaluation(it, self.values, here, found, bool(settled), rounds)
             here = it.about(predict(model, it.load_cases, slopes, start=here, shift=found.shift))
             found = residual(it.load_cases, here)

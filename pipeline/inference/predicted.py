@@ -55,12 +55,12 @@ def moved_along(found: Prediction, shift: Array) -> Prediction:
 
 
 def no_stops(rows: int, plays: int = PLAYS) -> Array:
-    """`Prediction.stops` without plays."""
+    """`Prediction.stops` (R, K, 8) of plays that are not there."""
     return np.concatenate([np.full((rows, plays, 1), np.inf), np.zeros((rows, plays, INPUTS))], axis=-1)
 
 
 def no_slides(rows: int, plays: int = PLAYS) -> Array:
-    """`Prediction.slides` without plays."""
+    """`Prediction.slides` (R, K, 9) of plays that are not there."""
     out = np.zeros((rows, plays, 2 + INPUTS))
     out[..., 1] = np.inf
     return out

@@ -15,9 +15,10 @@ from pipeline.campaign.rig import Solvable
 from pipeline.inference.bifurcation import Sight, branched
 from pipeline.inference.history import history
 from pipeline.inference.load_cases import INPUTS, Group, LoadCases
-from pipeline.inference.model import Model
+from pipeline.inference.model import START, Model
 from pipeline.inference.predicted import Prediction, no_slides, no_stops, zeroed
 from pipeline.inference.sensor_faults import faulted, in_mechanism, inputs_off
+from pipeline.inference.settings import DIFFERENCES
 from vjm.effects.bar_initial_bow import BarInitialBow
 from vjm.effects.thermal_expansion import DRIVE
 from vjm.equilibrium import Equilibrium, drive_values, equilibrium
@@ -44,11 +45,7 @@ Array = NDArray[np.float64]
 _KELVIN = 1.0
 _GAUGES = 12
 """Channels from which on readings are those of gauges."""
-_SLIGHT = 1e-3
-"""Bow, in lengths of a bar, from which straight bars find the branch on which they bend."""
 OVERFLOW = "the numbers of the model leave the range of arithmetic there"
-NEAR_KINKS = 1e-3
-"""Of its typical size, over which a number with kinks is differentiated."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -241,9 +238,8 @@ def _branched(mechanism: Solvable, group: Group, inputs: dict[str, Array], state
     lost = ~state.converged | (state.unstable > 0)
     if not lost.any() or np.all(group.channels < _GAUGES):
         return state
-    bowed = BarInitialBow().apply(
-        mechanism, {"bow_y_mm": _SLIGHT * mechanism.length, "bow_z_mm": _SLIGHT * mechanism.length}
-    )
+    slight = DIFFERENCES.slight * mechanism.length
+    bowed = BarInitialBow().apply(mechanism, {"bow_y_mm": slight, "bow_z_mm": slight})
     bent = equilibrium(bowed, group.targets, group.channels[:, None], drives=inputs)
     if bent.unknowns.shape != state.unknowns.shape:
         return state
@@ -290,10 +286,10 @@ def _direction(model: Model, number: int, group: Group, load_cases: LoadCases) -
     # Differences stay on the same side of a bound as the value; of one at a bound they are taken beside it.
     value = float(np.clip(model.values[number], *each.bounds))
     room = min(value - parameter.low, parameter.high - value)
-    size = min(abs(parameter.typical), room / 3e-3)
+    size = min(abs(parameter.typical), room / START)
     # Differences that reach across a kink are no derivative of either side: few states are so near to one.
     smooth = next(t.effect.smooth for t in model.terms if t.effect.name == each.effect)
-    size *= 1.0 if smooth else NEAR_KINKS
+    size *= 1.0 if smooth else DIFFERENCES.near_kinks
     gauges = load_cases.campaign.gauges
 
     @cache

@@ -11,21 +11,11 @@ from numpy.typing import NDArray
 from scipy.optimize import lsq_linear
 from scipy.stats import chi2
 
+from pipeline.inference.rounding import AT_BOUND, ROUNDING, TINY
+from pipeline.inference.settings import PROFILE
+
 Array = NDArray[np.float64]
 RISE = float(chi2.ppf(0.95, 1))
-NEARLY = 0.15
-"""A rise within this part of 3.841 at 1.96 standard errors puts the Wald end at most 8 % of the half width beside
-the profile's."""
-CLOSE = 0.03
-"""Ends of a profile are found to this part of their distance."""
-STEPS = 14
-ENOUGH = 10.0
-"""Times a rise that is asked about: of one that is larger only that is wanted."""
-FLAT = 0.03
-"""Of a standard error: the step whose gain a fit no longer takes."""
-BLIND = 1e-6
-"""A direction in which the whitened derivative falls below this part of the number's own is not seen: its error
-bar would be a million times that of the number alone, beyond the rounding of the derivatives."""
 
 
 class LeastSquares(Protocol):
@@ -80,24 +70,24 @@ class ProfileLikelihood:
     def __post_init__(self) -> None:
         self.bounds = np.array([(r.low, r.high) for r in self.ranges]).reshape(-1, 2).T
         self.least = float(self.residuals @ self.residuals)
-        near = 1e-6 * (self.bounds[1] - self.bounds[0])
+        near = AT_BOUND * (self.bounds[1] - self.bounds[0])
         # In sigmas. What is no steeper than a fit leaves undone stops nothing: along a valley floor a fit may end at
         # a bound as well as anywhere else.
-        uphill = self.jacobian.T @ self.residuals / np.maximum(np.linalg.norm(self.jacobian, axis=0), 1e-300)
-        self.active = ((self.values - self.bounds[0] <= near) & (uphill > FLAT)) | (
-            (self.bounds[1] - self.values <= near) & (uphill < -FLAT)
+        uphill = self.jacobian.T @ self.residuals / np.maximum(np.linalg.norm(self.jacobian, axis=0), TINY)
+        self.active = ((self.values - self.bounds[0] <= near) & (uphill > PROFILE.flat)) | (
+            (self.bounds[1] - self.values <= near) & (uphill < -PROFILE.flat)
         )
 
     def ridge(self, k: int) -> tuple[Array, float]:
         """How all numbers move (P,) with number k when the others are fitted, and its variance."""
         others = np.flatnonzero(~self.active & (np.arange(self.values.size) != k))
         own, rest = self.jacobian[:, k], self.jacobian[:, others]
-        sizes = np.maximum(np.linalg.norm(rest, axis=0), 1e-300)
-        answer = np.linalg.lstsq(rest / sizes, -own, rcond=BLIND)[0] / sizes
+        sizes = np.maximum(np.linalg.norm(rest, axis=0), TINY)
+        answer = np.linalg.lstsq(rest / sizes, -own, rcond=PROFILE.blind)[0] / sizes
         left = float(np.linalg.norm(own + rest @ answer))
         way = np.zeros(self.values.size)
         way[k], way[others] = 1.0, answer
-        seen = left > BLIND * float(np.linalg.norm(own)) and left > 0.0
+        seen = left > PROFILE.blind * float(np.linalg.norm(own)) and left > 0.0
         return way, left**-2 if seen else np.inf
 
     def chi_square(self, values: Array) -> float:
@@ -128,9 +118,9 @@ class ProfileLikelihood:
         residuals, slopes = self.problem.both(values)
         total = float(residuals @ residuals)
         self.evaluations += 1
-        for _ in range(STEPS):
-            sizes = np.maximum(np.linalg.norm(slopes[:, others], axis=0), 1e-300)
-            room = (self.bounds[:, others] - values[others]) * sizes + _ROUNDING
+        for _ in range(PROFILE.steps):
+            sizes = np.maximum(np.linalg.norm(slopes[:, others], axis=0), TINY)
+            room = (self.bounds[:, others] - values[others]) * sizes + np.array([[-ROUNDING], [ROUNDING]])
             step = lsq_linear(slopes[:, others] / sizes, -residuals, bounds=room).x
             left = residuals + (slopes[:, others] / sizes) @ step
             trial = values.copy()
@@ -138,7 +128,7 @@ class ProfileLikelihood:
             gain = total - float(left @ left)
             seen = np.any(slopes[:, others] != 0.0, axis=1)
             foreseen = float(left[seen] @ left[seen] - self.residuals[seen] @ self.residuals[seen])
-            if gain < CLOSE * RISE or foreseen > ENOUGH * asked:
+            if gain < PROFILE.close * RISE or foreseen > PROFILE.enough * asked:
                 return trial, total - gain
             found, new = self.problem.both(trial)
             self.evaluations += 1
@@ -151,6 +141,3 @@ class ProfileLikelihood:
                 break
             values, residuals, slopes, total = trial, found, new, float(found @ found)
         return values, total
-
-
-_ROUNDING = np.array([[-1e-12], [1e-12]])

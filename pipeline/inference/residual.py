@@ -26,13 +26,10 @@ from pipeline.inference.eliminated import Marginal
 from pipeline.inference.load_cases import LOST, LoadCases
 from pipeline.inference.orthonormal_basis import basis
 from pipeline.inference.predicted import Prediction
+from pipeline.inference.settings import INPUTS
 from pipeline.inference.stops import SIDE, SPREAD, on_their_sides
 
 Array = NDArray[np.float64]
-FARTHEST = 5.0
-"""Sigmas from where it was read that an input is looked for."""
-ROUNDED = 1e5
-"""Noise of an input in sigmas of a reading from which the covariance is not formed: its ones would be lost."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -66,7 +63,7 @@ def _inverse_root(through: Array) -> Array:
     """
     size = through.shape[1]
     factors = np.empty((len(through), size, size))
-    huge = np.max(np.abs(through), axis=(1, 2), initial=0.0) > ROUNDED
+    huge = np.max(np.abs(through), axis=(1, 2), initial=0.0) > INPUTS.rounded
     plain = through[~huge]
     factors[~huge] = np.linalg.cholesky(plain @ np.swapaxes(plain, -1, -2) + np.eye(size))
     if huge.any():
@@ -226,7 +223,7 @@ def _near(shift: Array, sigma: Array) -> Array:
     size = np.divide(np.abs(shift), sigma, out=np.zeros_like(shift), where=sigma > 0.0).max(
         axis=1, keepdims=True
     )
-    return shift * (FARTHEST / np.maximum(size, FARTHEST))
+    return shift * (INPUTS.farthest / np.maximum(size, INPUTS.farthest))
 
 
 def _unknown_zeros(load_cases: LoadCases, prediction: Prediction) -> Array:

@@ -17,13 +17,10 @@ from pipeline.campaign.names import SUPPORT
 from pipeline.inference.load_cases import LoadCases
 from pipeline.inference.model import Model, Term
 from pipeline.inference.predicted import Prediction
+from pipeline.inference.settings import DIFFERENCES
 from vjm.effects.sensor_fault import SensorFault
 
 Array = NDArray[np.float64]
-STEP = 1e-4
-"""Of a typical size, over which an error is differenced: it is a smooth formula."""
-TURNS = 6
-"""Of the iteration for what was really done: each takes an error's share of what is left."""
 
 
 def faults(model: Model) -> list[Term]:
@@ -103,7 +100,7 @@ def _error(term: Term, read: Array, load_cases: LoadCases) -> Array:
 def _error_of_input(term: Term, read: Array, load_cases: LoadCases) -> Array:
     """(R,) what its column read too much where it controls a coordinate."""
     done, channel = read.copy(), _channel(load_cases, term)
-    for _ in range(TURNS):
+    for _ in range(DIFFERENCES.fault_turns):
         done[:, channel] = read[:, channel] - _error(term, done, load_cases)
     return np.asarray(read[:, channel] - done[:, channel])
 
@@ -116,7 +113,7 @@ def _slopes(
     for number, each in enumerate(model.free):
         if each.effect != term.effect.name:
             continue
-        size, name = STEP * abs(each.parameter.typical), each.parameter.name
+        size, name = DIFFERENCES.fault_step * abs(each.parameter.typical), each.parameter.name
         ends = [
             replace(term, values={**term.values, name: term.values[name] + step}) for step in (-size, size)
         ]

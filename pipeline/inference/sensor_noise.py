@@ -7,7 +7,10 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 from scipy.special import gammaln
-from scipy.stats import norm
+
+from pipeline.inference.noise import MEDIAN
+from pipeline.inference.rounding import EQUAL
+from pipeline.inference.settings import DRAWS
 
 Array = NDArray[np.float64]
 FEWEST = 6
@@ -17,9 +20,6 @@ FEWEST_FREE = 3
 FEWEST_CURVED = 4
 """Degrees of freedom about parabolas below which their scatter refutes no declared sigma: of four, noise is twenty
 times smaller than its sigma once in a hundred thousand."""
-DRAWS, FEWEST_DRAWS, BATCH, EFFORT = 1000, 100, 20, 10**7
-"""Draws of noise: the bias is known to the spread of one estimate over the root of this, 3 % of its
-standard error; where the differences are so many that the bias is lost anyway, by fewer draws."""
 WINDOW = 4
 """Steps in a difference: a quadratic in the load passes it without a trace, at any spacing of the loads."""
 
@@ -52,7 +52,7 @@ def from_repeats(readings: Array, group: NDArray[np.int64]) -> SigmaEstimate:
 
 
 def from_lines(paths: Sequence[tuple[Array, Array]]) -> SigmaEstimate:
-    """Sigma from the scatter about a straight line over the load, one line a path; paths as for `from_roughness`.
+    """Sigma from the scatter about a straight line over the load, one line a path: loads and readings (n,) of each.
 
     Pooled and unbiased as in `from_repeats`, nu = sum of readings less two a path, at least `FEWEST_FREE`. What bends
     or loops only adds to it. ValueError for loads or readings that are not finite.
@@ -61,8 +61,8 @@ def from_lines(paths: Sequence[tuple[Array, Array]]) -> SigmaEstimate:
 
 
 def from_parabolas(paths: Sequence[tuple[Array, Array]]) -> SigmaEstimate:
-    """The same about a parabola, one a path, at least `FEWEST_CURVED` degrees of freedom: of paths that are too short
-    for the differences of `from_roughness`."""
+    """The same about a parabola, one a path (n,), at least `FEWEST_CURVED` degrees of freedom: of paths that are
+    too short for the differences of `from_roughness`."""
     return _about(paths, 2, FEWEST_CURVED, "parabolas")
 
 
@@ -104,8 +104,8 @@ def from_roughness(
     Of every four steps in a row the combinations w'y of unit length that vanish for a quadratic in the load (third
     differences where the loads are evenly spaced, 1 3 3 1 over the root of 20) have the standard deviation sigma.
     The estimate is 1.4826 times the median of their magnitudes, which a jump where the load turns does not move much.
-    Overlapping differences are dependent, and a median of few is biased: the same statistic of `DRAWS` draws of unit
-    noise through the same w gives its mean, by which the estimate is divided, and its spread, the standard error.
+    Overlapping differences are dependent, and a median of few is biased: the same statistic of `DRAWS` of unit noise
+    through the same w gives its mean, by which the estimate is divided, and its spread, the standard error.
     A smooth curve leaves its own third difference behind: h³ f''' / root of 20, so the steps must be fine enough.
     ValueError for loads or readings that are not finite.
     """
@@ -135,8 +135,8 @@ def _drawn(loads: list[Array], rng: np.random.Generator) -> tuple[float, float]:
     count = sum(len(w) for _, w in found)
     noise = np.concatenate(
         [
-            _spread(found, [rng.normal(size=(load.size, BATCH)) for load in loads])
-            for _ in range(int(np.clip(EFFORT / count, FEWEST_DRAWS, DRAWS)) // BATCH)
+            _spread(found, [rng.normal(size=(load.size, DRAWS.at_once)) for load in loads])
+            for _ in range(int(np.clip(DRAWS.effort / count, DRAWS.fewest, DRAWS.most)) // DRAWS.at_once)
         ]
     )
     return float(np.mean(noise)), float(np.std(noise))
@@ -148,7 +148,7 @@ def _spread(found: list[tuple[NDArray[np.int64], Array]], readings: list[Array])
         sum(w[:, j, None] * y[first + j] for j in range(WINDOW))
         for (first, w), y in zip(found, readings, strict=True)
     ]
-    return np.asarray(np.median(np.abs(np.concatenate(values)), axis=0) / norm.ppf(0.75), dtype=float)
+    return np.asarray(np.median(np.abs(np.concatenate(values)), axis=0) / MEDIAN, dtype=float)
 
 
 def _differences(load: Array) -> tuple[NDArray[np.int64], Array]:
@@ -160,6 +160,6 @@ def _differences(load: Array) -> tuple[NDArray[np.int64], Array]:
     u = (s - s.mean(axis=1, keepdims=True)) / np.where(reach > 0.0, reach, 1.0)
     left, sizes, _ = np.linalg.svd(np.stack([np.ones_like(u), u, u**2], axis=2), full_matrices=True)
     # Loads that repeat leave more than one combination blind to the curve.
-    blind = np.column_stack([sizes < 1e-9 * sizes[:, :1], np.ones(len(u), dtype=bool)])
+    blind = np.column_stack([sizes < EQUAL * sizes[:, :1], np.ones(len(u), dtype=bool)])
     first, column = np.nonzero(blind)
     return first.astype(np.int64), left[first, :, column]

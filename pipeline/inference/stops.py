@@ -16,6 +16,8 @@ from scipy.optimize import nnls
 
 from pipeline.inference.load_cases import LOST
 from pipeline.inference.predicted import Prediction
+from pipeline.inference.rounding import TINY
+from pipeline.inference.settings import STOPS
 from vjm.effects.base import Effect
 
 Array = NDArray[np.float64]
@@ -25,12 +27,6 @@ SIDE = 0.36
 better of two displacements and with the sign of a force that is all noise; less of other plays."""
 SPREAD = 2.5
 """Twice the standard deviation of the same, of a row."""
-SURE = 2.0
-"""Standard deviations from which a row is sure of its stop."""
-TOUCH = 0.01
-"""Standard deviations from a stop at which a row that belongs to one of its sides is linearised."""
-NO_ROOM = 1e-9
-"""Of one, in the problem of least distance: less is left where bounds exclude each other."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -70,7 +66,7 @@ class Bounds:
         slope, room = self.slopes[:, number], self.room[:, number]
         size = np.linalg.norm(slope, axis=1)
         far = np.divide(room, size, out=np.full_like(room, np.inf), where=(size > 0.0) & np.isfinite(room))
-        there = np.where(np.isfinite(far), far + TOUCH, 0.0)
+        there = np.where(np.isfinite(far), far + STOPS.touch, 0.0)
         unit = np.divide(slope, size[:, None], out=np.zeros_like(slope), where=size[:, None] > 0.0)
         return there[:, None] * unit, far
 
@@ -116,18 +112,18 @@ def on_their_sides(prediction: Prediction, shift: Array, sigma: Array, gain: Arr
     # The stop that holds most: across it is the side that a row would rather be on.
     most = np.argmax(force * std, axis=1)[:, None]
     way = np.take_along_axis(ways, most[..., None], axis=1)[:, 0]
-    size = np.maximum(np.take_along_axis(std, most, axis=1), 1e-300)
-    across = there + np.where(charge[:, None] > 0.0, 2.0 * TOUCH * way / size, 0.0)
+    size = np.maximum(np.take_along_axis(std, most, axis=1), TINY)
+    across = there + np.where(charge[:, None] > 0.0, 2.0 * STOPS.touch * way / size, 0.0)
     far = np.divide(np.abs(over), std, out=np.full_like(over, np.inf), where=(std > 0.0) & np.isfinite(over))
     back, beyond = (prediction.shift + sigma * each for each in (there, across))
     return Sides(charge, _undecided(prediction, far[:, : prediction.stops.shape[1]]), back, beyond)
 
 
 def _undecided(prediction: Prediction, far: Array) -> Mask:
-    """(R,) rows with a play inside which they are, or with a stop that is pressed by less than `SURE` standard
+    """(R,) rows with a play inside which they are, or with a stop that is pressed by less than `STOPS.sure` standard
     deviations (R, K)."""
     force = prediction.stops[..., 0]
-    near = (force == 0.0) | (far <= SURE)
+    near = (force == 0.0) | (far <= STOPS.sure)
     return np.asarray(np.any(near & np.isfinite(force) & ~prediction.lost[:, None], axis=1))
 
 
@@ -137,7 +133,7 @@ def _constrained(bounds: Bounds, covariance: Array, std: Array, best: Array) -> 
     In inputs of unit covariance that is the point of least distance, one problem of non-negative least squares a row.
     """
     there, force = best.copy(), np.zeros_like(bounds.room)
-    room = bounds.room - TOUCH * std
+    room = bounds.room - STOPS.touch * std
     over = np.einsum("rkj,rj->rk", bounds.slopes, best) - room
     for row in np.flatnonzero(np.any((over > 0.0) & (std > 0.0), axis=1)):
         held = np.flatnonzero(np.isfinite(over[row]) & (std[row] > 0.0))
@@ -148,6 +144,6 @@ def _constrained(bounds: Bounds, covariance: Array, std: Array, best: Array) -> 
         found, _ = nnls(matrix, np.append(np.zeros(root.shape[1]), 1.0))
         left = 1.0 - float(matrix[-1] @ found)
         # Nothing left: no inputs belong to this side, and the row is charged with all that it may be.
-        force[row, held] = found / max(left, NO_ROOM) / std[row, held]
-        there[row] = best[row] - root @ (scaled.T @ found) / max(left, NO_ROOM)
+        force[row, held] = found / max(left, STOPS.no_room) / std[row, held]
+        there[row] = best[row] - root @ (scaled.T @ found) / max(left, STOPS.no_room)
     return there, force

@@ -23,7 +23,7 @@ ARRAYS = ("values", "by_inputs", "by_free", "shift", "stops", "slides", "lost")
 
 
 def at_rows(found: Prediction, cases: LoadCases, part: LoadCases, rows: Rows) -> Prediction:
-    """The prediction of all cases at these rows, laid out as in the load cases of these rows alone."""
+    """The prediction of all cases at these rows (R,), laid out as in the load cases of these rows alone."""
     arrays = {name: getattr(found, name)[rows] for name in ARRAYS}
     if found.nominal.size:
         arrays["by_nominal"] = found.by_nominal[rows]
@@ -32,7 +32,7 @@ def at_rows(found: Prediction, cases: LoadCases, part: LoadCases, rows: Rows) ->
 
 
 def rows_in(cases: LoadCases, other: LoadCases) -> Rows | None:
-    """The rows of other load cases that are those of cases, by test and step; None where some are not there."""
+    """The rows (R,) of other load cases that are those of cases, by test and step; None where some are not there."""
     names = [(test.id, int(step)) for test in other.campaign.tests for step in test.data.steps]
     places = {name: row for row, name in enumerate(names)}
     wanted = [(test.id, int(step)) for test in cases.campaign.tests for step in test.data.steps]
@@ -46,7 +46,7 @@ def carried(found: Prediction, cases: LoadCases, other: LoadCases) -> Prediction
 
 
 def states_at(found: Prediction, cases: LoadCases, part: LoadCases, rows: Rows) -> tuple[Equilibrium, ...]:
-    """The states of a prediction of all cases at these rows."""
+    """The states of a prediction of all cases at these rows (R,)."""
     out = []
     for group in part.groups:
         number = next(k for k, one in enumerate(cases.groups) if one.rig is group.rig)
@@ -88,7 +88,7 @@ def states_with(
 
 
 def joined(cases: LoadCases, pieces: Sequence[tuple[Rows, LoadCases, Prediction]]) -> Prediction:
-    """The prediction of all cases from those of parts: rows, load cases and prediction of each, whole tests."""
+    """The prediction of all cases from those of parts: rows (R,), load cases and prediction of each, whole tests."""
     arrays: dict[str, NDArray[Any]] = {}
     reasons: dict[int, str] = {}
     for name in ARRAYS:

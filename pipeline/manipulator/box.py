@@ -21,7 +21,7 @@ def box(
 ) -> Grid:
     """The grid from texts: low and high corner "X,Y,Z", mm, and points along each axis "N" or "NX,NY,NZ".
 
-    Without corners a cube about home. InputError for what is no such text, and for a bad grid.
+    Without corners a cube about home (6,), mm and rad. InputError for what is no such text, and for a bad grid.
     """
     reach = REACH * manipulator.length
     begin = numbers("--low", low, 3) if low is not None else [float(x) - reach for x in home[:3]]

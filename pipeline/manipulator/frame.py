@@ -45,7 +45,7 @@ def frame_stiffness(
 def frame_of(
     manipulator: Manipulator, pose: Array, coordinates: tuple[Array, ...], errors: Errors = DRAWN
 ) -> Structure:
-    """The structure: node 0 is the base, node 1 the platform."""
+    """The structure: node 0 is the base, node 1 the platform at a pose (6,); coordinates (n,) of each leg."""
     build = _Builder([np.zeros(3), np.asarray(pose[:3], dtype=float)], errors=errors)
     grounds = _ground(build, manipulator)
     for leg, x in zip(manipulator.legs, coordinates, strict=True):

@@ -53,12 +53,13 @@ class Reading:
 
 
 def doubled(bar: Array) -> Array:
-    """2 K_b."""
+    """2 K_b (6, 6)."""
     return 2.0 * bar
 
 
 def grown(bar: Array) -> Array:
-    """A section of twice the area and the same shape: axially two K_b, in bending and torsion four."""
+    """K_b (6, 6) of a section of twice the area and the same shape: axially twice, in bending and torsion four
+    times."""
     scale = np.full((6, 6), 4.0)
     scale[0, 0] = 2.0
     return scale * bar

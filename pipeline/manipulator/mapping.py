@@ -186,7 +186,8 @@ def chunk_of(
     start: int,
     stop: int,
 ) -> tuple[int, Array]:
-    """Number of a chunk and its rows: what a worker computes. Workers import this module only, which is quick."""
+    """Number of a chunk and its rows (B, columns): what a worker computes. Workers import this module only, which
+    is quick."""
     return number, mapped(manipulator, question, critical, grid.points(start, stop))
 
 

@@ -65,7 +65,7 @@ def _missing(missing: Counter[int], reasons: Sequence[str]) -> list[str]:
 
 
 def blocks(done: Sweep) -> Iterator[Array]:
-    """The rows, some at a time."""
+    """The rows (n, columns), some at a time."""
     values = done.values
     for start in range(0, len(values), _BLOCK):
         yield np.asarray(values[start : start + _BLOCK])

@@ -6,11 +6,14 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 
+import numpy as np
+from numpy.typing import NDArray
+
 from pipeline.add.command import starting_model
 from pipeline.answer.of_diagnosis import in_words
 from pipeline.attempt import Attempts
 from pipeline.callbacks import OnProgress
-from pipeline.campaign import Campaign, read
+from pipeline.campaign import Campaign, Test, read
 from pipeline.command import usable
 from pipeline.inference.estimated_sigmas import completed
 from pipeline.inference.fit import unfitted
@@ -19,7 +22,6 @@ from pipeline.inference.model import Model
 from pipeline.inference.suitable import check_suitable, known_effects, scale_for, sized_model
 from pipeline.plan.isolability import matrix, visible
 from pipeline.plan.next import Worth, best_next
-from pipeline.plan.planned import foreseen
 from pipeline.plan.record import Plan, plan_record
 from pipeline.plan.seen import seen
 from pipeline.plan.table import show
@@ -30,6 +32,7 @@ from vjm.effects.base import Effect
 from vjm.effects.sized import all_sized
 from vjm.work import at_most
 
+Array = NDArray[np.float64]
 LARGE = "bar_geometric_nonlinearity"
 WORK = 4000.0
 """Work (`vjm.work`) that the next test may take to be found."""
@@ -65,6 +68,42 @@ def plan_of(
     plan = plan_record(whole.name, found, names, alike, worth, words, unmeasured, refused)
     nothing = "" if unmeasured else untested(unfitted(model, load_cases(whole))) or ""
     return plan.model_copy(update={"untested": nothing, "not_done": tuple(attempts.failed)})
+
+
+def foreseen(campaign: Campaign) -> tuple[Campaign, tuple[str, ...]]:
+    """The campaign with readings, zeros, in the tests that have none yet, and the names of those tests: every sensor
+    whose sigma is known reads at every step.
+
+    A test is not measured yet where nothing was read but what it prescribes.
+    """
+    tests = [_read(test, campaign) if _unmeasured(test) else test for test in campaign.tests]
+    named = tuple(t.id for t, old in zip(tests, campaign.tests, strict=True) if t is not old)
+    return replace(campaign, tests=tuple(tests)), named
+
+
+def _unmeasured(test: Test) -> bool:
+    d = test.data
+    by_force = np.array([by == "force" for by in test.control])
+    by_gauge = np.array([by not in ("force", "displacement", "support") for by in test.control])
+    others = np.where(by_force, d.displacement, d.wrench)
+    return not np.isfinite(others).any() and bool(by_gauge.any() or not np.isfinite(d.gauges).any())
+
+
+def _read(test: Test, campaign: Campaign) -> Test:
+    d, noise = test.data, campaign.noise
+    displacement, wrench, gauges = (
+        _filled(values, sigma)
+        for values, sigma in (
+            (d.displacement, noise.displacement),
+            (d.wrench, noise.wrench),
+            (d.gauges, noise.gauges),
+        )
+    )
+    return replace(test, data=replace(d, displacement=displacement, wrench=wrench, gauges=gauges))
+
+
+def _filled(values: Array, sigma: Array) -> Array:
+    return np.where(np.isnan(values) & np.isfinite(sigma[: values.shape[1]]), 0.0, values)
 
 
 def plan_campaign(

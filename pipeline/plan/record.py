@@ -90,7 +90,7 @@ def plan_record(
     unmeasured: Sequence[str],
     refused: Mapping[str, str],
 ) -> Plan:
-    """The record of what was computed."""
+    """The record of what was computed; alike (n, n) of the n names."""
     following: dict[str, Any] | None = None
     if worth is not None:
         test = worth.choice.test

@@ -24,8 +24,9 @@ from numpy.typing import NDArray
 
 from pipeline.inference.fit import Fit
 from pipeline.inference.model import Model
-from pipeline.inference.nuisances import FARTHEST, Nominal, departed, nominals
+from pipeline.inference.nuisances import Nominal, departed, nominals
 from pipeline.inference.prior import weight
+from pipeline.inference.settings import WRITTEN
 from pipeline.selection.criteria import CRITERIA
 
 Array = NDArray[np.float64]
@@ -58,7 +59,7 @@ class Posterior:
         if numbers:
             columns.append(it.without_zeros(it.nominal))
         whole = np.concatenate(columns, axis=1)
-        return cls(model, numbers, np.clip(at, -FARTHEST, FARTHEST), whole.T @ whole, factor)
+        return cls(model, numbers, np.clip(at, -WRITTEN.farthest, WRITTEN.farthest), whole.T @ whole, factor)
 
     @property
     def count(self) -> int:
@@ -126,7 +127,7 @@ class Posterior:
             if not out.any():
                 break
             off[out] = generator.standard_normal((int(out.sum()), len(root))) @ root.T
-        departure = np.clip(self.departure + off[:, self.count :], -FARTHEST, FARTHEST)
+        departure = np.clip(self.departure + off[:, self.count :], -WRITTEN.farthest, WRITTEN.farthest)
         return np.clip(values, low, high), departure
 
     def model_at(self, values: Array, departure: Array) -> Model:

@@ -1,17 +1,26 @@
 """What is certain though not all is explained: effects without which far more is left, whatever sensors did beside.
 
 For an effect of the best set the rival is the best set without it, other effects allowed. Both may have patterns of
-sensors (`adequacy.free_patterns`): the best set as many as its rest needs to look like noise, the rival two
+sensors (`falls`): the best set as many as its rest needs to look like noise, the rival two
 more. The effect is certain where the rival is still worse by far.
 """
 
 from __future__ import annotations
 
-from pipeline.selection.adequacy.free_patterns import falls
+from collections.abc import Iterator
+
+import numpy as np
+
+from pipeline.inference.fit import Fit
+from pipeline.selection.adequacy.patterns import Shape, left_of, shapes
 from pipeline.selection.cost import cost, misfit
+from pipeline.selection.criteria import Criteria
 from pipeline.selection.first_order_costs import estimates
 from pipeline.selection.fit_cache import FitCache, Names
 from pipeline.selection.rivals import Found
+
+NEW = 0.1
+"""Part of a pattern that must be left when those that were chosen are taken out of it."""
 
 
 def certain(found: Found, sets: tuple[Names, ...]) -> tuple[str, ...]:
@@ -52,3 +61,42 @@ def _rivals(cache: FitCache, best: Names, name: str) -> list[Names]:
     cache.fit_all({e.names: e.probes for e in near[:wanted]})
     known = sorted((n for n in cache.fits if name not in n), key=lambda n: cost(cache, n))
     return list(dict.fromkeys([start, *(e.names for e in near[:wanted]), *known[:wanted]]))
+
+
+def falls(found: Fit, criteria: Criteria, most: int) -> list[float]:
+    """Chi-square that is left of the fitted tests with none, one, ... `most` patterns; shorter where no more differ.
+
+    A gain, a drift or a cross-talk of each sensor, and each test's own zero, each the largest that is left (forward
+    selection): S. Weisberg, Applied Linear Regression, 4th ed., Wiley 2014, section 10.2.
+    """
+    every = [it.column / it.size for it in (*shapes(found, criteria), *_zeros(found))]
+    left = float(found.whitened @ found.whitened)
+    out = [left]
+    if not every:
+        return out
+    columns, residual = np.stack(every, axis=1), found.whitened.copy()
+    there = np.ones(columns.shape[1])
+    for _ in range(most):
+        sizes = np.linalg.norm(columns, axis=0)
+        usable = (sizes > NEW) & (there > 0.0)
+        if not usable.any():
+            return out
+        pull = np.where(usable, columns.T @ residual / np.where(usable, sizes, 1.0), 0.0)
+        best = int(np.argmax(np.abs(pull)))
+        unit = columns[:, best] / sizes[best]
+        there[best] = 0.0
+        residual = residual - unit * pull[best]
+        columns = columns - np.outer(unit, unit @ columns)
+        out.append(float(residual @ residual))
+    return out
+
+
+def _zeros(found: Fit) -> Iterator[Shape]:
+    """A constant of each channel in each test."""
+    whole = found.residual.load_cases
+    tests = np.unique(whole.test[whole.fitted])
+    errors = (whole.test[:, None] == tests).astype(float)
+    errors[found.prediction.lost] = 0.0
+    for channel in np.flatnonzero(np.isfinite(whole.measured).any(axis=0) & (whole.sigma > 0.0)):
+        own = [f"has a zero of its own in {whole.campaign.tests[k].id}" for k in tests]
+        yield from left_of(found, int(channel), own, errors)

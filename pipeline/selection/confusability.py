@@ -13,6 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from pipeline.inference.rounding import RANK, ROUNDING
 from pipeline.selection.criteria import CRITERIA
 from pipeline.selection.first_order import FirstOrder
 from pipeline.selection.fit_cache import FitCache, Names
@@ -32,7 +33,7 @@ class Likeness:
     @property
     def gamma(self) -> float:
         """1 / sqrt(1 - rho)."""
-        return float(1.0 / np.sqrt(max(1.0 - self.correlation, 1e-12)))
+        return float(1.0 / np.sqrt(max(1.0 - self.correlation, ROUNDING)))
 
     @property
     def needed(self) -> float:
@@ -82,5 +83,5 @@ def multiple_correlation(signature: Array, columns: Array) -> float:
     columns = columns[:, sizes > 0] / sizes[sizes > 0]
     if not columns.size:
         return 0.0
-    near = columns @ np.linalg.lstsq(columns, signature, rcond=1e-8)[0]
+    near = columns @ np.linalg.lstsq(columns, signature, rcond=RANK)[0]
     return float(np.clip(np.linalg.norm(near) / np.linalg.norm(signature), 0.0, 1.0))

@@ -8,12 +8,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pipeline.inference.fit import Fit
+from pipeline.inference.rounding import SQUARED, TINY
 from pipeline.selection.cost import entry
 from pipeline.selection.first_order import FirstOrder
 from pipeline.selection.fit_cache import FitCache, Names
 
 Array = NDArray[np.float64]
-RIDGE = 1e-12
 
 
 def crossvalidated(found: Fit) -> float:
@@ -34,13 +34,13 @@ def _left_out(slopes: Array, residual: Array, tests: NDArray[np.int_]) -> float:
     """RMS over tests, each predicted with numbers (P,) that it had no part in; slopes (N, P) of the prediction."""
     if not slopes.shape[1]:
         return float(np.sqrt(np.mean(residual**2)))
-    slopes = slopes / np.maximum(np.linalg.norm(slopes, axis=0), 1e-300)
+    slopes = slopes / np.maximum(np.linalg.norm(slopes, axis=0), TINY)
     square, pull = slopes.T @ slopes, slopes.T @ residual
     total = 0.0
     for test in np.unique(tests):
         mine = tests == test
         inner = square - slopes[mine].T @ slopes[mine]
-        step = np.linalg.lstsq(inner, pull - slopes[mine].T @ residual[mine], rcond=RIDGE)[0]
+        step = np.linalg.lstsq(inner, pull - slopes[mine].T @ residual[mine], rcond=SQUARED)[0]
         total += float(np.sum((residual[mine] - slopes[mine] @ step) ** 2))
     return float(np.sqrt(total / residual.size))
 

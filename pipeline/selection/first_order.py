@@ -17,8 +17,9 @@ from scipy.optimize import lsq_linear
 
 from pipeline.inference.eliminated import Marginal
 from pipeline.inference.fit import Fit
-from pipeline.inference.orthonormal_basis import RANK, basis
+from pipeline.inference.orthonormal_basis import basis
 from pipeline.inference.prior import away, weight
+from pipeline.inference.rounding import RANK, ROUNDING, TINY
 from pipeline.selection.signatures import Look, Signature
 
 Array = NDArray[np.float64]
@@ -189,12 +190,12 @@ def _free_of(base: Array, residual: Array, columns: Array) -> tuple[Array, Array
 def _fall(matrix: Array, residual: Array, low: Array) -> float:
     """By how much the sum of squares falls when the columns may explain the residual."""
     sizes = np.linalg.norm(matrix, axis=0)
-    seen = sizes > RANK * max(sizes.max(initial=0.0), 1e-300)
+    seen = sizes > RANK * max(sizes.max(initial=0.0), TINY)
     if not seen.any():
         return 0.0
     matrix, low = matrix[:, seen] / sizes[seen], low[seen]
     if np.all(np.isinf(low)):
         step = np.linalg.lstsq(matrix, residual, rcond=RANK)[0]
     else:
-        step = lsq_linear(matrix, residual, bounds=(low - 1e-12, np.inf), method="bvls").x
+        step = lsq_linear(matrix, residual, bounds=(low - ROUNDING, np.inf), method="bvls").x
     return float(residual @ residual - np.sum((residual - matrix @ step) ** 2))

@@ -22,6 +22,7 @@ from pipeline.inference.load_cases import LoadCases, load_cases
 from pipeline.inference.predicted import Prediction
 from pipeline.inference.prediction import predict
 from pipeline.inference.residual import Residual, residual, whitening
+from pipeline.inference.rounding import SQUARED, TINY
 from pipeline.selection.criteria import CRITERIA
 from pipeline.selection.possible_tests import Choice, menu
 
@@ -119,8 +120,8 @@ def _parted(share: _Share, known: Array) -> float:
     explained = 0.0
     if share.pull.size:
         inner = known + share.inner
-        size = np.sqrt(np.maximum(np.diag(inner), 1e-300))
-        step = np.linalg.lstsq(inner / np.outer(size, size), share.pull / size, rcond=1e-12)[0]
+        size = np.sqrt(np.maximum(np.diag(inner), TINY))
+        step = np.linalg.lstsq(inner / np.outer(size, size), share.pull / size, rcond=SQUARED)[0]
         explained = float(share.pull / size @ step)
     return max(0.0, share.square - explained)
 

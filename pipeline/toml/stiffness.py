@@ -9,7 +9,7 @@ SYMMETRY = 1e-6
 
 
 def symmetric(rows: list[list[float]]) -> Array:
-    """Read-only matrix, exactly symmetric."""
+    """Read-only matrix (n, n), exactly symmetric."""
     k = np.array(rows, dtype=float)
     k = 0.5 * (k + k.T)
     k.flags.writeable = False

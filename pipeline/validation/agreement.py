@@ -15,7 +15,7 @@ CORNER = (0.9, 1.2)
 
 
 def force_at(curves: Sequence[Curve], x: Floats) -> Floats:
-    """Fx at displacements x of one model's branches joined, N; NaN outside them."""
+    """Fx (n,) at displacements x (n,) mm of one model's branches joined, N; NaN outside them."""
     joined = [c for c in curves if c.x_mm[-1] < 0.0]
     at = np.concatenate([c.x_mm for c in joined])
     force = np.concatenate([c.fx_N for c in joined])
@@ -91,5 +91,5 @@ def segments(path: SolidPath, studies: Sequence[Refinement]) -> str:
 
 
 def largest(values: Floats) -> str:
-    """The largest size of some per cents."""
+    """The largest size of per cents (...)."""
     return f"{float(np.nanmax(np.abs(values), initial=0.0)):.2f}"

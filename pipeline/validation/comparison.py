@@ -52,7 +52,7 @@ def stiffness_record(
 
 
 def mesh_error(closed: Floats, limit: Floats) -> Floats:
-    """Relative band of every entry of K_p: Eq. 11 with K_b of the working mesh against that without mesh error.
+    """Relative band of every entry of K_p (6, 6): Eq. 11 with K_b of the working mesh against that without mesh error.
 
     The solid linkage meets Eq. 11 with its own K_b to rounding, so its mesh error is that of K_b.
     """

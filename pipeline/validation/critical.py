@@ -39,7 +39,8 @@ def critical_records(
     solids: Sequence[SolidBuckling],
     bars: Sequence[Buckling],
 ) -> list[Critical]:
-    """Every critical load of the linkage; the mesh errors of the solid are those of its `bars` in the same supports."""
+    """Every critical load of the linkage of bars with this K_b (6, 6); the mesh errors of the solid are those of its
+    `bars` in the same supports."""
     records = []
     for solid in solids:
         records.extend(solid_records(solid, bars))
@@ -88,7 +89,7 @@ def solid_records(solid: SolidBuckling, bars: Sequence[Buckling]) -> list[Critic
 
 
 def formula_records(s: SolidBar, stiffness: Floats, solid: SolidBuckling) -> list[Critical]:
-    """Both bars by Euler's formulas with the EI, shear and end softness identified from K_b.
+    """Both bars by Euler's formulas with the EI, shear and end softness identified from K_b (6, 6).
 
     Off q = 0 a platform that is free to turn moves the tips of the two bars unequally out of plane: they are no
     longer two bars with one load, and there is no such formula.

@@ -32,7 +32,8 @@ def curve_records(
     loads: Sequence[SolidBuckling],
     bars: Sequence[Buckling],
 ) -> list[Curve]:
-    """LIN, solid, frame and springs under the conditions of each solid path, compression and tension."""
+    """LIN, solid, frame and springs under the conditions of each solid path, compression and tension; stiffness: K_b
+    (6, 6)."""
     records = []
     section = section_of_bar(s, stiffness)
     for path in paths:
@@ -59,7 +60,7 @@ def curve(
     buckled: bool = False,
     band: float | None = None,
 ) -> Curve:
-    """A curve of a model under the conditions of a solid path."""
+    """A curve of a model under the conditions of a solid path: x mm and fx N, (n,) each."""
     return Curve(
         model=model,
         q_deg=path.q_deg,
@@ -149,7 +150,8 @@ def validity_records(curves: Sequence[Curve], paths: Sequence[SolidPath]) -> lis
 
 
 def departures(model: str, path: SolidPath, x: Floats, fx: Floats, tangent: float) -> list[Validity]:
-    """The load at each deviation from the tangent, by interpolation between the points of the path."""
+    """The load at each deviation from the tangent, N/mm, by interpolation between the points of the path, x mm and
+    fx N, (n,) each."""
     gone = np.abs(fx[1:] / (tangent * x[1:]) - 1.0)
     records = []
     for deviation in DEVIATIONS:

@@ -31,5 +31,5 @@ def compared(value: Floats, reference: Floats) -> list[Entry]:
 
 
 def rows(matrix: Floats) -> Matrix:
-    """A matrix as lists of floats."""
+    """A matrix (m, n) as lists of floats."""
     return [[float(x) for x in row] for row in np.asarray(matrix)]

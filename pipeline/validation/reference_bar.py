@@ -100,7 +100,8 @@ def find_bar(
 
 
 def search_bounds(wanted: Floats, length: float, material: Isotropic) -> tuple[Floats, Floats]:
-    """Bounds of the four dimensions, around those of a slender uniform I-bar with the wanted A, Iy and Iz."""
+    """Bounds (4,) of the four dimensions, mm, around those of a slender uniform I-bar with the wanted A, Iy and Iz;
+    wanted (8,) as `eight_entries`."""
     area = wanted[0] * length / material.E
     height = 2.9 * np.sqrt(wanted[3] * length**3 / (12 * material.E) / area)
     width = 4.5 * np.sqrt(wanted[1] * length**3 / (12 * material.E) / area)
@@ -112,7 +113,8 @@ def search_bounds(wanted: Floats, length: float, material: Isotropic) -> tuple[F
 def fit_beam(
     x: Floats, wanted: Floats, bounds: tuple[Floats, Floats], family: Family, material: Isotropic
 ) -> Floats:
-    """Logarithms of the dimensions whose beam has the wanted entries, by bounded least squares."""
+    """Logarithms (4,) of the dimensions, mm, whose beam has the wanted entries (8,), by bounded least squares from
+    x (4,) within bounds (4,)."""
 
     def misfit(at: Floats) -> Floats:
         try:

@@ -36,7 +36,8 @@ def draw(space: Workspace, name: str) -> bytes:
 
 
 def render(axes: list[Floats], field: Floats, levels: Floats) -> Any:
-    """The surfaces in their box, as pixels."""
+    """The surfaces of a field (l, m, n) over three axes, (l,), (m,) and (n,) mm, at levels (k,) in their box, as pixels
+    (rows, columns, 3)."""
     require_egl()
     import pyvista
 
@@ -74,7 +75,7 @@ def render(axes: list[Floats], field: Floats, levels: Floats) -> Any:
 
 
 def framed(space: Workspace, name: str, levels: Floats, image: Any) -> bytes:
-    """The picture with its title and a legend of the levels."""
+    """The picture (rows, columns, 3) with its title and a legend of the levels (k,)."""
     title, unit = QUANTITIES[name]
     width = 7.0
     figure = Figure(figsize=(width + 1.4, width * image.shape[0] / image.shape[1] + 0.7))

@@ -3,7 +3,7 @@
 import numpy as np
 import pyvista
 
-from reports.thinning import thin
+from reports.turntable import thin
 
 
 def surface(lugs: bool) -> tuple[np.ndarray, np.ndarray]:

@@ -12,8 +12,8 @@ from hypothesis import strategies as st
 from tests.vjm.beams import BAR_P
 from tests.vjm.strategies import LENGTH, WIDTH, fixed_seed
 from vjm import paper, stiffness
+from vjm.effects.joint_friction import Jenkins
 from vjm.equilibrium import equilibrium, load_path
-from vjm.friction import Jenkins
 from vjm.laws import Direct, Law, Linear, Polynomial, Spring
 from vjm.link import Link
 from vjm.mechanism import ElasticChain

@@ -9,9 +9,9 @@ import pytest
 
 from tests.vjm.strategies import LENGTH, WIDTH
 from vjm import paper
+from vjm.effects.joint_friction import Jenkins
 from vjm.equilibrium import equilibrium, load_path
 from vjm.frames import adjoint, exp, log
-from vjm.friction import Jenkins
 from vjm.mechanisms.assembly import GaugeAt
 from vjm.mechanisms.parallelogram import Parallelogram
 from vjm.sensitivity import Direction, DriveDirection, SensorDirection, by_parameters, by_targets

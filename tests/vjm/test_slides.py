@@ -9,8 +9,8 @@ import pytest
 
 from vjm import paper
 from vjm.clearance import Clearance
-from vjm.contact import Contact
 from vjm.effects.base import for_bars
+from vjm.effects.contact_stiffening import Contact
 from vjm.equilibrium import equilibrium, load_path, nearby
 from vjm.increments import UNSURE
 from vjm.mechanisms.parallelogram import Parallelogram

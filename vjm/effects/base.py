@@ -218,7 +218,7 @@ def _one(change: Callable[[Link], Link], only: int | None, number: int, link: Li
 
 
 def vector(values: Values, *names: str) -> Array:
-    """Values in this order."""
+    """(k,) values of k names, in their order."""
     return np.array([values[name] for name in names])
 
 

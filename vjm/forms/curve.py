@@ -189,5 +189,5 @@ class Compliance:
 
 
 def odd(x: Array, size: tuple[Array, Array, Array]) -> tuple[Array, Array, Array]:
-    """Value, slope and integral of the odd continuation of those at abs(x)."""
+    """Value, slope and integral at x of the odd continuation of those at abs(x), all (...)."""
     return np.sign(x) * size[0], size[1], size[2]

@@ -137,5 +137,6 @@ def as_built(nominal: Link, count: int, alterations: tuple[Alteration, ...]) -> 
 
 
 def mounted(mount: Array) -> tuple[Frame, ...]:
-    """The rotation of the whole linkage against the base frame; nothing where there is none."""
+    """The rotation of the whole linkage against the base frame, of a rotation vector (3,) rad; nothing where there is
+    none."""
     return (Frame(rotation=exp(mount)),) if np.any(mount) else ()

@@ -56,8 +56,8 @@ class Elastic(Law):
 def jenkins(q: Floats, slider: Floats, stiffness: Floats | float, most: Floats | float) -> Response:
     """Force, stiffness and new slider of a spring in series with a slider that carries `most`, zero or more.
 
-    All broadcast. The slider moves with its force where the spring would carry more: that is dissipative, also where
-    `most` changes from step to step. Source: W. D. Iwan, J. Appl. Mech. 33 (1966) 893-900.
+    All (...), broadcast. The slider moves with its force where the spring would carry more: that is dissipative,
+    also where `most` changes from step to step. Source: W. D. Iwan, J. Appl. Mech. 33 (1966) 893-900.
     """
     trial = stiffness * (q - slider)
     force = np.clip(trial, -most, most)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Hashable, Iterable, Iterator, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -10,14 +10,18 @@ from rich.console import Console
 from rich.table import Table
 
 from meshes.files import replacing
+from pipeline.assessment import trials
+from pipeline.assessment.challenge.dirty.outcome import DirtyOutcome, dirty_outcome
 from pipeline.assessment.challenge.dirty.page import dirty_page
 from pipeline.assessment.challenge.dirty.score import DirtyScored, dirty_scored
-from pipeline.assessment.challenge.dirty.study import run as dirty_run
+from pipeline.assessment.challenge.outcome import Outcome, outcome
 from pipeline.assessment.challenge.page import page
 from pipeline.assessment.challenge.score import Goal, Scored, scored
-from pipeline.assessment.challenge.study import run
 from pipeline.command import usable
 from pipeline.progress import Progress
+from pipeline.provenance import code_digest, commit
+
+Task = tuple[int, str, str]
 
 
 def run_challenge(cases: int, workers: int, out: Path, store: Path, quiet: bool = False) -> Scored:
@@ -34,6 +38,25 @@ def run_dirty(cases: int, workers: int, out: Path, store: Path, quiet: bool = Fa
     clean = Scored.model_validate_json(other.read_text(encoding="utf-8")) if other.is_file() else None
     _leave(result, "dirty", dirty_page(result, clean), out, quiet)
     return result
+
+
+def run(numbers: Sequence[int], store: Path, workers: int) -> Iterator[Outcome]:
+    """The outcomes of these cases, those in the store first. Numbers, not the order of work, decide what a case is.
+
+    An outcome counts for the code that it was made with: a score is that of one program.
+    """
+    return trials.run(_wanted(numbers), outcome, Outcome, lambda it: (it.number, it.code), store, workers)
+
+
+def dirty_run(numbers: Sequence[int], store: Path, workers: int) -> Iterator[DirtyOutcome]:
+    """The same of the dirty cases."""
+    wanted = _wanted(numbers)
+    return trials.run(wanted, dirty_outcome, DirtyOutcome, lambda it: (it.number, it.code), store, workers)
+
+
+def _wanted(numbers: Sequence[int]) -> dict[Hashable, Task]:
+    here, code = commit(), code_digest()
+    return {(number, code): (number, here, code) for number in numbers}
 
 
 def _outcomes(

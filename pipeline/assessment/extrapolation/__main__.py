@@ -7,14 +7,17 @@ from pathlib import Path
 from typing import Annotated
 
 import typer
+from matplotlib.figure import Figure
 
 from meshes.files import replacing
+from pipeline.assessment.extrapolation.approaches import APPROACHES, TRUTH
 from pipeline.assessment.extrapolation.page import PICTURE, page
-from pipeline.assessment.extrapolation.picture import drawn
 from pipeline.assessment.extrapolation.study import run
-from pipeline.assessment.extrapolation.table import study
+from pipeline.assessment.extrapolation.table import Study, study
 from pipeline.assessment.extrapolation.trial import Trial
 from pipeline.progress import Progress
+from reports.charts import dress, picture
+from reports.style import CYCLE, FAINT, INK
 
 OUT = Path("reports/extrapolation")
 STORE = OUT / "trials.jsonl"
@@ -53,6 +56,30 @@ def written(found: Sequence[Trial], out: Path) -> None:
     ):
         with replacing(out / name) as part:
             part.write_bytes(content)
+
+
+def drawn(it: Study) -> bytes:
+    """Error outside against error inside, every case and approach, as PNG."""
+    figure = Figure(figsize=(7.6, 5.6))
+    ax = figure.subplots()
+    ends = [value for p in it.points if p.approach != TRUTH for value in (p.inside, p.outside)]
+    low, high = 0.7 * min(ends, default=0.1), 1.4 * max(ends, default=10.0)
+    ax.plot([low, high], [low, high], color=FAINT, lw=1)
+    for approach, colour, marker in zip(APPROACHES, CYCLE, "os^Dv<P", strict=False):
+        mine = [p for p in it.points if p.approach == approach]
+        if mine and approach != TRUTH:
+            inside, outside = [p.inside for p in mine], [p.outside for p in mine]
+            ax.scatter(inside, outside, s=26, color=colour, marker=marker, alpha=0.75, label=approach, lw=0)
+    ax.set(xscale="log", yscale="log", xlim=(low, high), ylim=(low, high))
+    ax.set_xlabel("error between the fitted loads, sigma")
+    ax.set_ylabel("error beyond the fitted loads, sigma")
+    count = len({p.number for p in it.points})
+    ax.set_title(
+        f"Errors of {count} benches between and beyond the fitted loads", loc="left", fontsize=12, color=INK
+    )
+    dress(ax)
+    ax.legend(loc="center left", bbox_to_anchor=(1.01, 0.5), frameon=False)
+    return picture(figure)
 
 
 if __name__ == "__main__":

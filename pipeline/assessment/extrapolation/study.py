@@ -24,8 +24,4 @@ def run(cases: int, store: Path, workers: int) -> Iterator[Trial]:
     """The trials of these cases, those in the store first; one counts for the code that it was made with."""
     here, code = commit(), code_digest()
     wanted: dict[Hashable, Task] = {(number, code): (number, here, code) for number in numbers(cases)}
-    return trials.run(wanted, _one, Trial, lambda it: (it.number, it.code), store, workers)
-
-
-def _one(task: Task) -> Trial:
-    return trial(*task)
+    return trials.run(wanted, trial, Trial, lambda it: (it.number, it.code), store, workers)

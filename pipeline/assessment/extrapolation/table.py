@@ -137,7 +137,8 @@ def _ratio(trials: Sequence[Trial]) -> Ratio | None:
 
 
 def median_interval(values: Array) -> tuple[float, float] | tuple[None, None]:
-    """Order statistics that hold the median with at least 95 %, whatever the distribution; None where none do.
+    """Order statistics of values (n,) that hold the median with at least 95 %, whatever the distribution; None
+    where none do.
 
     The number of values below the median is binomial: H. A. David, H. N. Nagaraja, Order Statistics, 3rd ed.,
     Wiley 2003, section 7.1.

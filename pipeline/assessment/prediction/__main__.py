@@ -2,19 +2,23 @@
 
 from __future__ import annotations
 
+from collections.abc import Hashable, Iterator, Mapping
 from pathlib import Path
 from typing import Annotated
 
 import typer
 
 from meshes.files import replacing
-from pipeline.assessment.prediction.runs import run
+from pipeline.assessment import trials
+from pipeline.assessment.extrapolation.study import numbers
 from pipeline.assessment.prediction.table import page, study
-from pipeline.assessment.prediction.trial import Trial
+from pipeline.assessment.prediction.trial import Trial, trial
 from pipeline.progress import Progress
+from pipeline.provenance import commit
 
 OUT = Path("reports/predict")
 STORES = {False: "trials.jsonl", True: "tolerances.jsonl"}
+Task = tuple[int, str, bool]
 NAMES = {False: "predict", True: "tolerances"}
 
 
@@ -44,6 +48,14 @@ def main(
         if any(it.named and it.true for it in found):
             written(found, out, tolerances)
     print(f"{out / NAMES[tolerances]}.md: {len(found)} campaigns")
+
+
+def run(cases: int, store: Path, workers: int, tolerances: bool = False) -> Iterator[Trial]:
+    """The trials of the first so many cases of the challenge that hide effects, those in the store first; tolerances
+    as in `measured`."""
+    here = commit()
+    wanted: Mapping[Hashable, Task] = {number: (number, here, tolerances) for number in numbers(cases)}
+    return trials.run(wanted, trial, Trial, lambda it: it.number, store, workers)
 
 
 def written(found: list[Trial], out: Path, tolerances: bool = False) -> None:

@@ -55,7 +55,7 @@ class Loading:
 
 
 def plan(manipulator: Manipulator, home: Array) -> tuple[Loading, ...]:
-    """One axis after the other at every posture, to both sides and back."""
+    """One axis after the other at every posture, to both sides and back; home (6,): the platform's pose, mm and rad."""
     turn = np.sin(np.linspace(0.0, 2.0 * np.pi, STEPS + 1)[1:])
     tests = []
     for number, (share, role) in enumerate(SHARES):

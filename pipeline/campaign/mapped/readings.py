@@ -158,7 +158,7 @@ def written(layout: Layout, name: str) -> tuple[str, str]:
 def numbers(
     layout: Layout, name: str, marks: Marks, missing: tuple[str, ...], complaints: Complaints
 ) -> tuple[Array, Mask]:
-    """A column (rows) as numbers, NaN where nothing is read, and the rows with a word for that; complaints about cells
+    """A column (rows,) as numbers, NaN where nothing is read, and the rows with a word for that; complaints about cells
     that are neither."""
     cells = layout.column(name)
     values, unread = np.full(len(cells), np.nan), np.zeros(len(cells), dtype=bool)

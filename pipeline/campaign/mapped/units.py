@@ -16,7 +16,8 @@ POUND = 0.45359237
 """kg."""
 INCH = 25.4
 """mm."""
-_LBF = POUND * GRAVITY
+LBF = POUND * GRAVITY
+"""N."""
 
 QUANTITIES = {
     "length": "mm",
@@ -75,9 +76,9 @@ _FACTORS: dict[str, dict[str, float]] = {
         "kN": 1e3,
         "kgf": GRAVITY,
         "gf": 1e-3 * GRAVITY,
-        "lbf": _LBF,
-        "ozf": _LBF / 16.0,
-        "kip": 1e3 * _LBF,
+        "lbf": LBF,
+        "ozf": LBF / 16.0,
+        "kip": 1e3 * LBF,
     },
     "moment": {
         "N·mm": 1.0,
@@ -88,9 +89,9 @@ _FACTORS: dict[str, dict[str, float]] = {
         "kgf·m": 1e3 * GRAVITY,
         "kgf·cm": 10.0 * GRAVITY,
         "kgf·mm": GRAVITY,
-        "lbf·in": _LBF * INCH,
-        "lbf·ft": _LBF * 12.0 * INCH,
-        "ozf·in": _LBF / 16.0 * INCH,
+        "lbf·in": LBF * INCH,
+        "lbf·ft": LBF * 12.0 * INCH,
+        "ozf·in": LBF / 16.0 * INCH,
     },
     "time": {"s": 1.0, "ms": 1e-3, "min": 60.0, "h": 3600.0},
 }

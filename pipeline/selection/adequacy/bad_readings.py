@@ -27,6 +27,7 @@ from pipeline.campaign import Campaign, Test
 from pipeline.campaign.names import channel_columns
 from pipeline.inference.driving import control_channels
 from pipeline.inference.fit import Fit
+from pipeline.inference.noise import MEDIAN
 from pipeline.inference.orthonormal_basis import basis
 from pipeline.inference.residual import Residual
 from pipeline.selection.adequacy.reading_errors import ReadingErrors
@@ -39,7 +40,6 @@ FLAT = 0.1
 wherever it is."""
 FOR_NEITHER = 2.0 * float(np.log(2.0))
 """Twice the logarithm by which one explanation of a row has to be likelier than another."""
-MEDIAN = float(norm.ppf(0.75))
 
 
 @dataclass(frozen=True)

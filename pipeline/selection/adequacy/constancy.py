@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from pipeline.inference.fit import Fit
 from pipeline.inference.orthonormal_basis import basis
+from pipeline.inference.rounding import TINY
 from pipeline.selection.adequacy.patterns import FLAT, steady
 
 
@@ -37,7 +38,7 @@ def largest_departure(found: Fit) -> Departure | None:
         columns = it.weakened(np.where(rows[:, None], it.without_zeros(it.slopes), 0.0))
         left = columns - taken @ (taken.T @ columns)
         sizes, whole = np.linalg.norm(left, axis=0), np.linalg.norm(columns, axis=0)
-        for k in np.flatnonzero(sizes > FLAT * np.maximum(whole, 1e-300)):
+        for k in np.flatnonzero(sizes > FLAT * np.maximum(whole, TINY)):
             looks += 1
             score = steady(left[:, k], found.whitened)
             if best is None or abs(score) > abs(best[0]):

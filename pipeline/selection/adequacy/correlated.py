@@ -27,15 +27,13 @@ from scipy.stats import chi2, norm
 from pipeline.inference.fit import Fit
 from pipeline.inference.noise import lag_one
 from pipeline.inference.orthonormal_basis import basis
+from pipeline.inference.rounding import ROUNDING, TINY
+from pipeline.inference.settings import CORRELATION
 from pipeline.selection.adequacy.patterns import shapes, steady
 from pipeline.selection.adequacy.reading_errors import ReadingErrors
 from pipeline.selection.criteria import Criteria
 
 Array = NDArray[np.float64]
-LARGEST = 0.98
-"""Correlation of neighbours at most: beyond, noise is a zero that wanders, which is a fault of a sensor."""
-STEP = 1e-3
-"""Of a correlation, over which the derivative of the likelihood is differenced."""
 
 
 @dataclass(frozen=True)
@@ -121,7 +119,7 @@ class _Residual:
         for test in self.tests:
             more, wider = test.scored(z[test.where], test.root(correlations))
             score, variance = score + more, variance + wider
-        return np.asarray(score / np.sqrt(np.maximum(variance, 1e-300)))
+        return np.asarray(score / np.sqrt(np.maximum(variance, TINY)))
 
 
 def correlated(found: Fit, criteria: Criteria) -> tuple[Correlated, ...]:
@@ -183,8 +181,10 @@ def _most_likely(it: _Residual, start: Array, free: NDArray[np.int64]) -> Array:
     def loss(values: Array) -> tuple[float, Array]:
         return it.loss(_with(start, free, values), free)
 
-    first = np.where(start[free] > 0.0, start[free], 0.3)
-    found = minimize(loss, first, jac=True, bounds=[(0.0, LARGEST)] * free.size, method="L-BFGS-B")
+    first = np.where(start[free] > 0.0, start[free], CORRELATION.first)
+    found = minimize(
+        loss, first, jac=True, bounds=[(0.0, CORRELATION.largest)] * free.size, method="L-BFGS-B"
+    )
     return _with(start, free, np.asarray(found.x))
 
 
@@ -196,10 +196,13 @@ def _with(correlations: Array, at: NDArray[np.int64], values: Array) -> Array:
 
 def _each(it: _Residual, correlations: Array) -> Iterator[Correlated]:
     for k in np.flatnonzero(correlations > 0.0).tolist():
-        at, middle = np.array([k]), min(float(correlations[k]), LARGEST - STEP)
-        low, high = (it.loss(_with(correlations, at, at * 0.0 + middle + d), at)[1][0] for d in (-STEP, STEP))
+        at, middle = np.array([k]), min(float(correlations[k]), CORRELATION.largest - CORRELATION.step)
+        low, high = (
+            it.loss(_with(correlations, at, at * 0.0 + middle + d), at)[1][0]
+            for d in (-CORRELATION.step, CORRELATION.step)
+        )
         # Twice the log likelihood has twice the information.
-        information = max(0.25 * (high - low) / STEP, 1e-12)
+        information = max(0.25 * (high - low) / CORRELATION.step, ROUNDING)
         yield Correlated(int(it.sensors[k]), float(correlations[k]), float(1.0 / np.sqrt(information)))
 
 
@@ -246,7 +249,8 @@ def series_of(found: Fit, z: Array) -> list[Array]:
 
 
 def without_order(series: Sequence[Array], level: float) -> bool:
-    """Whether neighbouring residuals are no more alike than noise makes them."""
+    """Whether neighbouring residuals are no more alike than noise makes them; series: (n,) in the order of the
+    steps."""
     try:
         return lag_one(series).p_value >= level
     except ValueError:

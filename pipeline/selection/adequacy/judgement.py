@@ -12,6 +12,7 @@ from pipeline.inference.driving import column_name
 from pipeline.inference.fit import Fit, fit
 from pipeline.inference.load_cases import load_cases
 from pipeline.inference.noise import lag_one
+from pipeline.inference.rounding import EQUAL
 from pipeline.selection.adequacy.constancy import largest_departure
 from pipeline.selection.adequacy.patterns import scores
 from pipeline.selection.criteria import CRITERIA, Criteria
@@ -160,7 +161,7 @@ def _held_out(found: Fit, scatter: float, level: float) -> Check | None:
     wide = _uncertain(found, used)
     if zeros.any():
         left, sizes, _ = np.linalg.svd(zeros, full_matrices=False)
-        basis = left[:, sizes > 1e-9 * sizes.max()]
+        basis = left[:, sizes > EQUAL * sizes.max()]
         residual, wide = residual - basis @ (basis.T @ residual), wide - basis @ (basis.T @ wide)
     total = float(residual @ residual)
     if wide.shape[1]:

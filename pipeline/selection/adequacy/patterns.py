@@ -18,6 +18,7 @@ from pipeline.inference.fit import Fit
 from pipeline.inference.load_cases import LoadCases
 from pipeline.inference.orthonormal_basis import basis
 from pipeline.inference.residual import whitening
+from pipeline.inference.rounding import TINY
 from pipeline.selection.criteria import Criteria
 
 Array = NDArray[np.float64]
@@ -75,7 +76,7 @@ def left_of(found: Fit, channel: int, words: Sequence[str], errors: Array) -> It
     left = columns - taken @ (taken.T @ columns)
     sizes, whole_sizes = np.linalg.norm(left, axis=0), np.linalg.norm(columns, axis=0)
     name = column_name(channel, whole.campaign.gauges)
-    for k in np.flatnonzero(sizes > FLAT * np.maximum(whole_sizes, 1e-300)).tolist():
+    for k in np.flatnonzero(sizes > FLAT * np.maximum(whole_sizes, TINY)).tolist():
         largest = float(np.abs(errors[..., k]).max())
         yield Shape(channel, f"{name} {words[k]}", left[:, k], float(sizes[k]), largest)
 

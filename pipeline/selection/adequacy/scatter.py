@@ -21,16 +21,12 @@ from numpy.typing import NDArray
 from scipy.stats import chi2
 
 from pipeline.inference.fit import Fit
+from pipeline.inference.rounding import TINY
+from pipeline.inference.settings import SCATTERING
 from pipeline.selection.adequacy.reading_errors import ReadingErrors
 from pipeline.selection.criteria import Criteria
 
 Array = NDArray[np.float64]
-FAR_OUT = 1e-4
-"""Chance that noise puts a row so far out; beyond, it counts as if it were there."""
-WIDE = 1.0
-"""Standard deviation of the logarithm of a factor before anything is seen: what no row shows stays as declared."""
-ROUNDS = 50
-SETTLED = 1e-4
 
 
 @dataclass(frozen=True)
@@ -62,12 +58,12 @@ def scatters(found: Fit) -> tuple[Scatter, ...]:
         return ()
     # (R, M, S) which sensor each reading is of.
     owner = (channels[..., None] == sensors).astype(float)
-    prior, logs = np.eye(sensors.size) / (2.0 * WIDE) ** 2, np.zeros(sensors.size)
-    for _ in range(ROUNDS):
+    prior, logs = np.eye(sensors.size) / (2.0 * SCATTERING.wide) ** 2, np.zeros(sensors.size)
+    for _ in range(SCATTERING.rounds):
         gradient, information = _scored(columns, owner, left, logs)
         step = np.linalg.solve(information + prior, gradient - prior @ logs)
         logs = logs + np.clip(step, -1.0, 1.0)
-        if np.abs(step).max() < SETTLED:
+        if np.abs(step).max() < SCATTERING.settled:
             break
     errors = np.sqrt(np.diag(np.linalg.inv(_scored(columns, owner, left, logs)[1] + prior)))
     return tuple(
@@ -88,8 +84,8 @@ def _scored(columns: Array, owner: Array, left: Array, logs: Array) -> tuple[Arr
     inverse = np.linalg.inv(covariance)
     pulled = np.einsum("rcd,rd->rc", inverse, left)
     count = np.maximum(np.sum(np.any(columns != 0.0, axis=2), axis=1), 1)
-    farthest = chi2.isf(FAR_OUT, count)
-    weight = np.minimum(1.0, farthest / np.maximum(np.einsum("rc,rc->r", left, pulled), 1e-300))
+    farthest = chi2.isf(SCATTERING.far_out, count)
+    weight = np.minimum(1.0, farthest / np.maximum(np.einsum("rc,rc->r", left, pulled), TINY))
     through = np.einsum("rcm,rc->rm", columns, pulled) ** 2 * weight[:, None]
     inner = turned @ inverse @ columns
     own = np.einsum("rmm->rm", inner)

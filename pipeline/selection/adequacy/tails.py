@@ -28,14 +28,13 @@ from scipy.stats import norm, t
 from pipeline.campaign import Campaign
 from pipeline.inference.driving import control_channels
 from pipeline.inference.fit import Fit
+from pipeline.inference.noise import MEDIAN
 from pipeline.inference.residual import whitening
+from pipeline.inference.rounding import TINY
+from pipeline.inference.settings import STUDENTS_LAW
 from pipeline.selection.criteria import Criteria
 
 Array = NDArray[np.float64]
-DEGREES = (1.0, 100.0)
-"""Of Student's law: below, it has no mean; above, it is normal."""
-FARTHEST = 8.0
-"""Normal scores beyond which a probability is one in double precision."""
 
 
 @dataclass(frozen=True)
@@ -51,7 +50,9 @@ class Tails:
         """Normal scores of residuals."""
         # By the nearer tail: one minus a small number would round it away.
         tail = t.sf(np.abs(residual) / self.scale, self.degrees)
-        return np.asarray(np.clip(np.sign(residual) * norm.isf(tail), -FARTHEST, FARTHEST))
+        return np.asarray(
+            np.clip(np.sign(residual) * norm.isf(tail), -STUDENTS_LAW.farthest, STUDENTS_LAW.farthest)
+        )
 
     @cached_property
     def effective(self) -> float:
@@ -61,7 +62,7 @@ class Tails:
             # dr t(r)² / phi(z) = dz t(r(z)).
             return float(t.pdf(t.ppf(norm.cdf(z), self.degrees), self.degrees))
 
-        return self.scale / quad(integrand, -FARTHEST, FARTHEST)[0]
+        return self.scale / quad(integrand, -STUDENTS_LAW.farthest, STUDENTS_LAW.farthest)[0]
 
 
 def tails_of(found: Fit, criteria: Criteria) -> Tails | None:
@@ -100,8 +101,10 @@ def _student(residual: Array) -> tuple[Array, float]:
         return -float(t.logpdf(residual, degrees, scale=scale).sum())
 
     spread = np.median(np.abs(residual)) or np.sqrt(np.mean(residual**2))
-    ends = [tuple(np.log(DEGREES)), (None, None)]
-    it = minimize(negative, np.array([np.log(4.0), np.log(spread)]), bounds=ends, method="L-BFGS-B")
+    ends = [tuple(np.log(STUDENTS_LAW.degrees)), (None, None)]
+    it = minimize(
+        negative, np.array([np.log(STUDENTS_LAW.first), np.log(spread)]), bounds=ends, method="L-BFGS-B"
+    )
     return np.asarray(it.x), -float(it.fun)
 
 
@@ -111,10 +114,10 @@ def _with_bad_readings(residual: Array, largest: float) -> float:
     def negative(at: Array) -> float:
         part = 1.0 / (1.0 + np.exp(-at[0]))
         density = (1.0 - part) * norm.pdf(residual, scale=np.exp(at[1])) + part / (2.0 * largest)
-        return -float(np.log(np.maximum(density, 1e-300)).sum())
+        return -float(np.log(np.maximum(density, TINY)).sum())
 
     spread = np.median(np.abs(residual)) or np.sqrt(np.mean(residual**2))
-    start = np.array([-4.0, np.log(spread / norm.ppf(0.75))])
+    start = np.array([STUDENTS_LAW.bad, np.log(spread / MEDIAN)])
     return -float(minimize(negative, start, method="Nelder-Mead").fun)
 
 

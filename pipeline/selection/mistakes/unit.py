@@ -1,7 +1,6 @@
 """A column in another unit than its name says: kgf, pounds, inches, metres, degrees.
 
-Factors: 9.80665 N are a kilogram-force and 4.4482216 N a pound-force, 25.4 mm an inch (BIPM, The International System
-of Units, 9th ed. 2019; NIST Special Publication 811, 2008, appendix B.8).
+Factors and their sources: `pipeline.campaign.mapped.units`.
 """
 
 from __future__ import annotations
@@ -9,18 +8,19 @@ from __future__ import annotations
 from collections.abc import Iterator
 from functools import partial
 
-import numpy as np
-
 from pipeline.campaign import Campaign
+from pipeline.campaign.mapped.units import INCH, LBF, UNITS
 from pipeline.selection.mistakes.base import FORCES, MOMENTS, Mistake, groups, times, verb
 
-KGF, POUND, INCH, THOUSAND, DEGREE = 9.80665, 4.4482216, 25.4, 1000.0, float(np.pi / 180.0)
+KGF, THOUSAND, DEGREE = (UNITS[name].factor for name in ("kgf", "kN", "°"))
+POUND = round(LBF, 7)
+"""N, as tables of factors print it."""
 FORCE = {"kgf": KGF, "lbf": POUND, "kN": THOUSAND, "mN": 1.0 / THOUSAND}
 MOMENT = {
     "N·m": THOUSAND,
     "kgf·mm": KGF,
     "kgf·m": THOUSAND * KGF,
-    "kgf·cm": 10.0 * KGF,
+    "kgf·cm": UNITS["kgf·cm"].factor,
     "lbf·in": POUND * INCH,
     "N·µm": 1.0 / THOUSAND,
 }

@@ -36,7 +36,7 @@ def spring_slope(stiffness: Floats, length: float) -> Floats:
 
 
 def axial_record(s: Specimen, stiffness: Floats, study: MeshStudy) -> Axial:
-    """K_g of the solid beside the uniform beam's and the refined springs'."""
+    """K_g of the solid beside the uniform beam's and the refined springs', for K_b (6, 6)."""
     c = s.constants
     polar = (c.Iy + c.Iz) / c.area
     formula = uniform_geometric_stiffness(Segment.of(c, s.material, s.bar.length), polar)
@@ -51,7 +51,7 @@ def axial_record(s: Specimen, stiffness: Floats, study: MeshStudy) -> Axial:
 
 
 def explained(s: Specimen, solid: Floats, formula: Floats, vjm: Floats, stiffness: Floats) -> list[str]:
-    """A sentence for each difference."""
+    """A sentence for each difference of K_g (6, 6); stiffness: K_b (6, 6)."""
     by_formula, name = worst(formula, solid)
     by_vjm, other = worst(vjm, solid)
     work = stiffness / (stiffness[0, 0] * s.bar.length)
@@ -75,5 +75,5 @@ def explained(s: Specimen, solid: Floats, formula: Floats, vjm: Floats, stiffnes
 
 
 def worst(other: Floats, solid: Floats) -> tuple[float, str]:
-    """The largest relative difference among the bending entries, and its name."""
+    """The largest relative difference among the bending entries of two K_g (6, 6), and its name."""
     return max((abs(float(other[ENTRIES[n]] / solid[ENTRIES[n]] - 1.0)), n) for n in BENDING)

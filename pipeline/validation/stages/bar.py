@@ -72,7 +72,7 @@ def material_of(case: Case) -> dict[str, float | str]:
 
 
 def laws(s: Specimen, raw: Floats) -> dict[str, float]:
-    """How well K_b, not yet made symmetric, keeps the laws that any elastic body keeps."""
+    """How well K_b (6, 6), not yet made symmetric, keeps the laws that any elastic body keeps."""
     points, matrix = s.space.mesh.points, s.model.matrices[0]
     worst = 0.0
     for motion in (*np.eye(3), *(np.cross(e, points / s.bar.length) for e in np.eye(3))):
@@ -88,7 +88,7 @@ def laws(s: Specimen, raw: Floats) -> dict[str, float]:
 
 
 def second_route(s: Specimen, tied: Floats) -> SecondRoute:
-    """K_b by virtual experiments beside the rigid tie, with the reason for the difference."""
+    """K_b by virtual experiments beside that of the rigid tie (6, 6), with the reason for the difference."""
     found = virtual_experiments(s.space.mesh, s.bar.length, s.material)
     entries = compared(found.stiffness, tied)
     worst = max(entries, key=lambda e: abs(e.deviation))

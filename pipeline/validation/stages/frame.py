@@ -17,7 +17,7 @@ from pipeline.validation.stages.subject import Sized, SolidBar
 
 
 def section_of_bar(s: SolidBar, stiffness: Floats) -> Section:
-    """The beam of a bar: its K_b, and the shear stiffness of its section between the lugs."""
+    """The beam of a bar: its K_b (6, 6), and the shear stiffness of its section between the lugs."""
     body = s.segments[len(s.segments) // 2]
     return identified_section(stiffness, s.bar.length, body.GAy, body.GAz)
 

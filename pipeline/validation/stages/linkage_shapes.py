@@ -60,7 +60,10 @@ def bent(model: LinearModel, held: list[str], load: float, bend: float) -> tuple
 
 
 def write_shape(model: LinearModel, fields: tuple[Floats, ...], path: Path) -> None:
-    """Both bars in the base frame, with point data displacement (mm) and stress (von Mises, MPa), as a VTU file."""
+    """Both bars in the base frame, with point data displacement (mm) and stress (von Mises, MPa), as a VTU file.
+
+    fields: (3 n,) displacements of the n nodes of each bar, mm, in its own frame.
+    """
     import meshio
 
     points, moved, stressed, first = [], [], [], 0

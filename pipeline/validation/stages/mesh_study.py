@@ -54,7 +54,7 @@ def mesh_study(s: Specimen, stage: Stage) -> MeshStudy:
 
 
 def series(sizes: Sequence[float], matrices: Sequence[Floats], ij: tuple[int, int]) -> Extrapolation:
-    """One entry of as many matrices as there are, to its limit."""
+    """One entry of as many matrices (6, 6) as there are, to its limit."""
     return extrapolate(sizes[: len(matrices)], [float(k[ij]) for k in matrices])
 
 
@@ -65,7 +65,7 @@ def convergence(
     found: dict[str, Extrapolation],
     working: int,
 ) -> Convergence:
-    """The record of the study of K_b."""
+    """The record of the study of K_b (6, 6)."""
     limit = np.zeros((6, 6))
     for name, (i, j) in ENTRIES.items():
         limit[i, j] = limit[j, i] = found[name].limit

@@ -93,7 +93,8 @@ def frame_elements(frame: FrameLinkage, path: SolidPath) -> Refinement | None:
 
 
 def spring_segments(case: Sized, stiffness: Floats, solid: SolidBuckling) -> Refinement | None:
-    """The refined springs' critical load for more and more segments; None where some of them have none."""
+    """The refined springs' critical load by K_b (6, 6) for more and more segments; None where some of them have
+    none."""
     lumped = SpringLinkage(case, stiffness, solid.q_deg, "tip").mechanism
     loads = [float(-critical_load(replace(lumped, bar=Refined(n)), solid.held).load) for n in SEGMENT_COUNTS]
     if not np.isfinite(loads).all():
@@ -142,7 +143,7 @@ def refinements(
     paths: Sequence[tuple[SolidPath, Buckling | None]],
     steps: Refinement,
 ) -> list[Refinement]:
-    """Every study at the first angle, the solid's own steps given."""
+    """Every study at the first angle, the solid's own steps given; stiffness: K_b (6, 6)."""
     first = case.linkage.angles_deg[0]
     solids = {tuple(b.held): b for b in loads if b.q_deg == first}
     here = [(path, bar) for path, bar in paths if path.q_deg == first]

@@ -91,7 +91,7 @@ SpringSet = dict[tuple[float, Place], SpringLinkage]
 
 
 def spring_set(case: Sized, stiffness: Floats) -> SpringSet:
-    """Springs at every place, for every angle of the case; what they search for they keep."""
+    """Springs by K_b (6, 6) at every place, for every angle of the case; what they search for they keep."""
     return {
         (q, place): SpringLinkage(case, stiffness, q, place)
         for q in case.linkage.angles_deg
@@ -100,7 +100,7 @@ def spring_set(case: Sized, stiffness: Floats) -> SpringSet:
 
 
 def linear_slope(stiffness: Floats, q_deg: float, held: Sequence[str]) -> float:
-    """LIN: dFx/dx from a bar-frame K_p with `held` held and the other coordinates free, N/mm."""
+    """LIN: dFx/dx from a bar-frame K_p (6, 6) with `held` held and the other coordinates free, N/mm."""
     base = in_bar_frame(stiffness, -radians(q_deg))
     names = ["x", "y", "z", "rx", "ry", "rz"]
     free = [i for i, name in enumerate(names) if name != "x" and name not in held]

@@ -7,11 +7,8 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 
-from fem.frame.laws.contact import LINEAR_BELOW, contact
-from fem.frame.laws.friction import friction
-from fem.frame.laws.play import CENTRING, STOP, play
-from fem.frame.laws.spring import spring
-from fem.frame.laws.yielding import HARDENING, plastic_strain
+from fem.frame.fibres import HARDENING, plastic_strain
+from fem.frame.joints import CENTRING, LINEAR_BELOW, STOP, contact, friction, play, spring
 from meshes.solid import Floats
 
 C = np.array([2e-5])

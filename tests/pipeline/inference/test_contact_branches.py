@@ -20,7 +20,8 @@ from pipeline.inference.load_cases import LoadCases, load_cases
 from pipeline.inference.model import Model
 from pipeline.inference.predicted import Prediction
 from pipeline.inference.prediction import predict
-from pipeline.inference.residual import FARTHEST, Residual, residual
+from pipeline.inference.residual import Residual, residual
+from pipeline.inference.settings import INPUTS
 from pipeline.simulate import bench_rig, scaled
 from tests.pipeline.selection.bench import COARSE
 from vjm.effects import catalogue
@@ -222,7 +223,7 @@ def test_a_model_far_from_the_data_moves_no_input_farther_than_noise_may() -> No
     tests = load_cases(measure("askew", bench_rig(), plan, SENSORS, turns, 1, GAUGES))
     plain = residual(tests, predict(Model().with_effects([catalogue()[BASE]]), tests, slopes=False))
     sigma = np.where(tests.input_sigma > 0.0, tests.input_sigma, np.inf)
-    assert np.max(np.abs(plain.shift) / sigma) == pytest.approx(FARTHEST)
+    assert np.max(np.abs(plain.shift) / sigma) == pytest.approx(INPUTS.farthest)
     found = fit(Model().with_effects([catalogue()[each] for each in (BASE, "mounting_tilt")]), tests)
     assert found.chi_square < 1.5 * found.degrees
     assert np.all(np.abs(found.model.values - list(turns.values())) < 4.0 * found.std)

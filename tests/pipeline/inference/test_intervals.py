@@ -19,12 +19,14 @@ from pipeline.inference.intervals import (
     only_together,
     straight,
 )
-from pipeline.inference.profile_likelihood import CLOSE, RISE, ProfileLikelihood, Range
+from pipeline.inference.profile_likelihood import RISE, ProfileLikelihood, Range
+from pipeline.inference.settings import PROFILE
 
 Array = NDArray[np.float64]
 WIDE = Range(-1e3, 1e3, 0.0)
 POSITIVE = Range(0.0, 1e3, 0.0, one_sided=True)
 Z = np.sqrt(RISE)
+CLOSE = PROFILE.close
 
 
 @dataclass

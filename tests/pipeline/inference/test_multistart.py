@@ -19,11 +19,11 @@ from pipeline.inference.intervals import intervals, profile_likelihood
 from pipeline.inference.levenberg_marquardt import levenberg_marquardt
 from pipeline.inference.load_cases import LoadCases, load_cases
 from pipeline.inference.model import Model
-from pipeline.inference.multistart import FOOT, SIZES, _edge, _Ladder, _rungs, _valleys, best_fit
+from pipeline.inference.multistart import _edge, _Ladder, _rungs, _valleys, best_fit
 from pipeline.inference.objective import Evaluation, Objective
 from pipeline.inference.prediction import predict
-from pipeline.inference.profile_likelihood import NEARLY
 from pipeline.inference.residual import residual
+from pipeline.inference.settings import LADDER, PROFILE
 from pipeline.simulate import bench_rig
 from tests.pipeline.bench import bench
 from vjm.effects import catalogue
@@ -59,7 +59,7 @@ def holds(model: Model, tests: LoadCases, new: tuple[str, ...], name: str, value
     assert it.low is not None and it.high is not None and it.low < best.model.values[k] < it.high
     # Far from kinks and bounds half an interval is 1.96 standard errors; these by differences of solved predictions.
     half = norm.ppf(0.975) * std_by_differences(best, tests)[k]
-    assert it.high - it.low == pytest.approx(2.0 * half, rel=NEARLY)
+    assert it.high - it.low == pytest.approx(2.0 * half, rel=PROFILE.nearly)
 
 
 def std_by_differences(best: Fit, tests: LoadCases) -> np.ndarray:
@@ -136,7 +136,7 @@ def test_the_ladder_goes_on_while_that_helps_and_keeps_valleys_only() -> None:
     for size in _rungs(heights):
         heights.append(abs(np.log(size / 100.0)))
     # 100 is the seventh rung; the eighth is worse and ends it.
-    assert len(heights) == len(SIZES) + 3
+    assert len(heights) == len(LADDER.sizes) + 3
 
 
 def test_valleys_are_rungs_that_are_lower_than_those_beside_them() -> None:
@@ -149,9 +149,11 @@ def test_valleys_are_rungs_that_are_lower_than_those_beside_them() -> None:
 
 
 def test_the_foot_of_a_ladder_is_no_valley_where_another_is_much_lower() -> None:
-    assert _valleys([FOOT * 50.0, 90.0, 50.0, 90.0], 100) == [2, 0]
-    assert _valleys([FOOT * 50.0 + 1.0, 90.0, 50.0, 90.0], 100) == [2]
-    assert _valleys([50.0, 90.0, FOOT * 50.0 + 1.0, 90.0], 100) == [0, 2], "what is not the foot may be"
+    assert _valleys([LADDER.foot * 50.0, 90.0, 50.0, 90.0], 100) == [2, 0]
+    assert _valleys([LADDER.foot * 50.0 + 1.0, 90.0, 50.0, 90.0], 100) == [2]
+    assert _valleys([50.0, 90.0, LADDER.foot * 50.0 + 1.0, 90.0], 100) == [0, 2], (
+        "what is not the foot may be"
+    )
 
 
 @cache

@@ -11,7 +11,8 @@ from pipeline.inference.contact_branches import begun
 from pipeline.inference.fit import fit
 from pipeline.inference.load_cases import load_cases
 from pipeline.inference.model import Model
-from pipeline.inference.objective import NEAR, SAME, Evaluation, Objective
+from pipeline.inference.objective import Evaluation, Objective
+from pipeline.inference.settings import INPUTS
 from tests.pipeline.inference import manipulators
 from tests.pipeline.inference.test_contact_branches import cases, model
 from vjm.effects import catalogue
@@ -59,7 +60,9 @@ def test_the_same_parameters_give_the_same_value_wherever_it_begins(
     assert first.settled
     for near in (plain.prediction, larger.prediction, first.prediction):
         again = aim.at(values, near)
-        assert abs(total(again) - total(first)) < 2.0 * SAME * max(1.0, total(first) / first.residuals.size)
+        assert abs(total(again) - total(first)) < 2.0 * INPUTS.same * max(
+            1.0, total(first) / first.residuals.size
+        )
 
 
 def test_an_evaluation_ends_near_the_inputs_that_fit_best() -> None:
@@ -68,13 +71,13 @@ def test_an_evaluation_ends_near_the_inputs_that_fit_best() -> None:
     began = Model().with_effects([catalogue()[each] for each in (BASE, "thermal_expansion")])
     found = fit(began, tests)
     there = Objective(found.model, tests).at(found.model.values, found.prediction)
-    assert there.settled and off(there) <= NEAR and there.rounds == 1
+    assert there.settled and off(there) <= INPUTS.near and there.rounds == 1
     sigma = np.where(tests.input_sigma > 0.0, tests.input_sigma, np.inf)
-    assert np.max(np.abs(found.residual.shift - found.prediction.shift) / sigma) <= NEAR
+    assert np.max(np.abs(found.residual.shift - found.prediction.shift) / sigma) <= INPUTS.near
     # At the measured inputs themselves, where one without a start begins, noise alone is several sigmas off.
     rough = Objective(found.model, tests).at(found.model.values, within=np.inf)
     assert off(rough) > 1.0 and rough.rounds == 1 and not rough.settled
-    assert off(rough.settle()) <= NEAR
+    assert off(rough.settle()) <= INPUTS.near
 
 
 def test_a_value_that_may_be_off_costs_no_more_than_it_must() -> None:

@@ -11,7 +11,8 @@ from pipeline.campaign.reading import read
 from pipeline.inference.load_cases import load_cases
 from pipeline.inference.model import Model
 from pipeline.inference.prediction import predict
-from pipeline.inference.thinning import ENOUGH, thinned
+from pipeline.inference.settings import LOOK
+from pipeline.inference.thinning import thinned
 from vjm.effects import catalogue
 
 CASES = load_cases(read(Path(__file__).parents[3] / "examples" / "bench"))
@@ -20,7 +21,7 @@ CASES = load_cases(read(Path(__file__).parents[3] / "examples" / "bench"))
 def test_ends_turns_and_every_fourth_row_stay() -> None:
     part, start = thinned(CASES, None)
     assert start is None and part.fitted.all()
-    assert ENOUGH < len(part.test) < 2 * ENOUGH
+    assert LOOK.rows < len(part.test) < 2 * LOOK.rows
     fitted = [t for t in CASES.campaign.tests if t.role == "fit"]
     assert [t.id for t in part.campaign.tests] == [t.id for t in fitted]
     for test in part.campaign.tests:

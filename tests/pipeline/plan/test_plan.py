@@ -14,9 +14,8 @@ from typer.testing import CliRunner
 from pipeline.campaign import Campaign, write
 from pipeline.cli import app
 from pipeline.inference.model import Model
-from pipeline.plan.command import LARGE
+from pipeline.plan.command import LARGE, foreseen
 from pipeline.plan.next import _borne
-from pipeline.plan.planned import foreseen
 from pipeline.selection.possible_tests import menu
 from tests.pipeline.selection.bench import AXIAL, bench
 from vjm.effects import catalogue

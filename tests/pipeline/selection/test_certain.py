@@ -12,7 +12,7 @@ from pipeline.campaign import Campaign
 from pipeline.inference.load_cases import load_cases
 from pipeline.inference.model import Model
 from pipeline.inference.multistart import best_fit
-from pipeline.selection.adequacy.free_patterns import falls
+from pipeline.selection.certain import falls
 from pipeline.selection.criteria import CRITERIA
 from pipeline.selection.diagnosis import diagnose
 from tests.pipeline.selection.bench import bench, creeping_gauge, growing_gain, with_fault

@@ -91,7 +91,7 @@ def drawn_dirt(generator: np.random.Generator, channels: int) -> Dirt:
 
 
 def true_rig(rig: ParallelogramRig, bar: Array) -> ParallelogramRig:
-    """The rig as it really is: each stiffness of its bars so many times that of the drawing."""
+    """The rig as it really is: each stiffness of its bars, EA, EIy, EIz, GJ (4,), so many times that of the drawing."""
     if rig.bar is not None:
         own = rig.bar
         true = UniformBar(EA=own.EA * bar[0], EIy=own.EIy * bar[1], EIz=own.EIz * bar[2], GJ=own.GJ * bar[3])

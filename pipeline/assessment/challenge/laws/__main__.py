@@ -2,20 +2,23 @@
 
 from __future__ import annotations
 
+from collections.abc import Hashable, Iterator, Sequence
 from pathlib import Path
 from typing import Annotated
 
 import typer
 
 from meshes.files import replacing
-from pipeline.assessment.challenge.laws.cases import CASES
-from pipeline.assessment.challenge.laws.outcome import LawOutcome
+from pipeline.assessment import trials
+from pipeline.assessment.challenge.laws.cases import CASES, Kind
+from pipeline.assessment.challenge.laws.outcome import LawOutcome, law_outcome
 from pipeline.assessment.challenge.laws.page import law_page
 from pipeline.assessment.challenge.laws.score import law_scored
-from pipeline.assessment.challenge.laws.study import run
 from pipeline.progress import Progress
+from pipeline.provenance import code_digest, commit
 
 STORE = Path("reports/challenge/laws_outcomes.jsonl")
+Task = tuple[Kind, int, str, str]
 
 
 def main(
@@ -37,6 +40,15 @@ def main(
         with replacing(out / name) as part:
             part.write_text(text, encoding="utf-8")
     print(f"{result.cases} benches; the score is in {out / 'laws.md'}")
+
+
+def run(cases: Sequence[tuple[Kind, int]], store: Path, workers: int) -> Iterator[LawOutcome]:
+    """The outcomes of these cases, those in the store first; of the code that is here."""
+    here, code = commit(), code_digest()
+    wanted: dict[Hashable, Task] = {(*each, code): (*each, here, code) for each in cases}
+    return trials.run(
+        wanted, law_outcome, LawOutcome, lambda it: (it.kind, it.number, it.code), store, workers
+    )
 
 
 if __name__ == "__main__":

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any
 
 import pytest
 
-from pipeline.assessment.coverage import study as module
-from pipeline.assessment.coverage.study import Task, run, tasks
+from pipeline.assessment.coverage import __main__ as module
+from pipeline.assessment.coverage.__main__ import run, tasks
 from pipeline.assessment.coverage.table import joined, page, study
 from pipeline.assessment.coverage.trial import Trial
 from pipeline.assessment.trials import kept
@@ -72,11 +73,11 @@ def test_a_study_goes_on_where_it_was_stopped(tmp_path: Path, monkeypatch: pytes
     store = tmp_path / "deep" / "trials.jsonl"
     asked: list[int] = []
 
-    def done(task: Task) -> Trial:
+    def done(*task: Any) -> Trial:
         asked.append(task[2])
         return one(task[2], 0.0, steps=task[3])
 
-    monkeypatch.setattr(module, "_one", done)
+    monkeypatch.setattr(module, "trial", done)
     wanted = [task for task in tasks(3, 0, ["modulus_error"]) if task[0] == "there"]
     assert [task[3] for task in wanted] == [24, 8, 8]
     assert len(list(run(wanted[:2], store, 1))) == 2

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from pipeline.assessment.extrapolation.polynomial import polynomial
+from pipeline.assessment.extrapolation.approaches import polynomial
 from pipeline.discrepancy.gaussian import gaussian
 from pipeline.discrepancy.regressors import Samples
 

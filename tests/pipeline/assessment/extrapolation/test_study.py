@@ -62,11 +62,12 @@ def test_a_whole_case_runs_and_is_not_run_again(tmp_path: Path, monkeypatch: pyt
     done: list[Trial] = []
     few = {name: catalogue()[name] for name in (ALWAYS, "modulus_error", "load_offset")}
 
-    def one(task: tuple[int, str, str]) -> Trial:
-        done.append(done[0].model_copy(update={"code": task[2]}) if done else trial(*task, known=few))
+    def one(number: int, commit: str, code: str) -> Trial:
+        again = done[0].model_copy(update={"code": code}) if done else trial(number, commit, code, known=few)
+        done.append(again)
         return done[-1]
 
-    monkeypatch.setattr(module, "_one", one)
+    monkeypatch.setattr(module, "trial", one)
     monkeypatch.setattr(module, "numbers", lambda _: [SMALL])
     (begun,) = run(1, store, 1)
     (again,) = run(1, store, 1)
