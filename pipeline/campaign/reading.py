@@ -6,6 +6,7 @@ from pathlib import Path
 import numpy as np
 
 from pipeline.campaign.description import describe
+from pipeline.campaign.formats import by_suffix
 from pipeline.campaign.head import Description, Draft, SensorNoise
 from pipeline.campaign.long_tests import thinned
 from pipeline.campaign.mapped.assemble import measured as assembled
@@ -25,6 +26,7 @@ from pipeline.campaign.posture_rows import parted
 from pipeline.campaign.rows import data_by_test, measured_of
 from pipeline.campaign.sheet import sheet
 from pipeline.toml.complaints import BadCampaign, Complaints, shown
+from pipeline.typed import command
 
 DESCRIPTION, MEASUREMENTS = "campaign.toml", "measurements.csv"
 LARGEST = {DESCRIPTION: 2**24, MEASUREMENTS: 2**30}
@@ -133,7 +135,8 @@ def _tried(path: Path) -> str | BadCampaign:
         complaints.check()
     except OSError as error:
         missing = isinstance(error, FileNotFoundError)
-        return BadCampaign((f"{path}: {'is missing' if missing else f'cannot be read: {error.strerror}'}",))
+        said = f"is missing{_beside(path)}" if missing else f"cannot be read: {error.strerror}"
+        return BadCampaign((f"{path}: {said}",))
     except BadCampaign as error:
         return error
     return text
@@ -152,10 +155,27 @@ def _readings(
         return found, [f"read as declared: {each}" for each in words], files
     if isinstance(table, BadCampaign):
         raise table
-    frame = sheet(table, (*known_columns(names), *PLACES), complaints)
+    otherwise = _declared(MEASUREMENTS, folder / MEASUREMENTS)
+    frame = sheet(table, (*known_columns(names), *PLACES), complaints, otherwise=otherwise)
     if not {"test", "step"} <= set(frame.columns):
         complaints.check()
     return measured_of(frame, names, complaints), [], [folder / MEASUREMENTS]
+
+
+def _beside(path: Path) -> str:
+    """What to do with other tables in the folder of one that is missing; empty where there is none."""
+    if path.name != MEASUREMENTS or not path.parent.is_dir():
+        return ""
+    others = [it for it in sorted(path.parent.iterdir()) if it.suffix.lower() in by_suffix() and it.is_file()]
+    return f", {others[0].name} lies beside it: {_declared(others[0].name, others[0])}" if others else ""
+
+
+def _declared(name: str, path: Path) -> str:
+    """How a table that is not as the contract has it is read."""
+    return (
+        f'a file as a logger writes it is declared in {DESCRIPTION}, [file] path = "{name}" and [columns]; '
+        f"{command('init', 'NEW', path)} writes both"
+    )
 
 
 def _text(path: Path, largest: int, complaints: Complaints) -> str:

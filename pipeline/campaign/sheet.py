@@ -21,11 +21,16 @@ _DECIMAL_COMMA = re.compile(r"[+-]?\d*,\d+([eE][+-]?\d+)?", re.ASCII)
 
 
 def sheet(
-    text: str, known: tuple[str, ...], complaints: Complaints, needed: tuple[str, ...] = KEYS
+    text: str,
+    known: tuple[str, ...],
+    complaints: Complaints,
+    needed: tuple[str, ...] = KEYS,
+    otherwise: str = "",
 ) -> pd.DataFrame:
     """Cells as text, one row a line, columns named by the header; the index is the line, the header being 1.
 
-    known: the columns that may be there; needed: those that have to be. Rows that are not as wide as the header are
+    known: the columns that may be there; needed: those that have to be. otherwise: what else can be done with a table
+    whose header is not as it has to be. Rows that are not as wide as the header are
     left out with a complaint; BadCampaign where no table can be made.
     """
     source = csv.reader(io.StringIO(text, newline=""), strict=True, skipinitialspace=True)
@@ -35,7 +40,8 @@ def sheet(
     try:
         for cells in source:
             if not header:
-                header = _header([cell.strip() for cell in cells], start, (known, needed), complaints)
+                names = [cell.strip() for cell in cells]
+                header = _header(names, start, (known, needed), complaints, otherwise)
             elif len(cells) == len(header):
                 rows.append(cells)
                 lines.append(start)
@@ -57,14 +63,31 @@ def sheet(
 
 
 def _header(
-    names: list[str], line: int, allowed: tuple[tuple[str, ...], tuple[str, ...]], complaints: Complaints
+    names: list[str],
+    line: int,
+    allowed: tuple[tuple[str, ...], tuple[str, ...]],
+    complaints: Complaints,
+    otherwise: str,
 ) -> list[str]:
     """The header as it is; complaints about every name in it that is not allowed. allowed: names that may be there, and
-    those that have to be."""
+    those that have to be. otherwise: the last of them. BadCampaign for other separators, or where no name is known."""
     known, needed = allowed
     if not any(names):
         return []
-    _is_header(names, line, known, complaints)
+    before = len(complaints.found)
+    stranger = _no_header(names, line, known, complaints)
+    if not stranger:
+        _names(names, line, known, needed, complaints)
+    if otherwise and len(complaints.found) > before:
+        complaints.add("", otherwise, line)
+    if stranger:
+        complaints.check()
+    return names
+
+
+def _names(
+    names: list[str], line: int, known: tuple[str, ...], needed: tuple[str, ...], complaints: Complaints
+) -> None:
     for k, name in enumerate(names):
         if not name:
             complaints.add("", f"column {k + 1} has no name", line)
@@ -75,21 +98,21 @@ def _header(
     for key in needed:
         if key not in names:
             complaints.add(f"column {key}", "is missing", line)
-    return names
 
 
-def _is_header(names: list[str], line: int, known: tuple[str, ...], complaints: Complaints) -> None:
-    """BadCampaign for other separators, or where no name is known."""
+def _no_header(names: list[str], line: int, known: tuple[str, ...], complaints: Complaints) -> bool:
+    """Whether cells are separated by something else, or no name is known; that is said."""
     if len(names) <= 2:
         for mark, called in ((";", "semicolons"), ("\t", "tabs")):
             if mark in "".join(names):
                 said = f"cells are separated by {called}, allowed are commas, with a point in decimal numbers"
                 complaints.add("", said, line)
-                complaints.check()
+                return True
     if not set(names) & set(known):
         said = f"is no header: it has none of the column names {', '.join(known)}"
         complaints.add("", said, line)
-        complaints.check()
+        return True
+    return False
 
 
 def numbers(frame: pd.DataFrame, column: str, complaints: Complaints) -> Array:

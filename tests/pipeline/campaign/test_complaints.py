@@ -129,7 +129,10 @@ def test_another_unit_is_refused_and_never_guessed(name: str, tmp_path: Path) ->
     rows = CSV.splitlines()
     csv = "\n".join([f"{rows[0]},{name}", *(f"{row},0.0" for row in rows[1:])])
     error = refused(laid(tmp_path, csv=csv))
-    assert len(error.complaints) == 1
+    # One complaint, and what else can be done with such a table.
+    assert len(error.complaints) == 2 and error.complaints[1].endswith(
+        f"init NEW {tmp_path / 'measurements.csv'} writes both"
+    )
     said = error.complaints[0].removeprefix(f"{tmp_path / 'measurements.csv'} line 1, column {name}: ")
     assert said.startswith(HEADERS[name]) or (name in ("colour", "temprature_C") and HEADERS[name] in said), (
         said
@@ -174,7 +177,8 @@ def test_measurements_are_refused_with_a_sentence(name: str, tmp_path: Path) -> 
 def test_other_separators_are_one_sentence(tmp_path: Path) -> None:
     for mark, named in ((";", "semicolons"), ("\t", "tabs")):
         error = refused(laid(tmp_path, csv=CSV.replace(".", ",").replace(",", mark)))
-        assert len(error.complaints) == 1 and f"line 1: cells are separated by {named}" in str(error)
+        first, otherwise = error.complaints
+        assert f"line 1: cells are separated by {named}" in first and "init NEW" in otherwise
 
 
 def test_temperature_needs_its_reference(tmp_path: Path) -> None:
@@ -206,7 +210,9 @@ FILES = {
 def test_what_is_no_table_is_refused(name: str, tmp_path: Path) -> None:
     content, said = FILES[name]
     error = refused(laid(tmp_path, csv=content))
-    assert len(error.complaints) == 1 and said in str(error)
+    strange = "header" in name and name != "header only"
+    assert len(error.complaints) == 1 + strange and said in str(error)
+    assert ("init NEW" in error.complaints[-1]) == strange
 
 
 def test_missing_files_and_folders_are_named(tmp_path: Path) -> None:
@@ -214,6 +220,12 @@ def test_missing_files_and_folders_are_named(tmp_path: Path) -> None:
         "campaign.toml: is missing",
         "measurements.csv: is missing",
     ]
+    (tmp_path / "readings.xlsx").touch()
+    (said,) = [s for s in refused(tmp_path).complaints if "measurements.csv" in s]
+    assert (
+        "measurements.csv: is missing, readings.xlsx lies beside it: " in said
+        and '[file] path = "readings.xlsx"' in said
+    )
     (tmp_path / "campaign.toml").mkdir()
     assert "cannot be read: Is a directory" in str(refused(tmp_path))
     assert "does not exist, allowed is a folder with campaign.toml" in str(refused(tmp_path / "nowhere"))
