@@ -8,7 +8,7 @@ the constant stiffness; those that promise anything are fitted.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -30,6 +30,7 @@ from pipeline.selection.cost import misfit
 from pipeline.selection.criteria import Criteria
 from pipeline.selection.faulty_sensor import least_with_a_fault
 from pipeline.selection.first_order import FirstOrder, first_order
+from pipeline.selection.first_order_costs import estimates
 from pipeline.selection.fit_cache import FitCache, Names
 from pipeline.selection.mistakes import possible
 from pipeline.selection.mistakes.base import Mistake, columns_of, with_readings
@@ -44,11 +45,12 @@ Array = NDArray[np.float64]
 @dataclass(frozen=True)
 class Suspicion:
     """A mistake that explains most. before, after: chi-square that is left with the best single effect, without and
-    with it mended."""
+    with it mended. beside: the set with that effect, with it mended."""
 
     mistake: Mistake
     before: float
     after: float
+    beside: Names
 
 
 def suspicions(cache: FitCache) -> tuple[Suspicion, ...]:
@@ -79,6 +81,9 @@ def suspicions(cache: FitCache) -> tuple[Suspicion, ...]:
         enough = criteria.doctor_factor * max(it.after for it in found) / share
         kinked = _least_with_kinks(cache, table.root, enough) * share
         found = [it for it in found if it.after * criteria.doctor_factor <= kinked]
+        # A table may be right and the rig lack two effects: neither alone explains most.
+        two = table.left_by_two({it.beside for it in found})
+        found = [it for it in found if it.after * criteria.doctor_factor <= two]
     # A factor that silences a column leaves less than noise: that explains no more than noise does.
     least = max(min((it.after for it in found), default=0.0), noise)
     kept = [it for it in found if it.after < least + criteria.doctor_tie * least / noise]
@@ -177,6 +182,18 @@ class Table:
         best = min(sets, key=lambda names: misfit(cache, names))
         return misfit(cache, best), best
 
+    def left_by_two(self, singles: Iterable[Names]) -> float:
+        """What the best two effects leave, one of them that of these sets: of the second ones those that promise most,
+        fitted. The best single effect, where that leaves less."""
+        cache = self.cache
+        least = self.left[0]
+        for single in singles:
+            more = [each.names for each in estimates(cache, single, (1,)) if each.names != single]
+            some = more[: cache.criteria.doctor_effects]
+            cache.fit_all({names: {} for names in some})
+            least = min([least, *(misfit(cache, names) for names in some)])
+        return least
+
     def mended(self, mistake: Mistake) -> Table:
         """The table without a mistake, with the sigmas that its scatter then allows."""
         cache = self.cache
@@ -209,7 +226,7 @@ def _found(table: Table, promising: list[Mistake], fault: float) -> list[Suspici
         if far or not _shows(mended, mistake) or mended.left[0] * criteria.doctor_factor > before:
             continue
         if _explained(mended.cache.fit(mended.left[1]), mistake, criteria):
-            out.append(Suspicion(mistake, before, mended.left[0]))
+            out.append(Suspicion(mistake, before, *mended.left))
     return out
 
 

@@ -17,7 +17,7 @@ from pipeline.inference.load_cases import LoadCases
 from pipeline.selection.adequacy.bad_readings import bad_readings
 from pipeline.selection.adequacy.judgement import judge
 from pipeline.selection.adequacy.untested import untested
-from pipeline.selection.cost import cost
+from pipeline.selection.cost import cost, misfit, price
 from pipeline.selection.faulty_sensor import has_one_fault, with_promising_faults
 from pipeline.selection.fit_cache import FitCache, Names
 from pipeline.selection.reading_noise import AS_DECLARED, Readings
@@ -111,5 +111,8 @@ def _readings(it: Chosen, before: Readings, given: LoadCases) -> Readings:
     for names in sorted((n for n in cache.fits if n < best), key=len):
         new = before.again(cache.fit(names), given, criteria)
         if new.bad and new.leaves_noise(cache.fit(names), given, criteria):
-            return new
+            # A play or a friction shows most at a turn: what it explains beside that is no bad reading.
+            alone = sum(b.sigmas**2 for b in new.bad if b not in before.bad)
+            if misfit(cache, names) - misfit(cache, best) - alone < price(cache, best - names):
+                return new
     return before.again(it.decision.fit, given, criteria)

@@ -16,7 +16,7 @@ from pipeline.selection.exclusion import possible
 from pipeline.selection.fit_cache import FitCache, Names
 from pipeline.selection.rivals import Found
 from pipeline.selection.search import first_root, search, search_one_by_one
-from pipeline.selection.sensor_faults import plain_zero
+from pipeline.selection.sensor_faults import more_than_zero, plain_zero
 from pipeline.selection.verdict import Decision, ruled
 
 
@@ -36,16 +36,25 @@ def chosen(cache: FitCache, attempts: Attempts, alone: bool = False, begun: Sequ
     if why := untested(before):
         found = Found(cache, frozenset(), ())
         return Chosen(found, Decision("nothing_tested", (frozenset(),), before), why)
-    if plain_zero(before, cache.criteria):
-        found = search_one_by_one(cache, frozenset())
-    elif alone:
-        cache.ends = np.inf
-        found = search_one_by_one(cache, first_root(cache), begun)
-    else:
-        found = _with_what_held_out_tests_need(search(cache, begun))
+    found = _zero_alone(before, cache) or _in_depth(cache, alone, begun)
     judgement = judge(cache.fit(found.best), cache.criteria)
     cache.on_progress("what else could explain it")
     return Chosen(found, ruled(found, judgement, attempts))
+
+
+def _zero_alone(before: Fit, cache: FitCache) -> Found | None:
+    """What single effects explain, where a sensor's zero explains far more; None where it does not."""
+    if not plain_zero(before, cache.criteria):
+        return None
+    found = search_one_by_one(cache, frozenset())
+    return None if more_than_zero(before, cache.fit(found.best), cache.criteria) else found
+
+
+def _in_depth(cache: FitCache, alone: bool, begun: Sequence[Names]) -> Found:
+    if alone:
+        cache.ends = np.inf
+        return search_one_by_one(cache, first_root(cache), begun)
+    return _with_what_held_out_tests_need(search(cache, begun))
 
 
 def _with_what_held_out_tests_need(found: Found) -> Found:

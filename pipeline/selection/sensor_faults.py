@@ -77,6 +77,13 @@ def plain_zero(found: Fit, criteria: Criteria) -> bool:
     )
 
 
+def more_than_zero(before: Fit, single: Fit, criteria: Criteria) -> bool:
+    """Whether a single effect leaves as little as the plainest zero does, within the factor from which that is asked
+    about: a length that differs from the drawing moves one channel in every test as well."""
+    left = before.chi_square - zeros(before, criteria)[0].gain
+    return single.chi_square <= criteria.zero_factor * left
+
+
 def _plainer(fit: Fit, zero: Zero, criteria: Criteria) -> bool:
     """Whether another fault of a sensor explains more than a zero."""
     return any(pattern.score**2 > zero.gain for pattern in scores(fit, criteria)[:1])
