@@ -14,7 +14,9 @@ def test_the_studio_imports_no_numerical_library() -> None:
     assert not [name for name in found if name.split(".")[0] in ("numpy", "scipy", "fem", "vjm", "pandas")]
     # Whatever it asks of a model goes through the two commands and the page.
     asked = {
-        name for name in found if name.startswith(("pipeline.add", "pipeline.diagnose", "pipeline.inference"))
+        name
+        for name in found
+        if name.startswith(("pipeline.add", "pipeline.selection", "pipeline.inference"))
     }
     assert {"pipeline.add.fitting", "pipeline.selection.diagnosis"} <= asked
     assert not [
