@@ -1,9 +1,9 @@
 """Which discrete mistake of a table explains most of a misfit: asked before any physics.
 
 A mistake is told where, with the best single effect on both sides (its numbers as implausible as they are), what is
-left falls by a factor, and where the columns it is in are then explained by the model: a factor that only silences a
-column explains nothing. Of all mistakes a first-order look is taken, with the differences of what is prescribed through
-the constant stiffness; those that promise anything are fitted.
+left falls by a factor, where no two effects explain the table as it is as well, and where the columns it is in are then
+explained by the model: a factor that only silences a column explains nothing. Of all mistakes a first-order look is
+taken, with the differences of what is prescribed through the constant stiffness; those that promise much are fitted.
 """
 
 from __future__ import annotations
@@ -138,7 +138,7 @@ class Table:
 
     def first_order_of(self, found: Fit) -> float:
         """The same of a fit of a table that is like this one."""
-        here = self._first_order_picture(found)
+        here = self._first_order_about(found)
         gains = [here.gain([name]).value for name in here.signatures if self._allowed(here, name)]
         return max(found.chi_square - max(gains, default=0.0), 0.0)
 
@@ -146,11 +146,11 @@ class Table:
     def leaves_bounds(self) -> bool:
         """Whether an effect would explain most with a number beyond its bounds, to first order: what it does within
         them only a fit can tell."""
-        here = self._first_order_picture(self.fit)
+        here = self._first_order_about(self.fit)
         gains = {name: here.gain([name]).value for name in here.signatures}
         return bool(gains) and not self._allowed(here, max(gains, key=gains.__getitem__))
 
-    def _first_order_picture(self, found: Fit) -> FirstOrder:
+    def _first_order_about(self, found: Fit) -> FirstOrder:
         known = self.cache.first_order(self.root).signatures
         return first_order(found, list(known.values()), self.cache.at, {}, self.cache.criteria.plausible)
 

@@ -23,6 +23,13 @@ def test_small_cases_are_answered_as_they_were(kind: Kind, effect: str, least: f
     assert outcome(first(kind, effect, least), "", "").score == score
 
 
+@pytest.mark.long
+@pytest.mark.parametrize("number", [249, 274, 286, 346, 474])
+def test_what_looks_like_a_mistake_of_the_table_is_named(number: int) -> None:
+    """A length beside a second effect is no zero of a sensor, and what a play does at a turn is no bad reading."""
+    assert outcome(number, "", "").score == "right"
+
+
 def test_a_bench_without_a_state_is_an_answer_less_and_no_end(monkeypatch: pytest.MonkeyPatch) -> None:
     def breaks(*_: object) -> None:
         raise RuntimeError("the bench finds no state")
