@@ -40,14 +40,19 @@ SEEN = 5.0
 
 @dataclass(frozen=True, eq=False)
 class LawTruth:
-    """A law as it was: name of its class, the law placed, sigmas by which it alone shows in the fitted tests, and the
-    largest coordinate and force that it met there."""
+    """A law as it was: name of its class, the law placed, what it alone does to the fitted tests, (N,) in sigmas, and
+    the largest coordinate and force that it met there."""
 
     name: str
     placed: Placed
-    mu: float
+    shown: Array
     coordinate: float
     force: float
+
+    @property
+    def mu(self) -> float:
+        """Sigmas by which it alone shows in the fitted tests."""
+        return float(np.linalg.norm(self.shown))
 
     @property
     def visible(self) -> bool:
@@ -133,7 +138,7 @@ def _brought(
             def make(size: float, site: str = site, reach: float = reach) -> Placed:
                 return placed_at(hidden, site, reach, size)
 
-            placed, found, mu = sized(make, hidden.mu, scale, true, unit_of(site))
+            placed, found, shown = sized(make, hidden.mu, scale, true, unit_of(site))
         except OutOfSight as error:
             last = error
             continue
@@ -141,7 +146,7 @@ def _brought(
         coordinate, force = (
             max(float(np.abs(getattr(it, what)).max()) for it in met) for what in ("coordinate", "force")
         )
-        return LawTruth(hidden.name, placed, mu, coordinate, force), found
+        return LawTruth(hidden.name, placed, shown, coordinate, force), found
     raise last
 
 

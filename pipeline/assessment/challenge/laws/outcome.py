@@ -11,11 +11,12 @@ import numpy as np
 
 from pipeline.assessment.challenge.cases import ALWAYS
 from pipeline.assessment.challenge.laws.cases import Kind, LawCase, clean_case, law_case, pair_case
-from pipeline.assessment.challenge.laws.measured import SEEN, LawTruth, Truth, measured
+from pipeline.assessment.challenge.laws.measured import SEEN, Truth, measured
 from pipeline.assessment.challenge.laws.names import FORMS, same_physics
 from pipeline.assessment.extrapolation.correction import corrected
 from pipeline.campaign import Campaign
 from pipeline.discover.beyond_catalogue import looked
+from pipeline.discover.evidence import Rest
 from pipeline.discover.search import Added, Discovery, Law, discover
 from pipeline.discrepancy.gaussian import gaussian
 from pipeline.inference.fit import unfitted
@@ -42,6 +43,8 @@ class HiddenLaw(Record):
     law: str
     mu: float
     """Sigmas by which it shows in the fitted tests."""
+    told: float = 0.0
+    """Sigmas by which it shows beside all that the tolerances of the bench explain: no method tells it by more."""
     forms: tuple[str, ...]
     """Names of the forms that are the same law or hold it; none where there is none."""
 
@@ -96,6 +99,11 @@ class LawOutcome(Record):
         return min((law.mu for law in self.hidden), default=0.0)
 
     @property
+    def told_by(self) -> float:
+        """The least size beside the tolerances, 0 where nothing is hidden."""
+        return min((law.told for law in self.hidden), default=0.0)
+
+    @property
     def right(self) -> tuple[bool, ...]:
         """Of each hidden law, whether its site is in a group."""
         return tuple(any(law.site in place.group for place in self.found) for law in self.hidden)
@@ -127,7 +135,7 @@ def law_outcome(kind: Kind, number: int, commit: str, code: str, diagnosing: boo
     common |= {
         "poor": truth.case.poor,
         "dirt": truth.case.dirt.words,
-        "hidden": tuple(_hidden(law) for law in truth.laws),
+        "hidden": hidden_laws(truth, campaign),
     }
     try:
         began = process_time()
@@ -153,8 +161,28 @@ def discovered(campaign: Campaign) -> Discovery:
     return discover(load_cases(replace(campaign, tests=fitted)), Model(), effects)
 
 
-def _hidden(law: LawTruth) -> HiddenLaw:
-    return HiddenLaw(site=law.placed.site, law=law.name, mu=law.mu, forms=FORMS.get(law.name, ()))
+def _reference(campaign: Campaign) -> Rest:
+    """What the plain model with bars that bend far leaves of the fitted tests, with the tolerances beside it."""
+    fitted = tuple(test for test in campaign.tests if test.role == "fit")
+    cases = load_cases(replace(campaign, tests=fitted))
+    return Rest.of(unfitted(Model().with_effects([catalogue()[ALWAYS]]), cases).residual)
+
+
+def hidden_laws(truth: Truth, campaign: Campaign) -> tuple[HiddenLaw, ...]:
+    """What was hidden in a campaign, and by how much it shows there."""
+    if not truth.laws:
+        return ()
+    reference = _reference(campaign)
+    return tuple(
+        HiddenLaw(
+            site=law.placed.site,
+            law=law.name,
+            mu=law.mu,
+            told=float(np.linalg.norm(reference.weakened(reference.seen(law.shown)))),
+            forms=FORMS.get(law.name, ()),
+        )
+        for law in truth.laws
+    )
 
 
 def _judged(found: Discovery, campaign: Campaign, truth: Truth) -> dict[str, Any]:

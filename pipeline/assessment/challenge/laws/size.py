@@ -112,8 +112,8 @@ def placed_at(hidden: Hidden, site: str, reach: float, size: float) -> Placed:
 
 def sized(
     make: Callable[[float], Placed], mu: float, scale: Scale, true: ParallelogramRig, unit: str
-) -> tuple[Placed, list[Readings], float]:
-    """The law at the size where it shows by mu sigmas, the exact readings with it, and by how much it shows.
+) -> tuple[Placed, list[Readings], Array]:
+    """The law at the size where it shows by mu sigmas, the exact readings with it, and (N,) what it does to them.
 
     By the secant of the logarithms, within `WITHIN`. OutOfSight where no size does.
     """
@@ -126,9 +126,10 @@ def sized(
         except RuntimeError:
             most, size = size, size / 3.0
             continue
-        shown = float(np.linalg.norm(scale.signature(found)))
+        signature = scale.signature(found)
+        shown = float(np.linalg.norm(signature))
         if abs(shown / mu - 1.0) < WITHIN:
-            return law, found, shown
+            return law, found, signature
         known.append((float(np.log(size)), float(np.log(max(shown, 1e-12) / mu))))
         size = _next(known, most)
     raise OutOfSight(f"no size of {law.site} shows by {mu:.3g} sigmas")

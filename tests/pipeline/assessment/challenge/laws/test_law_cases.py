@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from collections import Counter
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -24,15 +25,23 @@ from pipeline.assessment.challenge.laws.cases import (
     pair_case,
 )
 from pipeline.assessment.challenge.laws.measured import Truth, measured
+from pipeline.assessment.challenge.laws.outcome import hidden_laws
 from pipeline.assessment.challenge.laws.shapes import GRAMMAR, OUTSIDE, SMOOTH_LAWS
 from pipeline.assessment.challenge.outcome import campaign_of, shows
 from pipeline.assessment.virtual.bench import true_readings
 from pipeline.assessment.virtual.plan import GAUGES
 from pipeline.campaign import Campaign
 from pipeline.campaign.tolerance import usual
+from pipeline.discover.evidence import Rest
+from pipeline.inference.fit import unfitted
+from pipeline.inference.load_cases import load_cases
+from pipeline.inference.model import Model
+from vjm.effects import catalogue
 
 ONE_ANGLE = 30
 """A case of few tests: friction in hinges, at one angle."""
+ALONG = 45
+"""A case of a law along the bars."""
 LAWS = [law_case(number) for number in range(CASES["law"])]
 PAIRS = [pair_case(number) for number in range(CASES["pair"])]
 
@@ -106,6 +115,24 @@ def test_a_law_shows_by_as_many_sigmas_as_were_drawn(found: tuple[Campaign, Trut
     assert mu == pytest.approx(truth.case.laws[0].mu, rel=0.05)
     assert law.mu == pytest.approx(mu, rel=1e-6)
     assert law.visible
+
+
+@pytest.mark.long
+def test_tolerances_explain_little_of_a_friction_and_much_of_what_is_along_the_bar(
+    found: tuple[Campaign, Truth],
+) -> None:
+    (friction,) = hidden_laws(found[1], found[0])
+    assert 0.9 * friction.mu < friction.told <= friction.mu
+    campaign, truth = measured(law_case, ALONG)
+    (along,) = hidden_laws(truth, campaign)
+    # By a closed form without decompositions: abs(s)² less what the tolerances explain, with their price.
+    fitted = replace(campaign, tests=tuple(test for test in campaign.tests if test.role == "fit"))
+    plain = Model().with_effects([catalogue()["bar_geometric_nonlinearity"]])
+    g = Rest.of(unfitted(plain, load_cases(fitted)).residual).tolerance
+    s = truth.laws[0].shown
+    u = np.linalg.solve(np.eye(g.shape[1]) + g.T @ g, g.T @ s)
+    assert along.told == pytest.approx(np.sqrt(np.sum((s - g @ u) ** 2) + u @ u), rel=1e-6)
+    assert along.told < 0.3 * along.mu
 
 
 def test_what_is_written_is_the_truth_with_noise(found: tuple[Campaign, Truth]) -> None:

@@ -18,7 +18,7 @@ from pipeline.provenance import code_digest
 from vjm.effects import catalogue
 from vjm.forms import forms
 
-CUBIC = HiddenLaw(site="along@tip", law="Cubic", mu=40.0, forms=("cubic", "linear+cubic"))
+CUBIC = HiddenLaw(site="along@tip", law="Cubic", mu=40.0, told=20.0, forms=("cubic", "linear+cubic"))
 
 
 def made(number: int, **more: Any) -> LawOutcome:
@@ -53,7 +53,9 @@ def test_a_score_counts_what_it_says() -> None:
         made(0, found=(place("along", "along@tip"),), held_out=(1.0, 1.2), excess=0.1, excess_of_process=1.0),
         made(1, found=(place("tilt_x"),), verdict="identified", wrong_names=("base_compliance",)),
         made(
-            2, hidden=(CUBIC.model_copy(update={"mu": 20.0}),), found=(place("along@tip", forms=("power",)),)
+            2,
+            hidden=(CUBIC.model_copy(update={"mu": 20.0, "told": 3.0}),),
+            found=(place("along@tip", forms=("power",)),),
         ),
         made(3, kind="pair", hidden=(CUBIC, CUBIC), found=(place("along@tip"), place("base_x"))),
         made(4, kind="clean", hidden=()),
@@ -63,6 +65,7 @@ def test_a_score_counts_what_it_says() -> None:
     goals = {goal.name: (goal.share.count, goal.share.of) for goal in law_scored(every).goals}
     assert goals["place or its group right, from 30 sigmas"] == (1, 2)
     assert goals["place or its group right, 15 to 30 sigmas"] == (1, 1)
+    assert goals["place or its group right, 15 sigmas beside tolerances"] == (1, 2)
     assert goals["form among the ties, place right"] == (1, 2)
     assert goals["held out at most 1.15, form known"] == (1, 2)
     assert goals["wrong names of the catalogue"] == (1, 1)
@@ -72,8 +75,8 @@ def test_a_score_counts_what_it_says() -> None:
     result = law_scored(every)
     assert result.excess == pytest.approx(0.1)
     text = law_page(result)
-    assert "| law 0 | Cubic along@tip 40 | along (+1) linear+cubic | right | 1.10 |" in text
-    assert "| law 1 | Cubic along@tip 40 | tilt_x linear+cubic | other | – | identified" in text
+    assert "| law 0 | Cubic along@tip 40 (20) | along (+1) linear+cubic | right | 1.10 |" in text
+    assert "| law 1 | Cubic along@tip 40 (20) | tilt_x linear+cubic | other | – | identified" in text
     assert "clean 4" not in text and "| clean 5 |" in text
 
 
