@@ -1,28 +1,14 @@
-"""Sites, forms and thresholds of laws beyond the catalogue."""
+"""Sites and forms of laws beyond the catalogue."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
 
 from docs.made.lists import rows
-from pipeline.discover import criteria
 from pipeline.discover.sites import SEEN
+from pipeline.selection.criteria import CRITERIA
 from vjm.forms import forms
 from vjm.law_sites import SITE_KINDS
-
-_THRESHOLDS = {
-    "proposed": criteria.PROPOSED,
-    "left out": criteria.LEFT_OUT,
-    "alike": criteria.ALIKE,
-    "alike share in percent": 100.0 * criteria.ALIKE_SHARE,
-    "seen": SEEN,
-    "few tests": criteria.FEW_TESTS,
-    "laws": criteria.LAWS,
-    "beyond": criteria.BEYOND,
-    "unknown beyond": criteria.UNKNOWN_BEYOND,
-    "preferred": criteria.PREFERRED,
-    "several": criteria.SEVERAL,
-}
 
 
 def sites() -> str:
@@ -49,6 +35,9 @@ def form_table() -> str:
     return rows(("form", "in words", "equation", "where", "remembers"), lines)
 
 
-PIECES: dict[str, Callable[[], str]] = {"law sites": sites, "law forms": form_table}
-for _name, _value in _THRESHOLDS.items():
-    PIECES[f"law threshold {_name}"] = lambda value=_value: f"{value:g}"  # type: ignore[misc]
+PIECES: dict[str, Callable[[], str]] = {
+    "law sites": sites,
+    "law forms": form_table,
+    "law site seen": lambda: f"{SEEN:g}",
+    "law_alike_share in percent": lambda: f"{100.0 * CRITERIA.law_alike_share:g}",
+}

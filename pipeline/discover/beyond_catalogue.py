@@ -19,7 +19,6 @@ import numpy as np
 
 from pipeline.attempt import Attempts
 from pipeline.callbacks import OnProgress
-from pipeline.discover import criteria
 from pipeline.discover.elements import NoSites
 from pipeline.discover.locating import mapped
 from pipeline.discover.record import Discovered
@@ -31,6 +30,7 @@ from pipeline.inference.model import Model
 from pipeline.selection.adequacy.bad_readings import set_aside
 from pipeline.selection.adequacy.judgement import judge
 from pipeline.selection.cost import misfit, root_of, taken
+from pipeline.selection.criteria import CRITERIA
 from pipeline.selection.diagnosis import Diagnosis
 from pipeline.selection.fit_cache import Names
 
@@ -89,7 +89,7 @@ def _with_laws(it: Diagnosis, on_progress: OnProgress) -> Looked:
 def _competing(it: Diagnosis, best: Names, on_progress: OnProgress) -> Looked:
     """A set of effects against what laws explain without it. One effect alone mimics no law as well as that explains
     itself: it competes only where it leaves a pattern, and gives way only to what is better."""
-    several = len(best - root_of(it.cache, best)) >= criteria.SEVERAL
+    several = len(best - root_of(it.cache, best)) >= CRITERIA.law_several
     on_progress("whether a law explains as much")
     if not (_leaves_a_pattern(it, best) or (several and _may_compete(it, best))):
         return it, None
@@ -100,11 +100,11 @@ def _competing(it: Diagnosis, best: Names, on_progress: OnProgress) -> Looked:
     behind = law.cost - min(_cost_of_set(it, names) for names in map(frozenset, it.sets))
     if any(each.ways[0].formed.form.kinked for each in found.laws):
         # Where each row chooses its side of a gap that takes up noise: it is never better than a set by that alone.
-        behind = max(behind, -criteria.ALIKE)
-    if behind > (criteria.ALIKE if several else -criteria.ALIKE):
+        behind = max(behind, -CRITERIA.law_alike)
+    if behind > (CRITERIA.law_alike if several else -CRITERIA.law_alike):
         return it, found
     told = _told(found, law)
-    if behind >= -criteria.ALIKE:
+    if behind >= -CRITERIA.law_alike:
         decision = replace(it.decision, verdict="ambiguous", law=told)
     else:
         decision = replace(
@@ -121,7 +121,7 @@ def _leaves_a_pattern(it: Diagnosis, best: Names) -> bool:
     found = fitted_to(it.cache.fit(best).model, _fitted(it))
     sizes = it.cache.criteria.plausible * np.array([abs(f.parameter.typical) for f in found.model.free])
     own = found.residual.without_zeros(found.residual.slopes) * sizes
-    return mapped(found, it.cache.candidates, own).best >= criteria.LEFT_BY_SET
+    return mapped(found, it.cache.candidates, own).best >= CRITERIA.law_left_by_set
 
 
 def _may_compete(it: Diagnosis, best: Names) -> bool:
@@ -130,7 +130,7 @@ def _may_compete(it: Diagnosis, best: Names) -> bool:
     without = it.cache.fit(root_of(it.cache, best))
     seen = mapped(fitted_to(without.model, _fitted(it)), it.cache.candidates)
     gained = without.chi_square - misfit(it.cache, best)
-    return 2.0 * criteria.LAW_GAINS * seen.best + criteria.LAW_MORE >= gained
+    return 2.0 * CRITERIA.law_gains * seen.best + CRITERIA.law_gains_more >= gained
 
 
 @dataclass(frozen=True)

@@ -9,7 +9,6 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from pipeline.discover import criteria
 from pipeline.discover.bases import basis_of, unloaded
 from pipeline.discover.bodies import Body, bodies, weighed
 from pipeline.discover.elements import Element, elements
@@ -86,7 +85,7 @@ def mapped(
     if freed:
         rest = replace(rest, tolerance=np.hstack([rest.tolerance, *freed]))
     plain = _mapped(found, effects, every, rest)
-    if max(plain.best, plain.body.value if plain.body else 0.0) < criteria.PROPOSED:
+    if max(plain.best, plain.body.value if plain.body else 0.0) < CRITERIA.law_proposed:
         return plain
     there = without_best(plain)
     sensors = correlated(there, CRITERIA)

@@ -10,7 +10,6 @@ from pipeline.answer.record import ModelError, SetAside
 from pipeline.answer.summary import error_of
 from pipeline.answer.value import Value
 from pipeline.attempt import Attempts
-from pipeline.discover import criteria
 from pipeline.discover.record import Discovered, Entered
 from pipeline.discover.search import Added, Discovery, Law
 from pipeline.discover.shape import band, described
@@ -21,6 +20,7 @@ from pipeline.inference.load_cases import LoadCases
 from pipeline.inference.model import Model
 from pipeline.parameter_names import path_of
 from pipeline.provenance import commit, versions
+from pipeline.selection.criteria import CRITERIA
 from vjm.law_sites import SITE_KINDS, SiteKind
 
 Array = NDArray[np.float64]
@@ -149,7 +149,7 @@ def _tie(way: Through, chosen: Through, step: Law) -> Tie:
 def beyond(way: Through, other: Through, step: Law) -> float:
     """Sigmas by which two forms foretell otherwise at 1.5 times the largest coordinate, on the way there from rest, at
     the load step that shows the site best."""
-    ends = np.array([-1.0, 1.0]) * criteria.BEYOND * way.formed.largest
+    ends = np.array([-1.0, 1.0]) * CRITERIA.law_beyond * way.formed.largest
     off = 0.0
     for end in ends:
         along = np.linspace(0.0, end, POINTS)

@@ -13,7 +13,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pipeline.callbacks import OnProgress
-from pipeline.discover import criteria
 from pipeline.discover.bodies import Body, started
 from pipeline.discover.elements import elements
 from pipeline.discover.evidence import Evidence, Rest
@@ -26,6 +25,7 @@ from pipeline.inference.fit import Fit, fit, unfitted
 from pipeline.inference.load_cases import LoadCases, load_cases
 from pipeline.inference.model import Model
 from pipeline.selection.adequacy.bad_readings import BadReading
+from pipeline.selection.criteria import CRITERIA
 from vjm.effects.base import Effect
 
 Array = NDArray[np.float64]
@@ -74,7 +74,7 @@ class Added:
     @property
     def sites(self) -> tuple[Located, ...]:
         """Those at which a law explains as much."""
-        return tuple(it for it in self.map.sites if it.value >= self.body.value - criteria.ALIKE)
+        return tuple(it for it in self.map.sites if it.value >= self.body.value - CRITERIA.law_alike)
 
 
 @dataclass(frozen=True, eq=False)
@@ -122,7 +122,7 @@ def discover(
     while True:
         on_progress("where the rest sits")
         seen = mapped(here, effects, known=[step.group[0] for step in steps if isinstance(step, Law)])
-        new = beside(seen) if rounds < criteria.SETTLED else Beside()
+        new = beside(seen) if rounds < CRITERIA.law_rounds else Beside()
         settled = new.applied(cases.campaign)
         if settled is not None:
             on_progress("with the readings as they are")
@@ -132,7 +132,7 @@ def discover(
             here = begin if not steps else fitted_to(here.model, cases)
             continue
         step = _step(seen, cases, len(steps) + 1, on_progress)
-        if step is None or len(steps) >= criteria.LAWS:
+        if step is None or len(steps) >= CRITERIA.laws_at_most:
             return Discovery(given, begin, tuple(steps), here, seen, step is None, tuple(bad))
         steps.append(step)
         if isinstance(step, Added):
@@ -156,13 +156,13 @@ def _begin(cases: LoadCases, model: Model, effects: Mapping[str, Effect]) -> tup
 def _step(seen: Map, cases: LoadCases, number: int, on_progress: OnProgress) -> Law | Added | None:
     """What is proposed next; None where nothing is."""
     body = seen.body
-    if body is not None and body.value >= seen.best - criteria.ALIKE:
-        if body.value < criteria.PROPOSED:
+    if body is not None and body.value >= seen.best - CRITERIA.law_alike:
+        if body.value < CRITERIA.law_proposed:
             return None
         root = body.scale * np.eye(body.columns.shape[1])
         explained = body.columns @ body.weights
         return Added(seen, body) if _gained(seen.rest, body.columns, root, explained)[1] else None
-    if seen.best < criteria.PROPOSED:
+    if seen.best < CRITERIA.law_proposed:
         return None
     group, gains = _proposed(seen)
     if not group:
@@ -184,7 +184,7 @@ def _step(seen: Map, cases: LoadCases, number: int, on_progress: OnProgress) -> 
 def _proposed(seen: Map) -> tuple[tuple[Located, ...], Array]:
     """The sites that are not told apart from the best, those first at which a function stands without the test that
     speaks for it most, and the gains of the first; none where there is no such site."""
-    group = seen.group(max(criteria.ALIKE, criteria.ALIKE_SHARE * seen.best))
+    group = seen.group(max(CRITERIA.law_alike, CRITERIA.law_alike_share * seen.best))
     told = {it.site.name: _gained_at(seen, it.evidence) for it in group}
     enough = _coarsest_first(tuple(it for it in group if told[it.site.name][1]))
     if not enough:
@@ -199,9 +199,9 @@ def _gained_at(seen: Map, it: Evidence) -> tuple[Array, bool]:
 
 def _gained(rest: Rest, columns: Array, root: Array, explained: Array) -> tuple[Array, bool]:
     """Gains of parts that were left out, and whether they are enough without the best of them."""
-    few = rest.seen_in(explained) < criteria.FEW_TESTS
-    gains = rest.gains(columns, root, rest.parts(criteria.BLOCKS if few else 1))
-    return gains, bool(gains.sum() - gains.max(initial=0.0) >= criteria.LEFT_OUT)
+    few = rest.seen_in(explained) < CRITERIA.law_few_tests
+    gains = rest.gains(columns, root, rest.parts(CRITERIA.law_blocks if few else 1))
+    return gains, bool(gains.sum() - gains.max(initial=0.0) >= CRITERIA.law_left_out)
 
 
 def _coarsest_first(group: tuple[Located, ...]) -> tuple[Located, ...]:
@@ -222,7 +222,7 @@ def _is_column(it: Located) -> bool:
 
 def _unexplained(seen: Map) -> float:
     """Chi-square from which a law leaves as much as the model without it: none is there."""
-    return seen.found.chi_square - criteria.PROPOSED
+    return seen.found.chi_square - CRITERIA.law_proposed
 
 
 def _ways(
@@ -232,7 +232,7 @@ def _ways(
     near ones about where that stands."""
     base, before = seen.found.model, _unexplained(seen)
     done: dict[str, Through] = {}
-    for each in first[: criteria.FORMS]:
+    for each in first[: CRITERIA.law_forms]:
         on_progress(f"{each.form.title} through the mechanism")
         done[each.form.name] = through(each, base, cases, name)
         if done[each.form.name].cost < before:
@@ -240,17 +240,19 @@ def _ways(
     else:
         return ()
     about = list(done.values())[-1]
-    for other in _about(about, seen.rest)[: criteria.FORMS]:
+    for other in _about(about, seen.rest)[: CRITERIA.law_forms]:
         if other.form.name not in done:
             on_progress(f"{other.form.title} through the mechanism")
             done[other.form.name] = through(other, base, cases, name)
     ordered = sorted((way for way in done.values() if way.cost < before), key=lambda way: way.cost)
     if not ordered:
         return ()
-    tied = [way for way in ordered if way.cost <= ordered[0].cost + criteria.ALIKE]
+    tied = [way for way in ordered if way.cost <= ordered[0].cost + CRITERIA.law_alike]
     # Of those that are as good, what stays finite or grows linearly beyond the loads comes before a power, and that
     # before an exponential.
-    return tuple(sorted(tied, key=lambda way: way.cost + criteria.PREFERRED * FASTER[way.formed.form.grows]))
+    return tuple(
+        sorted(tied, key=lambda way: way.cost + CRITERIA.law_preferred * FASTER[way.formed.form.grows])
+    )
 
 
 def _about(way: Through, noise: Rest) -> list[Formed]:
@@ -267,4 +269,4 @@ def _about(way: Through, noise: Rest) -> list[Formed]:
 
 
 def _near(every: list[Formed]) -> list[Formed]:
-    return [it for it in every if it.cost <= every[0].cost + criteria.NEAR_FORMS]
+    return [it for it in every if it.cost <= every[0].cost + CRITERIA.law_forms_near]

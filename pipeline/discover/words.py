@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from pipeline.answer.law import LawFound
-from pipeline.discover import criteria
 from pipeline.discover.record import Discovered
+from pipeline.selection.criteria import CRITERIA
 from reports.quantities import estimate, phrase, short, sigma
 
 MANY = 4
@@ -28,7 +28,7 @@ def _first(it: Discovered) -> Iterator[str]:
         yield (
             f"No law is found: the error is {sigma(before.fit)} sigma, and no place of the linkage explains what is "
             f"left of it by one function shared by all tests (the best is {it.next_site or 'none'}, ln evidence "
-            f"{short(it.next_evidence)}, asked is {short(criteria.PROPOSED)})."
+            f"{short(it.next_evidence)}, asked is {short(CRITERIA.law_proposed)})."
         )
         return
     names = [law.where for law in it.laws] + [each.effect for each in it.entered]
@@ -68,7 +68,7 @@ def said_of(it: LawFound) -> Iterator[str]:
         more = f" and {len(others) - MANY} more" if len(others) > MANY else ""
         yield (
             f"These tests do not tell it from {', '.join(others[:MANY])}{more}: their ln evidence is within "
-            f"{short(max(criteria.ALIKE, criteria.ALIKE_SHARE * it.evidence), 2)} of its own."
+            f"{short(max(CRITERIA.law_alike, CRITERIA.law_alike_share * it.evidence), 2)} of its own."
         )
     if it.form is None:
         yield f"No form of a law in the mechanism explains it there (ln evidence {short(it.evidence)})."
@@ -79,10 +79,10 @@ def said_of(it: LawFound) -> Iterator[str]:
         names = ", ".join(tie.form for tie in it.ties[:MANY])
         apart = max(tie.beyond for tie in it.ties)
         yield (
-            f"As good: {names}. At {criteria.BEYOND:g} times these loads they differ by {short(apart, 2)} sigma"
+            f"As good: {names}. At {CRITERIA.law_beyond:g} times these loads they differ by {short(apart, 2)} sigma"
             + (
                 ": the law is not known beyond the loads measured."
-                if apart > criteria.UNKNOWN_BEYOND
+                if apart > CRITERIA.law_unknown_beyond
                 else "."
             )
         )

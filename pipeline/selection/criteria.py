@@ -10,14 +10,16 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass, fields, replace
 from functools import cache
+from typing import Any
 
 from scipy.stats import chi2
 
 from pipeline.selection.criterion import CHANCE, CHI2, COUNT, FACTOR, SHARE, SIGMA, Criterion, criterion
+from pipeline.selection.law_criteria import LawCriteria
 
 
 @dataclass(frozen=True)
-class Criteria:
+class Criteria(LawCriteria):
     """All thresholds of the choice. `of` lists them with their meaning; `dataclasses.replace` changes one."""
 
     # What noise may do.
@@ -362,14 +364,13 @@ class Criteria:
 
     def times(self, name: str, factor: float) -> Criteria:
         """With one threshold so many times as large; a count is at least one."""
-        value = getattr(self, name) * factor
-        return replace(
-            self, **{name: max(1, round(value)) if isinstance(getattr(self, name), int) else value}
-        )
+        value: Any = getattr(self, name) * factor
+        whole = max(1, round(value))
+        return replace(self, **{name: whole if isinstance(getattr(self, name), int) else value})
 
     def of(self) -> Iterator[Criterion]:
-        """All of them, in their order."""
-        for each in fields(self):
+        """All of them in their order, those of laws last."""
+        for each in sorted(fields(self), key=lambda it: hasattr(LawCriteria, it.name)):
             yield Criterion(each.name, getattr(self, each.name), **each.metadata["told"])
 
     def apart(self, more: int) -> float:
@@ -387,9 +388,8 @@ class Criteria:
 
 def refits(one: Criteria, other: Criteria) -> bool:
     """Whether fits made under one of them have to be made again under the other."""
-    return any(
-        each.metadata["fits"] and getattr(one, each.name) != getattr(other, each.name) for each in fields(one)
-    )
+    fits = [each.name for each in fields(one) if each.metadata["fits"]]
+    return any(getattr(one, name) != getattr(other, name) for name in fits)
 
 
 @cache

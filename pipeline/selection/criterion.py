@@ -6,6 +6,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 OWN = "own"
+EVIDENCE = "evidence"
 CHI2, SIGMA, SHARE, COUNT, FACTOR, CHANCE = "chi-square", "sigma", "part", "count", "times", "probability"
 
 

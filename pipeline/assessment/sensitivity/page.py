@@ -39,7 +39,7 @@ def page(found: Sequence[Trial]) -> str:
         "## The criteria",
         "",
         *(line for each in CRITERIA.of() for line in _meaning(each)),
-        f'Those of the group "{UNTOUCHED}" change no verdict and are not in the study.',
+        f"Those of the groups {' and '.join(UNTOUCHED)} change no set of effects and are not in the study.",
         "",
     ]
     return "\n".join(lines)

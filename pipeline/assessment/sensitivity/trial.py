@@ -10,12 +10,14 @@ from pipeline.record import Record
 from pipeline.selection.criteria import CRITERIA
 from pipeline.selection.diagnosis import cached_fits
 from pipeline.selection.fit_cache import FitCache
+from pipeline.selection.law_criteria import GROUP
 from pipeline.selection.searched import chosen
 from vjm.effects import catalogue
 
 FACTORS = (0.5, 2.0)
-UNTOUCHED = "plan"
-"""Group of the criteria that no verdict depends on."""
+UNTOUCHED = ("plan", GROUP)
+"""Groups of the criteria that no set of effects depends on: those of planned tests, and those of laws, which are looked
+for after the answer."""
 
 
 class Verdict(Record):
@@ -47,7 +49,7 @@ class Trial(Record):
 
 def varied() -> tuple[str, ...]:
     """Names of the criteria that are changed."""
-    return tuple(each.name for each in CRITERIA.of() if each.group != UNTOUCHED)
+    return tuple(each.name for each in CRITERIA.of() if each.group not in UNTOUCHED)
 
 
 def trial(number: int, commit: str, code: str) -> Trial:

@@ -7,8 +7,8 @@ import pytest
 from scipy.stats import multivariate_normal
 
 from pipeline.discover.bases import KNOTS, basis_of, hats, knots, priors, sliders
-from pipeline.discover.criteria import PROPOSED
 from pipeline.discover.evidence import Columns, Rest
+from pipeline.selection.criteria import CRITERIA
 
 TESTS, STEPS = 6, 20
 FIRST = np.arange(0, TESTS * STEPS + 1, STEPS)
@@ -58,7 +58,7 @@ def test_no_law_is_proposed_in_white_residuals() -> None:
         influence = generator.normal(size=TESTS * STEPS)
         site = Columns(columns(history(seed), influence, rest.rows, FIRST, 1.0), 1.0)
         highest = max(highest, rest.evidence(site).value)
-    assert 0.5 < highest < PROPOSED
+    assert 0.5 < highest < CRITERIA.law_proposed
 
 
 def test_noise_that_is_correlated_from_row_to_row_is_no_law() -> None:
@@ -73,8 +73,8 @@ def test_noise_that_is_correlated_from_row_to_row_is_no_law() -> None:
         as_white.append(rest.evidence(Columns(site, 1.0)).value)
         own = rest.with_noise(lambda it: np.linalg.solve(root, it))
         as_it_is.append(own.evidence(Columns(own.seen(site), 1.0)).value)
-    assert sum(value > PROPOSED for value in as_white) >= 5
-    assert max(as_it_is) < PROPOSED
+    assert sum(value > CRITERIA.law_proposed for value in as_white) >= 5
+    assert max(as_it_is) < CRITERIA.law_proposed
 
 
 def test_unknown_zeros_stay_out_in_units_of_correlated_noise() -> None:
@@ -101,7 +101,7 @@ def test_a_function_is_found_with_its_shape(kind: str) -> None:
     told = basis_of(c, FIRST, 1.0) @ found.weights
     assert np.sqrt(np.mean((told - truth) ** 2)) < 0.1
     gains = rest.gains(found.site.values, found.size * found.prior.root, rest.parts(1))
-    assert gains.size == TESTS and gains.sum() - gains.max() > PROPOSED
+    assert gains.size == TESTS and gains.sum() - gains.max() > CRITERIA.law_proposed
 
 
 def test_what_was_written_does_not_count_as_a_law() -> None:
