@@ -77,7 +77,10 @@ def bar_of_placed(
             if other != tie
         }
         rigid = [t for t in bars[0].ties if t != "distributed"]
-        by_tie = {t: bars[0].axial(t).geometric for t in rigid} if len(rigid) > 1 else {}
+        known = {case.bar.rigid_tie: axial[0].geometric}
+        by_tie = {}
+        if len(rigid) > 1:
+            by_tie = {t: known[t] if t in known else bars[0].axial(t).geometric for t in rigid}
     with progress.stage("stress"):
         stress = stresses_of(case, bars)
     with progress.stage("buckling") as stage:
