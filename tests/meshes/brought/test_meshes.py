@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -12,7 +13,7 @@ import pytest
 from fem.anisotropic import Regional
 from fem.material import Isotropic
 from fem.part_bar import PartBar
-from meshes.brought import abaqus, nastran
+from meshes.brought import abaqus, nastran, vtu
 from meshes.brought.abaqus import blocks
 from meshes.brought.nastran import cards
 from meshes.brought.raised import raised
@@ -63,8 +64,6 @@ def test_text_formats_and_vtu_hold_the_same_bar(kind: str, quadratic: bool, tmp_
 
 @pytest.mark.long
 def test_metres_names_and_sets(tmp_path: Path) -> None:
-    from dataclasses import replace
-
     raw = parts.block("hexahedron")
     metres = written.inp(replace(raw, points=raw.points / 1000.0), tmp_path / "m.inp")
     in_mm = written.inp(raw, tmp_path / "mm.inp")
@@ -155,8 +154,6 @@ def test_what_bulk_data_would_lose_is_refused(card: str, said: str, tmp_path: Pa
 
 @pytest.mark.long
 def test_pieces_shells_and_folded_meshes_are_refused(tmp_path: Path) -> None:
-    from dataclasses import replace
-
     import pyvista
 
     raw = parts.block("hexahedron", (6, 1, 1))
@@ -187,6 +184,34 @@ def test_fields_of_both_text_formats() -> None:
         ["GRID", "7", "", "1.5-3", "2.", "3."],
         ["GRID", "8", "", "1.", "2.", "3."],
     ]
+
+
+def test_cells_of_nodes_that_are_not_there_and_points_that_are_no_numbers(tmp_path: Path) -> None:
+    """Whatever the format: VTK and gmsh hand over what they read."""
+    raw = parts.block("hexahedron")
+    for wrong in (-1, len(raw.points)):
+        cells = raw.blocks[0][1].copy()
+        cells[2, 3] = wrong
+        with pytest.raises(ValueError, match=r"cells of 1 nodes that are not in the file, which holds 42"):
+            replace(raw, blocks=(("hexahedron", cells),))
+    with pytest.raises(ValueError, match="no finite numbers"):
+        replace(raw, points=raw.points * np.nan)
+    path = written.vtu(raw, tmp_path / "a.vtu", text=True)
+    path.write_text(path.read_text().replace("41", "43"))
+    with pytest.raises(ValueError, match="are not in the file"):
+        vtu.work(asked(path))
+    path = written.vtu(raw, tmp_path / "b.vtu", text=True)
+    path.write_text(path.read_text().replace("8 16 24", "8 17 24"))
+    with pytest.raises(ValueError, match="has hexahedron cells of other than 8 nodes"):
+        vtu.work(asked(path))
+
+
+def test_metres_are_a_thousand_times_as_long(tmp_path: Path) -> None:
+    """A mesh has the unit that is declared; the quick one of `test_metres_names_and_sets`."""
+    raw = parts.block("hexahedron")
+    path = written.inp(replace(raw, points=raw.points / 1000.0), tmp_path / "m.inp")
+    _, arrays = abaqus.work({**asked(path), "unit": "m"})
+    assert np.ptp(arrays["0 points"], axis=0) == pytest.approx([60.0, 6.0, 10.0])
 
 
 def test_hostile_words_are_a_sentence(tmp_path: Path) -> None:
