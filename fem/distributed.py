@@ -8,12 +8,14 @@ tip and what balances it at the base need no support but six displacements that 
 from collections.abc import Mapping
 
 import numpy as np
+import numpy.typing as npt
 import scipy.linalg as sl
 import scipy.sparse as sp
 
 from fem.cells import reference
+from fem.coarse_space import CORNERS_AND_EDGES, linear_in_quadratic
 from fem.rigid_motions import rigid_motions
-from fem.solvers import Solver, direct
+from fem.solvers import Solver, automatic
 from meshes.part import PartMesh
 from meshes.solid import Floats, Ints
 
@@ -23,7 +25,7 @@ def distributed_stiffness(
     stiffness: sp.csr_matrix,
     facets: tuple[Mapping[str, Ints], Mapping[str, Ints]],
     points: tuple[Floats, Floats],
-    solver: Solver = direct,
+    solver: Solver = automatic,
 ) -> Floats:
     """(6, 6) stiffness at the tip point against the base point, frame of the mesh, N, mm, rad.
 
@@ -40,10 +42,17 @@ def distributed_stiffness(
     free = np.ones(mesh.dofs, dtype=bool)
     free[still(mesh.points)] = False
     u = np.zeros((mesh.dofs, 6))
-    u[free] = solver(stiffness[free][:, free])(loads[free])
+    coarse = (lambda: corners(mesh, free)) if mesh.kind in CORNERS_AND_EDGES else None
+    u[free] = solver(stiffness[free][:, free], coarse)(loads[free])
     compliance = loads.T @ u
     inverse = np.linalg.inv(0.5 * (compliance + compliance.T))
     return np.asarray(0.5 * (inverse + inverse.T))
+
+
+def corners(mesh: PartMesh, free: npt.NDArray[np.bool_]) -> sp.csr_matrix:
+    """Sparse (m, c): displacements `free` (dofs,), m of them, of a motion of the c corners, linear between these."""
+    nodes, _ = linear_in_quadratic(mesh)
+    return sp.csr_matrix(sp.kron(nodes, sp.eye(3), format="csr")[free])
 
 
 def fit(points: Floats, facets: Mapping[str, Ints], at: Floats) -> Floats:

@@ -1,7 +1,7 @@
 """Small displacements of a linkage: its Cartesian 6x6 and its response to a driven platform coordinate."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 
 import numpy as np
@@ -10,6 +10,7 @@ import scipy.sparse as sp
 from fem.anisotropic import Regional
 from fem.coarse_space import CORNERS_AND_EDGES, prolongation
 from fem.elasticity import stiffness_matrix
+from fem.end_states import EndStates
 from fem.linkage import PLATFORM, Linkage
 from fem.material import Isotropic
 from fem.reduction import Reduction
@@ -25,12 +26,14 @@ class LinearModel:
     """A linkage with its stiffness matrices, one for each member.
 
     known : stiffness matrix of its only member, where that is there already
+    states : what is known of the stressed states of its bodies; models of one material on the same meshes may share it
     """
 
     linkage: Linkage
     material: Isotropic | Regional
     solver: Solver = automatic
     known: sp.csr_matrix | None = None
+    states: EndStates = field(default_factory=EndStates)
 
     @cached_property
     def reduction(self) -> Reduction:

@@ -11,6 +11,7 @@ from fem.anisotropic import Regional
 from fem.axial import AxialStiffness, axial_stiffness
 from fem.distributed import distributed_stiffness
 from fem.elasticity import stiffness_matrix
+from fem.end_states import EndStates
 from fem.linear import LinearModel
 from fem.linkage import Linkage, single_bar
 from fem.material import Isotropic
@@ -49,7 +50,8 @@ class PartBar:
             return self._rigid
         if tie == "pinned":
             return self._model(single_bar(self.space, self.length, pinned=True))
-        return LinearModel(single_bar(self._half, self.length), self.material, known=self._elastic)
+        half = single_bar(self._half, self.length)
+        return LinearModel(half, self.material, known=self._elastic, states=self._states)
 
     @cached_property
     def _rigid(self) -> LinearModel:
@@ -59,7 +61,11 @@ class PartBar:
         solver: Solver = automatic
         if self._chain is not None and isinstance(self.material, Isotropic):
             solver = ChainSolver(linkage, self.material, known=self._chain)
-        return LinearModel(linkage, self.material, solver, self._elastic)
+        return LinearModel(linkage, self.material, solver, self._elastic, self._states)
+
+    @cached_property
+    def _states(self) -> EndStates:
+        return EndStates()
 
     @cached_property
     def _elastic(self) -> sp.csr_matrix:

@@ -6,7 +6,6 @@ from dataclasses import dataclass
 import numpy as np
 import scipy.sparse as sp
 
-from fem.elasticity import internal_forces, nodal_geometric_stiffness, stress
 from fem.linear import LinearModel
 from fem.linkage import PLATFORM
 from fem.reduction import Placement, Reduction
@@ -75,14 +74,12 @@ def prestress(
 
 
 def stressed(model: LinearModel, motion: Floats) -> Prestress:
-    """The state of a small `motion` (size,) of all unknowns."""
+    """The state of a small `motion` (size,) of all unknowns, inner nodes free of load."""
     r = model.reduction
     fields = r.fields(motion, r.rest)
-    sigmas = [stress(m.space, model.material, u) for m, u in zip(model.linkage.members, fields, strict=True)]
-    nodal_kg = [
-        nodal_geometric_stiffness(m.space, s) for m, s in zip(model.linkage.members, sigmas, strict=True)
-    ]
-    nodal = [internal_forces(m.space, s) for m, s in zip(model.linkage.members, sigmas, strict=True)]
-    geometric = GeometricStiffness.of(r, nodal_kg, r.curvature(nodal, r.rest), r.rest)
+    members = zip(model.linkage.members, fields, strict=True)
+    states = [model.states.of(member.space, model.material, u) for member, u in members]
+    curvature = r.curvature([state.forces for state in states], r.rest)
+    geometric = GeometricStiffness.of(r, [state.geometric for state in states], curvature, r.rest)
     wrench = np.asarray(model.reduced @ motion)[r.platform(PLATFORM)]
     return Prestress(fields, wrench, geometric)

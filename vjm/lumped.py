@@ -31,10 +31,12 @@ class Lumped:
     """
 
     spring_at: SpringAt = "tip"
+    polar_radius: float = 0.0
+    """mm, as of `vjm.refined.Refined`, which takes its place where the bar yields."""
 
     def limb(self, link: Link) -> Limb:
         if link.fibres is not None:
-            return Refined().limb(link)
+            return Refined(polar_radius=self.polar_radius).limb(link)
         before = STATION[self.spring_at] * link.length
         elements: tuple[Element, ...] = (_ahead(before), *_SPRINGS, _ahead(link.length - before))
         stretch = np.eye(6)[0]
@@ -46,7 +48,7 @@ class Lumped:
 
     def reach(self, link: Link, station: float) -> tuple[Element, ...]:
         if link.fibres is not None:
-            return Refined().reach(link, station)
+            return Refined(polar_radius=self.polar_radius).reach(link, station)
         check_station(station)
         place = STATION[self.spring_at]
         if place == 1.0 > station:

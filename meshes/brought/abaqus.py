@@ -10,6 +10,7 @@ import numpy as np
 from meshes.brought.as_found import found_on_one_mesh
 from meshes.brought.child import Arrays
 from meshes.brought.collected import Collected
+from meshes.brought.raw import NODES
 
 SUFFIXES = (".inp",)
 KINDS = {
@@ -25,7 +26,6 @@ KINDS = {
     "C3D20": "hexahedron20",
     "C3D20R": "hexahedron20",
 }
-NODES = {"tetra": 4, "tetra10": 10, "wedge": 6, "wedge15": 15, "hexahedron": 8, "hexahedron20": 20}
 # Of no effect on nodes, cells and sets. What they say of loads and output is of another question than K_b.
 PAST = {
     "HEADING", "PREPRINT", "MATERIAL", "ELASTIC", "DENSITY", "EXPANSION", "CONDUCTIVITY", "SPECIFIC HEAT", "PLASTIC",

@@ -4,7 +4,6 @@ from pathlib import Path
 from typing import Any
 
 import gmsh
-import numpy as np
 
 from meshes.brought.as_found import found_on_one_mesh
 from meshes.brought.child import Arrays
@@ -22,6 +21,4 @@ def work(asked: dict[str, Any]) -> tuple[dict[str, Any], Arrays]:
         gmsh.merge(str(path))
         gmsh.model.mesh.removeDuplicateNodes()
         raw = raw_of_model()
-    if not np.isfinite(raw.points).all():
-        raise ValueError("has coordinates that are no finite numbers")
     return found_on_one_mesh(raw, asked)

@@ -70,7 +70,13 @@ def _cells(entity: tuple[int, int], number: Ints) -> Iterator[tuple[str, Ints]]:
                 f"holds {said}, allowed are tetrahedra, hexahedra and wedges, linear or quadratic"
             )
         name, order = KINDS[int(kind)]
-        yield name, number[own.astype(np.int64)].reshape(-1, len(order))[:, order]
+        yield name, _places(own, number).reshape(-1, len(order))[:, order]
+
+
+def _places(nodes: Any, number: Ints) -> Ints:
+    """Places of nodes by their tags, -1 for one that is not there."""
+    tags = np.asarray(nodes).astype(np.int64)
+    return np.where(tags < len(number), number[np.minimum(tags, len(number) - 1)], -1)
 
 
 def region_name(entity: tuple[int, int]) -> str:

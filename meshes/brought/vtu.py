@@ -1,5 +1,6 @@
 """Unstructured grids of VTK: solid cells, regions by the cell data "region", ends by planes and cylinders."""
 
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -7,7 +8,7 @@ import numpy as np
 
 from meshes.brought.as_found import found_on_one_mesh
 from meshes.brought.child import Arrays
-from meshes.brought.raw import Raw
+from meshes.brought.raw import NODES, Raw
 from meshes.solid import Floats, Ints
 
 SUFFIXES = (".vtu",)
@@ -57,12 +58,16 @@ def raw_of(grid: Any) -> Raw:
     for code, kind in KIND_OF.items():
         own = np.flatnonzero(types == code)
         if own.size:
-            size = int(offsets[own[0] + 1] - offsets[own[0]])
-            cells = connectivity[offsets[own][:, None] + np.arange(size)].astype(np.int64)
-            blocks.append((kind, upright(points, cells) if kind.startswith("wedge") else cells))
+            if (np.diff(offsets)[own] != NODES[kind]).any():
+                raise ValueError(f"has {kind} cells of other than {NODES[kind]} nodes: it is damaged")
+            cells = connectivity[offsets[own][:, None] + np.arange(NODES[kind])].astype(np.int64)
+            blocks.append((kind, cells))
             regions.append(region_of[own])
     names = tuple(f"region {v:g}" for v in values)
-    return Raw(points, tuple(blocks), np.concatenate(regions), names, {})
+    raw = Raw(points, tuple(blocks), np.concatenate(regions), names, {})
+    # Of points that are known to be there.
+    stood = ((kind, upright(points, own) if kind.startswith("wedge") else own) for kind, own in blocks)
+    return replace(raw, blocks=tuple(stood))
 
 
 def upright(points: Floats, cells: Ints) -> Ints:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import hashlib
 from dataclasses import dataclass
+from functools import cached_property
 from pathlib import Path
 from typing import Any
 
@@ -14,7 +15,7 @@ from fem.material import Isotropic
 from fem.mesh_limit import POWER, SWEPT_POWER, Limit, limit, swept_limit
 from fem.part_bar import PartBar
 from fem.part_space import shape_quality
-from fem.section_torsion import torsion_limit
+from fem.section_torsion import TorsionLimit, torsion_limit
 from meshes.brought.child import in_child
 from meshes.brought.drawn import KIND as SWEPT
 from meshes.brought.formats import module_of
@@ -45,6 +46,22 @@ class Placed:
     frame: BarFrame
     bars: tuple[PartBar, ...]
 
+    @cached_property
+    def torsion(self) -> TorsionLimit | None:
+        """Of the sections of a prism of one isotropic material on these meshes; None for other parts."""
+        drawn = self.brought.drawn
+        if drawn is None or not isinstance(self.bars[-1].material, Isotropic):
+            return None
+        return torsion_limit(drawn.flats[-2:])
+
+
+@dataclass(frozen=True, eq=False)
+class Tied:
+    """K_b and K_g (6, 6) by one way to tie the ends, without mesh error; K_g None where loads are distributed."""
+
+    elastic: Limit
+    geometric: Limit | None
+
 
 def bar_of_file(case: FileCase, folder: Path, out: Path, progress: Progress, typed: str) -> BarRecord:
     """The record of the bar of a case in `folder`, mode shapes to `out`/modes.
@@ -64,20 +81,17 @@ def bar_of_placed(
     tie, bars = case.bar.tie, placed.bars
     quality = said_of(path, lambda: checked_quality(placed))
     with progress.stage("stiffness"):
-        axial = [bar.axial(case.bar.rigid_tie) for bar in bars]
-        elastic = [
-            a.elastic if tie != "distributed" else b.stiffness(tie) for a, b in zip(axial, bars, strict=True)
-        ]
-        found = elastic_limit(elastic, placed)
-        geometric = limited([a.geometric for a in axial], bars[-1].mesh.kind)
+        known = {own: tied(placed, own) for own in dict.fromkeys((tie, case.bar.rigid_tie))}
     with progress.stage("ties of the ends"):
-        others = {
-            other: found.value + bars[0].stiffness(other) - elastic[0]
-            for other in bars[0].ties
-            if other != tie
-        }
-        rigid = [t for t in bars[0].ties if t != "distributed"]
-        by_tie = {t: bars[0].axial(t).geometric for t in rigid} if len(rigid) > 1 else {}
+        every = {own: known[own] if own in known else tied(placed, own) for own in bars[0].ties}
+    found, geometric = every[tie].elastic, every[case.bar.rigid_tie].geometric
+    assert geometric is not None
+    others = {own: it.elastic.value for own, it in every.items() if own != tie}
+    others_geometric = {
+        own: it.geometric.value
+        for own, it in every.items()
+        if it.geometric is not None and own != case.bar.rigid_tie
+    }
     with progress.stage("stress"):
         stress = stresses_of(case, bars)
     with progress.stage("buckling") as stage:
@@ -97,7 +111,7 @@ def bar_of_placed(
         modelling={name: rows(matrix) for name, matrix in others.items()},
         geometric=rows(geometric.value),
         geometric_numerical_band=relative_error(geometric.value, geometric.error),
-        geometric_modelling_band=relative_spread(by_tie["rigid"], by_tie) if by_tie else {},
+        geometric_modelling_band=relative_spread(geometric.value, others_geometric),
         buckling=loads,
         stress=stress,
         mesh=MeshRecord(
@@ -187,12 +201,22 @@ def checked_quality(placed: Placed) -> dict[str, float]:
     return worst[-1]
 
 
+def tied(placed: Placed, tie: str) -> Tied:
+    """Each tie is extrapolated by itself, for at the ends, and in torsion, meshes err by each in their own way."""
+    if tie == "distributed":
+        return Tied(elastic_limit([bar.stiffness(tie) for bar in placed.bars], placed), None)
+    axial = [bar.axial(tie) for bar in placed.bars]
+    return Tied(
+        elastic_limit([a.elastic for a in axial], placed),
+        limited([a.geometric for a in axial], placed.bars[-1].mesh.kind),
+    )
+
+
 def elastic_limit(matrices: list[Floats], placed: Placed) -> Limit:
     """K_b (6, 6) of two nested meshes without their error; of one mesh itself, its error not known and counted as
     nothing."""
-    drawn = placed.brought.drawn
-    if drawn is not None and isinstance(placed.bars[-1].material, Isotropic):
-        return swept_limit(matrices[-2], matrices[-1], torsion_limit(drawn.flats[-2:]))
+    if placed.torsion is not None:
+        return swept_limit(matrices[-2], matrices[-1], placed.torsion)
     return limited(matrices, placed.bars[-1].mesh.kind)
 
 

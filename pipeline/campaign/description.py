@@ -20,10 +20,11 @@ from pipeline.campaign.names import (
     known_columns,
     wrong_column,
 )
+from pipeline.campaign.rig import distinct
 from pipeline.campaign.rig_table import RigTable
 from pipeline.campaign.rigs import KINDS
 from pipeline.campaign.tables import GaugeTable, NoiseTable, TestTable, Top
-from pipeline.campaign.tolerance import tolerance
+from pipeline.campaign.tolerance import tolerance, widest
 from pipeline.errors import InputError
 from pipeline.toml.complaints import Complaints, shown
 from pipeline.toml.fields import Sigma, sentences
@@ -44,8 +45,8 @@ def describe(text: str, complaints: Complaints, folder: FilePath | None = None) 
     rig = reader.rig(top.rig)
     gauges = reader.gauges(top.gauges, rig)
     noise = reader.noise(top.noise)
-    known = reader.tolerance(top.tolerance, rig)
     heads = reader.heads(top.tests, top.rig, rig)
+    known = None if rig is None else reader.tolerance(top.tolerance, distinct(rig, *(it.rig for it in heads)))
     sources = Sources(reader.raw, reader.gauge_names, reader.checked, reader.say).found()
     names = tuple(reader.gauge_names)
     if rig is None or complaints.found:
@@ -82,12 +83,16 @@ class _Reader:
     def rig(self, raw: Raw) -> Rig | None:
         table = self._table(raw)
         described = None if table is None else self.checked(table, raw, ("rig",), "rig")
+        return None if described is None else self._made(described, raw, ("rig",), "rig")
+
+    def _made(self, table: RigTable, raw: Raw, path: Path, place: str) -> Rig | None:
+        """The rig; None, with complaints, where a file that it names cannot be used."""
         try:
-            return None if described is None else described.rig(self.folder)
+            return table.rig(self.folder)
         except InputError as error:
             key = "bar_from" if "bar_from" in raw else "file"
             for said in str(error).splitlines():
-                self.say(("rig", key), said, f"rig.{key}")
+                self.say((*path, key), said, f"{place}.{key}")
         return None
 
     def _table(self, raw: Raw) -> type[RigTable] | None:
@@ -145,10 +150,11 @@ class _Reader:
                     self.say(path, said, f"noise.{column}")
         return noise
 
-    def tolerance(self, raw: Raw | None, rig: Rig | None) -> dict[str, float] | None:
-        if raw is None or rig is None:
+    def tolerance(self, raw: Raw | None, rigs: tuple[Rig, ...]) -> dict[str, float] | None:
+        if raw is None:
             return None
-        return tolerance(raw, rig.written, self._say_of_tolerance, rig.usual_tolerance)
+        usual = widest(rig.usual_tolerance for rig in rigs)
+        return tolerance(raw, rigs[0].written, self._say_of_tolerance, usual)
 
     def _say_of_tolerance(self, path: tuple[str, ...], said: str) -> None:
         self.say(("tolerance", *path), said)
@@ -201,7 +207,7 @@ class _Reader:
         except ValueError as error:
             self.say(where, str(error), place)
             return None
-        return None if merged is None else merged.rig(self.folder)
+        return None if merged is None else self._made(merged, own, where, place)
 
     def _stand_in(self, raw: Raw) -> Rig:
         """A rig to judge the control of a test by, where that of the campaign has mistakes of its own."""

@@ -4,6 +4,7 @@ from dataclasses import dataclass
 
 from pipeline.campaign.mapped.mapping import Source
 from pipeline.campaign.model import Gauge, Rig, Role, Zero
+from pipeline.campaign.rig import distinct
 
 
 @dataclass(frozen=True)
@@ -43,6 +44,11 @@ class Description:
     heads: tuple[Head, ...]
     sources: tuple[Source, ...] = ()
     tolerance: dict[str, float] | None = None
+
+    @property
+    def rigs(self) -> tuple[Rig, ...]:
+        """Its rig, and those of tests that have their own."""
+        return distinct(self.rig, *(head.rig for head in self.heads))
 
 
 @dataclass(frozen=True)

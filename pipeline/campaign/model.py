@@ -16,7 +16,8 @@ from numpy.typing import NDArray
 from pipeline.campaign.gauge import Gauge, Vector
 from pipeline.campaign.names import COORDINATES, DISPLACEMENT, FORCE, SUPPORT
 from pipeline.campaign.noise import Noise
-from pipeline.campaign.rig import Array, Rig
+from pipeline.campaign.rig import Array, Rig, distinct
+from pipeline.campaign.tolerance import widest
 
 Role = Literal["fit", "holdout"]
 Zero = Literal["nominal", "first_row", "fitted"]
@@ -103,6 +104,21 @@ class Campaign:
     remarks: tuple[str, ...] = ()
     digests: tuple[tuple[str, str], ...] = ()
     tolerance: Mapping[str, float] = field(default_factory=dict)
+
+    @property
+    def rigs(self) -> tuple[Rig, ...]:
+        """Its rig, and those of tests that have their own."""
+        return distinct(self.rig, *(test.rig for test in self.tests))
+
+    @property
+    def files(self) -> tuple[Path, ...]:
+        """That these name, beside its own."""
+        return tuple(dict.fromkeys(path for rig in self.rigs for path in rig.files))
+
+    @property
+    def computed_bands(self) -> dict[str, float]:
+        """As of a rig, the widest of those of its bars."""
+        return widest(rig.computed_bands for rig in self.rigs)
 
     @property
     def vouched(self) -> bool:

@@ -25,6 +25,7 @@ from pipeline.campaign.plausible import judge
 from pipeline.campaign.posture_rows import parted
 from pipeline.campaign.rows import data_by_test, measured_of
 from pipeline.campaign.sheet import sheet
+from pipeline.campaign.tolerance import widest
 from pipeline.toml.complaints import BadCampaign, Complaints, shown
 from pipeline.typed import command
 
@@ -72,7 +73,8 @@ def read(folder: Path) -> Campaign:
     shorter = [thinned(test, noise, description.gauges) for test in tests]
     tests = tuple(test for test, _ in shorter)
     remarks += [said for _, said in shorter if said]
-    files = [folder / DESCRIPTION, *description.rig.files, *files]
+    beside = dict.fromkeys(path for rig in description.rigs for path in rig.files)
+    files = [folder / DESCRIPTION, *beside, *files]
     digests = tuple((_named(path, folder), sha256(path.read_bytes()).hexdigest()) for path in files)
     return Campaign(
         description.name,
@@ -89,11 +91,12 @@ def read(folder: Path) -> Campaign:
 
 def _tolerance(description: Description) -> tuple[dict[str, float], list[str]]:
     """What is written about the rig, by how much it may be off, and the remark where nobody said it."""
-    rig = description.rig
-    of_bar = [f"{DESCRIPTION}, rig.bar_from: {rig.tolerance_said}"] if rig.tolerance_said else []
+    rigs = description.rigs
+    bars = dict.fromkeys(rig.tolerance_said for rig in rigs if rig.tolerance_said)
+    of_bar = [f"{DESCRIPTION}, rig.bar_from: {said}" for said in bars]
     if description.tolerance is not None:
         return description.tolerance, of_bar
-    known = rig.usual_tolerance
+    known = widest(rig.usual_tolerance for rig in rigs)
     if not known:
         return known, []
     said = ", ".join(f"{key} {_deviation(key, value)}" for key, value in known.items())

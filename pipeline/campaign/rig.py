@@ -98,6 +98,10 @@ class Rig(ABC):
         """Keys of its table that name these files in the place of the numbers which they hold."""
         return {}
 
+    def of_the_bars(self, other: Rig) -> Rig:
+        """This rig with what is known of the bars of another one beside its table; the bars are the same."""
+        return self
+
     @property
     def tolerance_said(self) -> str:
         """Where these come from, if from more than usage; else empty."""
@@ -179,3 +183,8 @@ class Rig(ABC):
             "platform_weight_N": self.platform_weight or None,
             "reference_temperature_C": self.reference_temperature,
         }
+
+
+def distinct(*rigs: Rig) -> tuple[Rig, ...]:
+    """Each rig once, in the order given: tests without their own have the one of the campaign."""
+    return tuple({id(rig): rig for rig in rigs}.values())

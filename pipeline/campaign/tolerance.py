@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from typing import Any
 
 from pipeline.toml.complaints import shown
@@ -22,6 +22,14 @@ def usual(written: tuple[str, ...]) -> dict[str, float]:
     """What counts where nothing is said, of the keys that a rig has."""
     every = {key: value for it in tolerances() for key, value in it.deviations.items()}
     return {key: every[key] for key in written}
+
+
+def widest(each: Iterable[Mapping[str, float]]) -> dict[str, float]:
+    """Of every key the largest value: of rigs with different bars, of which one factor tells how far all are off."""
+    found: dict[str, float] = {}
+    for known in each:
+        found |= {key: max(value, found.get(key, value)) for key, value in known.items()}
+    return found
 
 
 def tolerance(

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from pathlib import Path
+from types import UnionType
+from typing import Annotated, Any, Union, get_args, get_origin
 
 from pydantic import ValidationError
 
@@ -14,11 +16,21 @@ from pipeline.toml.fields import sentences
 
 def value_keys(rig: Rig) -> tuple[str, ...]:
     """Keys of the rig's table in campaign.toml that are single numbers, with their units in their names."""
-    fields = KINDS[rig.kind].model_fields
     there = rig.keys()
     return tuple(
-        key for key in fields if key in there and (there[key] is None or isinstance(there[key], float | int))
+        key
+        for key, field in KINDS[rig.kind].model_fields.items()
+        if key in there and _may_be_number(field.annotation)
     )
+
+
+def _may_be_number(annotation: Any) -> bool:
+    """Whether one of the types that a key allows is a number."""
+    if get_origin(annotation) is Annotated:
+        return _may_be_number(get_args(annotation)[0])
+    if isinstance(annotation, UnionType) or get_origin(annotation) is Union:
+        return any(map(_may_be_number, get_args(annotation)))
+    return annotation is float
 
 
 def varied(rig: Rig, values: Mapping[str, float], folder: Path | None) -> Rig:
@@ -31,7 +43,9 @@ def varied(rig: Rig, values: Mapping[str, float], folder: Path | None) -> Rig:
     table = KINDS[rig.kind]
     base = {"kind": rig.kind} | {key: value for key, value in rig.keys().items() if value is not None}
     try:
-        return table.model_validate(table.merged(base, dict(values))).rig(folder)
+        made = table.model_validate(table.merged(base, dict(values))).rig(folder)
     except ValidationError as error:
         said = "; ".join(text for _, text in sentences(error, table))
         raise ValueError(said) from error
+    # Numbers alone are varied, so that the bars are the same and what was computed of them holds: K_g and the bands.
+    return made.of_the_bars(rig)

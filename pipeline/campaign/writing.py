@@ -24,6 +24,9 @@ from pipeline.campaign.tolerance import table as tolerance_table
 from pipeline.errors import InputError
 from pipeline.toml.complaints import BadCampaign
 
+BARS = ("bar", "bar_stiffness", "bar_from")
+"""Ways to give the bars of a rig: a test with its own takes the place of that of the campaign."""
+
 
 def write(folder: Path, campaign: Campaign, overwrite: bool = False) -> None:
     """Write both files, each whole or not at all; `read` then gives the same numbers to the last bit.
@@ -35,7 +38,7 @@ def write(folder: Path, campaign: Campaign, overwrite: bool = False) -> None:
     there = [name for name in (DESCRIPTION, MEASUREMENTS) if (folder / name).exists()]
     if there and not overwrite:
         raise InputError(f"{folder / there[0]} exists, allowed is a folder without a campaign")
-    beside = {path.name: path.read_bytes() for path in campaign.rig.files}
+    beside = _named_files(campaign)
     for name, content in beside.items():
         if (folder / name).exists() and (folder / name).read_bytes() != content:
             raise InputError(
@@ -61,6 +64,21 @@ def write(folder: Path, campaign: Campaign, overwrite: bool = False) -> None:
                 part.write_text(texts[name], encoding="utf-8", newline="")
     except OSError as error:
         raise InputError(f"{folder} cannot be written: {error.strerror}") from error
+
+
+def _named_files(campaign: Campaign) -> dict[str, bytes]:
+    """What the rigs of a campaign and of its tests name, by the name that it gets beside campaign.toml."""
+    found: dict[str, bytes] = {}
+    for path in campaign.files:
+        try:
+            content = path.read_bytes()
+        except OSError as error:
+            raise InputError(f"{path}: cannot be read: {error.strerror}") from error
+        if found.setdefault(path.name, content) != content:
+            raise InputError(
+                f"{path} and another file of its name are bars of one campaign, allowed is a name for each"
+            )
+    return found
 
 
 def description_text(campaign: Campaign) -> str:
@@ -153,7 +171,7 @@ def _differences(test: str, base: dict[str, Any], own: dict[str, Any]) -> dict[s
     different = {key: value for key, value in own.items() if base.get(key) != value}
     if "length_mm" in different and "bar_stiffness" in own:
         different["bar_stiffness"] = own["bar_stiffness"]
-    lost = [key for key in base if key not in own and key not in ("bar", "bar_stiffness")]
+    lost = [key for key in base if key not in own and key not in BARS]
     for key in lost:
         if key not in ("line_weight_N_per_mm", "platform_weight_N"):
             raise ValueError(

@@ -64,7 +64,7 @@ def numerical(it: Predicted) -> Array:
     shares = np.zeros(len(posterior.numbers))
     for k, each in enumerate(posterior.numbers):
         key = each.tolerance.keys[each.parameter.name]
-        band, whole = campaign.rig.computed_bands.get(key, 0.0), campaign.tolerance.get(key, 0.0)
+        band, whole = campaign.computed_bands.get(key, 0.0), campaign.tolerance.get(key, 0.0)
         if band > 0.0 and whole > 0.0:
             shares[k] = min(band / whole, 1.0)
     slopes = np.concatenate([it.tangent.found.by_free * posterior.sizes, it.tangent.by_nominal], axis=-1)

@@ -7,7 +7,7 @@ import pytest
 
 from fem.anisotropic import Orthotropic, Regional, full_tensor, isotropic_tensor, turned
 from fem.cells import _FUNCTIONS, _NODES, reference
-from fem.distributed import fit, still
+from fem.distributed import distributed_stiffness, fit, still
 from fem.elasticity import stiffness_matrix, stress
 from fem.material import Isotropic
 from fem.mesh_limit import limit
@@ -15,6 +15,7 @@ from fem.part_bar import PartBar
 from fem.part_space import part_space, shape_quality
 from fem.rigid_motions import rigid_motions
 from fem.rotation import rotation
+from fem.solvers import direct, multigrid
 from fem.space import Space
 from fem.stiffness import bar_stiffness
 from meshes.bar import Bar
@@ -122,6 +123,18 @@ def test_distributed_loads_on_a_slender_bar_are_a_beam() -> None:
     assert bar.ties == ("rigid", "distributed")
     with pytest.raises(ValueError, match="tie is 'glued'"):
         bar.stiffness("glued")
+
+
+def test_distributed_loads_by_multigrid_are_those_of_a_direct_solver() -> None:
+    """As a mesh that is too large for a direct solver has it."""
+    mesh = parts.part(parts.block("hexahedron", (12, 1, 2)))
+    assert mesh.kind == "hexahedron20"
+    stiffness = stiffness_matrix(part_space(mesh), ALUMINIUM)
+    ends = (mesh.facets["base"], mesh.facets["tip"])
+    points = (np.zeros(3), np.array([60.0, 0.0, 0.0]))
+    one, other = (distributed_stiffness(mesh, stiffness, ends, points, how) for how in (direct, multigrid))
+    root = np.sqrt(np.diag(one))
+    assert np.abs((other - one) / np.outer(root, root)).max() < 1e-6
 
 
 def test_the_fit_of_a_rigid_motion_is_that_motion_and_six_displacements_hold_a_body() -> None:

@@ -128,7 +128,7 @@ class Bar(WithPlaces):
 
     @cached_property
     def _assembly(self) -> Assembly:
-        model = Lumped(self.spring_at) if self.bar is None else self.bar
+        model = Lumped(self.spring_at, self.polar_radius) if self.bar is None else self.bar
         return Assembly(
             self.links[0],
             model,

@@ -162,7 +162,7 @@ class Parallelogram(WithPlaces):
 
     @cached_property
     def _assemblies(self) -> tuple[Assembly, ...]:
-        model = Lumped(self.spring_at) if self.bar is None else self.bar
+        model = Lumped(self.spring_at, self.polar_radius) if self.bar is None else self.bar
         half, laws = 0.5 * (self.width + self.wider), self.hinge_laws
         sides = (self.links, (-half, half), self._settled, (laws[:2], laws[2:]))
         apart = self._based_apart

@@ -72,7 +72,16 @@ class RigOfBars(Rig):
 
     @property
     def named(self) -> dict[str, Any]:
-        return {} if self.computed is None else {"bar_stiffness": None, "bar_from": self.computed.name}
+        if self.computed is None:
+            return {}
+        if not np.array_equal(self.stiffness, self.computed.stiffness):
+            raise ValueError(
+                f"its 6x6 is not that of {self.computed.name}: no file can say that and keep K_g"
+            )
+        return {"bar_stiffness": None, "bar_from": self.computed.name}
+
+    def of_the_bars(self: Own, other: Rig) -> Own:
+        return replace(self, computed=other.computed) if isinstance(other, RigOfBars) else self
 
     @property
     def tolerance_said(self) -> str:

@@ -93,9 +93,8 @@ def modes_of(clamped: LinearModel, length: float, supports: str, count: int) -> 
     if supports != "pinned":
         return buckling(clamped, HELD[supports], count)
     (member,) = clamped.linkage.members
-    return buckling(
-        LinearModel(single_bar(member.space, length, True), clamped.material), HELD[supports], count
-    )
+    pinned = single_bar(member.space, length, True)
+    return buckling(LinearModel(pinned, clamped.material, states=clamped.states), HELD[supports], count)
 
 
 def shapes_of(s: Specimen, mesh: SolidMesh, modes: tuple[Mode, ...]) -> list[AxisShape]:

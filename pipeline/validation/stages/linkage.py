@@ -1,13 +1,14 @@
 """The parallelogram as finite elements: stiffness, linear buckling and load paths for each way of holding it."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import radians
 
 import numpy as np
 from pydantic import BaseModel
 
 from fem.buckling import Mode, buckling
+from fem.end_states import EndStates
 from fem.linear import LinearModel
 from fem.linkage import parallelogram
 from fem.path import follow, with_imperfection
@@ -87,8 +88,10 @@ def solid_stiffness(case: Sized, s: SolidBar) -> list[SolidStiffness]:
 def solid_buckling(case: Sized, s: SolidBar, stage: Stage) -> list[SolidBuckling]:
     """Lowest critical loads of the solid linkage, pushed along -x, for every angle and way of holding it."""
     found = []
+    # At every angle the same bars.
+    states = EndStates()
     for q in case.linkage.angles_deg:
-        model = solid_linkage(case, s, s.space, q)
+        model = replace(solid_linkage(case, s, s.space, q), states=states)
         for held in HELD_SETS:
             stage.say(f"q = {q:g}°, {' '.join(held)} held")
             found.append(buckled(model, q, held))

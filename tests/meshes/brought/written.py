@@ -72,7 +72,8 @@ def bdf(raw: Raw, path: Path, fields: str = "free", before: str = "") -> Path:
     return path
 
 
-def vtu(raw: Raw, path: Path) -> Path:
+def vtu(raw: Raw, path: Path, text: bool = False) -> Path:
+    """Compressed, or as text."""
     import pyvista
 
     cells, types = [], []
@@ -81,5 +82,12 @@ def vtu(raw: Raw, path: Path) -> Path:
         types += [VTK[kind]] * len(own)
     grid = pyvista.UnstructuredGrid(np.concatenate(cells), np.array(types), raw.points)
     grid.cell_data["region"] = raw.region_of
-    grid.save(path)
+    if not text:
+        grid.save(path)
+        return path
+    writer = pyvista._vtk.vtkXMLUnstructuredGridWriter()
+    writer.SetFileName(str(path))
+    writer.SetInputData(grid)
+    writer.SetDataModeToAscii()
+    writer.Write()
     return path
