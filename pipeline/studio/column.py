@@ -72,6 +72,14 @@ def _buttons(actions: Actions) -> None:
             id="again",
             **BUTTON,
         )
+        v3.VBtn(
+            "Look for laws",
+            v_if=("look_for_laws",),
+            click=actions["discover"],
+            disabled=("!!busy",),
+            id="laws_next",
+            **BUTTON,
+        )
         v3.VBtn("Plan", click=actions["plan"], disabled=("!!busy",), id="plan", **BUTTON)
 
 

@@ -49,6 +49,7 @@ select.plain { appearance: auto; } .grid select { appearance: auto; }
 .card { display: flex; flex-direction: column; }
 .card h2 { font-size: 17px; margin: 0; } .card .push { flex: 1; }
 .rivals { display: grid; gap: 12px; grid-template-columns: repeat(auto-fit, minmax(230px, 1fr)); }
+.law { display: grid; gap: 12px; grid-template-columns: repeat(auto-fit, minmax(400px, 1fr)); margin-bottom: 12px; }
 .rival { border: 1px solid #c6ced5; border-radius: 8px; padding: 10px 12px; } .rival.seen { border: 2px solid #0072B2; }
 .warn { border-left: 5px solid #a34700; padding: 4px 10px; background: #fff6ee; margin-bottom: 6px; }
 details summary { cursor: pointer; font-weight: 600; color: #005f94; margin: 8px 0 4px; font-size: 13.5px; }

@@ -16,7 +16,7 @@ from reports.shading import MISFIT
 TABS = (
     ("data", "Measured and predicted", ""),
     ("rivals", "Sets that fit alike", "rivals.length"),
-    ("laws", "Laws", "laws.length"),
+    ("laws", "Laws", ""),
     ("rig", "Rig and readings", ""),
     ("candidates", "Candidates", "candidates.length"),
     ("plan", "What these tests can show", ""),
@@ -32,7 +32,7 @@ def right(actions: Actions, plotter: Any, views: dict[str, Any]) -> None:
     made: dict[str, Callable[[], None]] = {
         "data": lambda: _data(actions, plotter, views),
         "rivals": lambda: rivals(actions, views),
-        "laws": laws,
+        "laws": lambda: laws(actions),
         "rig": lambda: rig(actions),
         "candidates": candidates,
         "plan": lambda: plan(views),

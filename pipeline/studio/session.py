@@ -10,6 +10,7 @@ from typing import Any
 from meshes.files import replacing
 from pipeline.answer.record import Answer
 from pipeline.campaign.reading import DESCRIPTION, MEASUREMENTS
+from pipeline.discover.command import LawsFound
 from pipeline.errors import InputError
 from pipeline.inference.model_file import NAME
 from pipeline.init.choices import Choices
@@ -19,6 +20,7 @@ from pipeline.page.record import Page
 from pipeline.plan.record import Plan
 from pipeline.studio import tolerances
 from pipeline.studio.drop import TABLES, placed, table
+from pipeline.studio.law_file import write_laws
 from pipeline.studio.preview import Preview
 from pipeline.studio.work import Done, Kind, Proposal, Task
 from pipeline.studio.worker import Event, Refused, Said, Worker
@@ -29,6 +31,7 @@ TITLES: dict[Kind, str] = {
     "add": "adding",
     "remove": "removing",
     "diagnose": "looking for what is missing",
+    "discover": "looking for laws",
     "plan": "looking at what these tests show",
     "export": "drawing the report",
     "look": "looking at the table",
@@ -39,7 +42,8 @@ TITLES: dict[Kind, str] = {
 class Session:
     """What a page shows and its buttons do; without any widget, so that it is tested without a browser.
 
-    Nothing in a campaign's folder is touched but by `save`. changed: called when something is to be shown anew.
+    Nothing in a campaign's folder is touched but by `save`, `save_tolerances` and `add_laws`. changed: called when
+    something is to be shown anew.
     """
 
     def __init__(self, changed: Listener = lambda: None, effects_from: Sequence[Path] = ()) -> None:
@@ -57,6 +61,9 @@ class Session:
         self.answer: Answer | None = None
         self.proposals: tuple[Proposal, ...] = ()
         self.choice: int | None = None
+        self.laws: LawsFound | None = None
+        self._laws_of: str | None = None
+        self._law_file: Path | None = None
         self.plan: Plan | None = None
         self.planned: Page | None = None
         self.names: tuple[tuple[str, str], ...] = ()
@@ -177,6 +184,33 @@ class Session:
             self.tolerance = None
         self._changed()
 
+    def discover(self) -> None:
+        """Look where in the linkage the rest sits, and what law it follows, from the model as it stands."""
+        self._change("discover", ())
+
+    @property
+    def laws_fresh(self) -> bool:
+        """Whether the model is the one from which on laws were looked for."""
+        return self._laws_of == self.model
+
+    @property
+    def may_add_laws(self) -> bool:
+        """Whether laws were found that are no part of the model yet, which is as it was when they were looked for."""
+        return self.laws is not None and bool(self.laws.effect_file) and self.laws_fresh
+
+    def add_laws(self) -> None:
+        """Write the effect file of the laws beside the campaign, and add them with what entered the model."""
+        if self.folder is None or self.laws is None or not self.may_add_laws or self._task is not None:
+            return
+        try:
+            self._law_file = write_laws(self.folder, self.laws.effect_file)
+        except InputError as error:
+            self.complaint = str(error)
+        else:
+            self._change("add", self.laws.effects)
+            self.remark = f"written: {self._law_file}"
+        self._changed()
+
     def look_ahead(self) -> None:
         """Look at what the tests show about the model as it stands, measured or not, and which comes next."""
         self._change("plan", ())
@@ -243,6 +277,11 @@ class Session:
     def _at(self) -> Path:
         return Path(self._scratch.name)
 
+    @property
+    def _known_files(self) -> tuple[Path, ...]:
+        """Of effects: the user's, and the last one of laws."""
+        return self._effects_from if self._law_file is None else (*self._effects_from, self._law_file)
+
     def _change(self, kind: Kind, names: Sequence[str], out: Path | None = None) -> None:
         if self.folder is None or self.page is None:
             return
@@ -254,7 +293,7 @@ class Session:
                 self._at,
                 self.model,
                 tuple(names),
-                self._effects_from,
+                self._known_files,
                 shown,
                 out,
                 tolerance=self.tolerance,
@@ -296,7 +335,9 @@ class Session:
 
     def _finish(self, task: Task, done: Done) -> None:
         if task.kind == "open":
-            self.folder, self._seen = task.folder, self._pending[0]
+            if task.folder != self.folder:
+                self._law_file = None
+            self.folder, self._seen, self.laws = task.folder, self._pending[0], None
             if task.model is None:
                 self._on_disk, self.dirty = self._pending[1], False
                 self.answer = self.plan = None
@@ -306,6 +347,8 @@ class Session:
             self.proposals, self.choice = (), None
         if done.answer is not None:
             self._propose(done)
+        if done.laws is not None:
+            self.laws, self._laws_of = done.laws, task.model
         if done.plan is not None:
             self.plan, self.planned = done.plan, self.page
         self.found, self.preview = done.found or self.found, done.preview or self.preview

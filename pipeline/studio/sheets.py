@@ -121,18 +121,48 @@ def rig(actions: Actions) -> None:
             html.Td("{{ cell }}", v_for="cell in row")
 
 
-def laws() -> None:
-    """What was found beyond the catalogue: where, by which law, and the picture of it."""
+def laws(actions: Actions) -> None:
+    """What was found beyond the catalogue: where, by which law, and the picture of it; and the way into the model."""
     html.P(
-        "What follows a law at a place of the linkage, whatever its effect is called. discover writes it as an effect.",
+        "Every place of the linkage is asked whether one function there, shared by all tests, explains what is left. "
+        "What is found is a law at a place, whatever its effect is called.",
         classes="mt-2",
     )
-    with html.Div(v_for="(law, k) in laws", key="k", classes="rival mb-3"):
-        html.H3("{{ law.title }}")
-        html.Code("{{ law.site }}")
-        html.P("{{ law.said }}", classes="small")
-        html.P("{{ law.equation }}", v_if=("law.equation",))
-        html.P("{{ value }}", v_for="value in law.values", classes="small")
+    with html.Div(classes="row"):
+        v3.VBtn(
+            "Look for laws",
+            click=actions["discover"],
+            disabled=("!measured || !!busy",),
+            id="discover",
+            **MAIN,
+        )
+        v3.VBtn(
+            "Write laws.py and add them",
+            v_if=("laws_add",),
+            click=actions["add_laws"],
+            disabled=("!!busy",),
+            id="add_laws",
+            **MAIN,
+        )
+    html.P(
+        "An effect file is written beside campaign.toml, and added with a fit of all numbers: {{ laws_names }}",
+        v_if=("laws_add",),
+        classes="small mt-1",
+    )
+    with html.Div(v_if=("laws_looked",), id="laws_said"):
+        html.P("{{ laws_about }}", classes="small mt-1")
+        html.P("{{ said }}", v_for="said in laws_said")
+    with html.Div(v_if=("laws.length",), id="laws"):
+        _law()
+
+
+def _law() -> None:
+    """Beside its picture what is said of it."""
+    with html.Div(v_for="(law, k) in laws", key="k", classes="rival law"):
+        with html.Div():
+            html.H3("{{ law.title }}")
+            html.P("{{ said }}", v_for="said in law.said", classes="small")
+            html.P("{{ law.left }}", v_if=("law.left",), classes="small")
         html.Img(
             v_if=("law.picture",),
             src=("law.picture",),

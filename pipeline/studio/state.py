@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
-from base64 import b64encode
 from pathlib import Path
 from typing import Any
 
-from pipeline.answer.law import LawFound
 from pipeline.answer.value import Value
 from pipeline.campaign.reading import DESCRIPTION
 from pipeline.page.record import Page, RivalPage, TestPage
 from pipeline.parameter_names import parted
+from pipeline.studio import found_laws
 from pipeline.studio.planning import planning
 from pipeline.studio.session import Session
 from reports import bars
@@ -18,7 +17,6 @@ from reports.campaign import tables, words
 from reports.campaign.doubt import mistakes
 from reports.campaign.names import channel_label, measured, test_label, unit_label
 from reports.formats import number
-from reports.laws import law_picture
 from reports.load import Json
 from reports.quantities import estimate, phrase, sigma
 
@@ -68,7 +66,8 @@ EMPTY: dict[str, Any] = {
     "tolerances": [],
     "set_aside": [],
     "sigmas": [],
-    "laws": [],
+    **found_laws.NOTHING,
+    "look_for_laws": False,
     "map_height": "330px",
 }
 
@@ -101,7 +100,8 @@ def _of_page(session: Session, page: Page) -> dict[str, Any]:
             ]
             for it in page.sigmas
         ],
-        "laws": [_law(page, it) for it in page.laws],
+        **found_laws.found_laws(session, page),
+        "look_for_laws": page.diagnosed and page.verdict == "unknown" and not page.doctor,
         "map_height": f"{max(330, HEAD + ROW * len(page.tests))}px",
     }
 
@@ -183,22 +183,6 @@ def _rival(session: Session, page: Page, it: RivalPage, at: int) -> dict[str, An
         "fit": f"fitted {sigma(it.error.fit)} sigma{_held(it)}",
         "values": [_value(value) for value in it.parameters.values()],
         "open": at < len(session.proposals),
-    }
-
-
-def _law(page: Page, it: LawFound) -> dict[str, Any]:
-    """What was found where, and its picture as an address that holds it."""
-    png = b"" if it.curve is None else law_picture(page.campaign, it.model_dump())
-    return {
-        "title": words.capital(it.where),
-        "site": it.site,
-        "said": f"The readings say of it: {it.shape}.",
-        "equation": it.equation or "",
-        "values": [
-            phrase(name, estimate(value.model_dump()), value.unit, number)
-            for name, value in it.parameters.items()
-        ],
-        "picture": f"data:image/png;base64,{b64encode(png).decode('ascii')}" if png else "",
     }
 
 

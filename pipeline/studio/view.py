@@ -9,6 +9,7 @@ from typing import Any
 from trame.app import get_server
 from trame.decorators import TrameApp, change
 
+from pipeline.discover.command import LawsFound
 from pipeline.errors import InputError
 from pipeline.page.record import Page
 from pipeline.plan.record import Plan
@@ -70,6 +71,7 @@ class Studio:
         self.session = Session(self._show, effects_from)
         self._shown: Page | None = None
         self._foreseen: Plan | None = None
+        self._found: LawsFound | None = None
         self._framed = ""
         self._exported: Path | None = None
         self._drawn: tuple[str, str] = ("", "")
@@ -100,6 +102,8 @@ class Studio:
             "back": session.back,
             "choose": self._choose,
             "take": self._take,
+            "discover": session.discover,
+            "add_laws": session.add_laws,
             "plan": session.look_ahead,
             "cancel": session.cancel,
             "pick": self._pick,
@@ -147,6 +151,10 @@ class Studio:
             self.state.tab = "data" if plan is None else "plan"
             if plan is not None:
                 self.views["alike"].update(matrix.numbered(plan.names, plan.alike, MATRIX))
+        if self.session.laws is not self._found:
+            self._found = self.session.laws
+            if self._found is not None:
+                self.state.tab = "laws"
         if self.session.report is not None and self.session.report != self._exported:
             self._link(self.session.report)
         self._show_table()

@@ -14,6 +14,7 @@ from pipeline.callbacks import OnProgress
 from pipeline.campaign import read
 from pipeline.campaign.reading import DESCRIPTION
 from pipeline.discover.beyond_catalogue import with_laws
+from pipeline.discover.command import LawsFound, laws_found
 from pipeline.inference.model_file import NAME, ModelFile, Uncertainty, model_text
 from pipeline.inference.model_reading import read_model_file
 from pipeline.inference.suitable import known_effects, named_effects
@@ -31,7 +32,7 @@ from pipeline.selection.diagnosis import diagnose
 from pipeline.studio.preview import Preview, preview_of
 from pipeline.typed import command
 
-Kind = Literal["open", "add", "remove", "diagnose", "plan", "export", "look", "preview"]
+Kind = Literal["open", "add", "remove", "diagnose", "discover", "plan", "export", "look", "preview"]
 
 
 @dataclass(frozen=True)
@@ -80,6 +81,7 @@ class Done:
     answer: Answer | None = None
     isolability: Isolability | None = None
     proposals: tuple[Proposal, ...] = ()
+    laws: LawsFound | None = None
     plan: Plan | None = None
     names: tuple[tuple[str, str], ...] = ()
     written: Path | None = None
@@ -107,6 +109,8 @@ def do(task: Task, on_progress: OnProgress) -> Done:
     subject = Subject(campaign, model, known, told)
     if task.kind == "diagnose":
         return _diagnosed(task, subject, on_progress)
+    if task.kind == "discover":
+        return Done("discover", laws=laws_found(campaign, model, known, on_progress))
     if task.kind == "plan":
         return Done("plan", plan=plan_of(campaign, model, known.effects, on_progress))
     return _model(task, subject, on_progress)
