@@ -33,14 +33,15 @@ LARGEST = {DESCRIPTION: 2**24, MEASUREMENTS: 2**30}
 """Bytes."""
 
 
-def read(folder: Path) -> Campaign:
-    """The campaign in a folder.
+def read(folder: Path, instead: str | None = None) -> Campaign:
+    """The campaign in a folder. instead: a text in the place of its campaign.toml, to see what that would say.
 
     BadCampaign, an InputError, names file, line, key or column, what was found and what is allowed, for every
     mistake in campaign.toml and in the files of readings; only whether the two fit each other is looked at when
     neither has one.
     """
-    described, table = _texts(folder)
+    there, table = _texts(folder)
+    described = there if instead is None else instead
     first = Complaints(str(folder / DESCRIPTION))
     draft = describe(described, first, folder)
     paths = {source.declared.file.path or MEASUREMENTS for source in draft.sources}

@@ -9,7 +9,8 @@ from pipeline.answer.value import Value
 from pipeline.campaign.reading import DESCRIPTION
 from pipeline.page.record import Page, RivalPage, TestPage
 from pipeline.parameter_names import parted
-from pipeline.studio import found_laws
+from pipeline.selection.mending import Mend
+from pipeline.studio import found_laws, tolerances
 from pipeline.studio.planning import planning
 from pipeline.studio.session import Session
 from reports import bars
@@ -22,6 +23,8 @@ from reports.quantities import estimate, phrase, sigma
 
 NEAREST = 6
 """Candidates that were not chosen and are shown beside the model."""
+LINES = 3
+"""Of a mend that are shown."""
 DEEP = 3
 """Folders below the present one in which campaigns are looked for."""
 ROW, HEAD = 15, 90
@@ -44,6 +47,8 @@ def panel(session: Session) -> dict[str, Any]:
         "standing": _standing(session),
         "addable": [] if page is None else _addable(session, page),
         "edited": session.tolerance is not None,
+        "mends": [_mend(it) for it in session.mends],
+        "undo": session.edits[-1].words if session.edits else "",
         **(EMPTY if page is None else _of_page(session, page)),
         **planning(session),
     }
@@ -89,7 +94,7 @@ def _of_page(session: Session, page: Page) -> dict[str, Any]:
         "candidates": [_candidate(it) for it in record["candidates"]],
         "nearest": [_candidate(it) for it in record["candidates"] if not it["chosen"]][:NEAREST],
         "rivals": [_rival(session, page, it, k) for k, it in enumerate(page.rivals)],
-        "tolerances": _tolerances(session, page),
+        "tolerances": tolerances.rows(page, session.tolerance),
         "set_aside": [[it.test, it.step, it.column, sigma(it.sigma)] for it in page.set_aside],
         "sigmas": [
             [
@@ -104,6 +109,11 @@ def _of_page(session: Session, page: Page) -> dict[str, Any]:
         "look_for_laws": page.diagnosed and page.verdict == "unknown" and not page.doctor,
         "map_height": f"{max(330, HEAD + ROW * len(page.tests))}px",
     }
+
+
+def _mend(it: Mend) -> dict[str, Any]:
+    more = len(it.lines) - LINES
+    return {"words": it.words, "lines": [*it.lines[:LINES], *([f"and {more} more"] if more > 0 else [])]}
 
 
 def _standing(session: Session) -> str:
@@ -188,24 +198,3 @@ def _rival(session: Session, page: Page, it: RivalPage, at: int) -> dict[str, An
 
 def _held(it: RivalPage) -> str:
     return "" if it.error.holdout is None else f", held out {sigma(it.error.holdout)}"
-
-
-def _tolerances(session: Session, page: Page) -> list[dict[str, str]]:
-    """As written, or as typed and not written yet; with what a diagnosis found beside them."""
-    typed = None if session.tolerance is None else dict(session.tolerance)
-    found = {it.name: it for it in page.nominals if it.seen}
-    rows = []
-    for it in page.tolerances:
-        value = it.value if typed is None else typed.get(it.key, 0.0)
-        mine = found.get(it.key)
-        rows.append(
-            {
-                "key": it.key,
-                "words": it.words,
-                "unit": it.unit,
-                "value": f"{value:g}" if value else "exact",
-                "found": "" if mine is None else f"{number(mine.value, 4)} ± {number(mine.std, 2)}",
-                "pull": "" if mine is None else f"{mine.pull:+.1f}",
-            }
-        )
-    return rows

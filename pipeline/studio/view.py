@@ -109,6 +109,8 @@ class Studio:
             "pick": self._pick,
             "tolerate": lambda: session.tolerate({row["key"]: row["value"] for row in self.state.tolerances}),
             "save_tolerances": session.save_tolerances,
+            "mend": session.mend,
+            "undo": session.undo,
             "kind": lambda *_: self._kind(),
             "preview": self._preview,
             "make": lambda: session.make(str(self.state.table["name"])),

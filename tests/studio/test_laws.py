@@ -11,7 +11,7 @@ from pipeline.add.command import add_effects
 from pipeline.campaign import write
 from pipeline.discover.command import Asked, discover_laws
 from pipeline.inference.model_reading import read_model_file
-from pipeline.studio.law_file import write_laws
+from pipeline.studio.files import write_laws
 from pipeline.studio.session import Session
 from pipeline.studio.state import panel
 from tests.pipeline.bench import bench
