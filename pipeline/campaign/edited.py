@@ -41,6 +41,25 @@ def changed(text: str, changes: Sequence[Change]) -> tuple[str, tuple[str, ...]]
     return tomlkit.dumps(document), tuple(dict.fromkeys(line for line in lines if line))
 
 
+Counts = Literal["set_aside", "keep", "as it is"]
+
+
+def with_reading(text: str, test: str, step: int, column: str, counts: Counts) -> str:
+    """The text with one reading set aside, kept, or left to whoever looks at it. InputError for what is no TOML."""
+    document = parsed(text)
+    for each in (it for it in tests_of(document) if it.get("id") == test):
+        for key in ("set_aside", "keep"):
+            cells = {name: list(steps) for name, steps in each.get(key, {}).items()}
+            steps = [it for it in cells.pop(column, []) if it != step] + [step] * (key == counts)
+            cells |= {column: sorted(steps)} if steps else {}
+            if cells:
+                each[key] = tomlkit.inline_table()
+                each[key].update(cells)
+            elif key in each:
+                del each[key]
+    return tomlkit.dumps(document)
+
+
 def parsed(text: str) -> tomlkit.TOMLDocument:
     """A document to be edited. InputError for what is no TOML."""
     try:

@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 
 from pipeline.campaign.mapped.mapping import Source
-from pipeline.campaign.model import Gauge, Rig, Role, Zero
+from pipeline.campaign.model import Cells, Gauge, Rig, Role, Zero
 
 
 @dataclass(frozen=True)
@@ -17,6 +17,8 @@ class Head:
     zero: Zero
     rig: Rig
     line: int | None
+    set_aside: Cells = ()
+    keep: Cells = ()
 
 
 @dataclass(frozen=True)

@@ -5,9 +5,10 @@ from pathlib import Path
 
 import numpy as np
 
+from pipeline.campaign.aside import by_hand
 from pipeline.campaign.description import describe
 from pipeline.campaign.formats import by_suffix
-from pipeline.campaign.head import Description, Draft, SensorNoise
+from pipeline.campaign.head import Description, Draft, Head, SensorNoise
 from pipeline.campaign.long_tests import thinned
 from pipeline.campaign.mapped.assemble import measured as assembled
 from pipeline.campaign.measured import Measured
@@ -64,12 +65,10 @@ def read(folder: Path, instead: str | None = None) -> Campaign:
         if head.id in data:
             remarks += judge(head, data[head.id], description.gauges, noise, columns, complaints)
     complaints.check()
-    tests = tuple(
-        Test(head.id, head.q_deg, head.role, head.control, head.zero, head.rig, data[head.id])
-        for head in description.heads
-    )
+    tests = tuple(_test(head, data[head.id], description, first) for head in description.heads)
+    first.check()
     known, said = _tolerance(description)
-    remarks = [*_sigma_remarks(description, tests), *said, *remarks]
+    remarks = [*_sigma_remarks(description, tests), *said, *_by_hand_remarks(tests), *remarks]
     shorter = [thinned(test, noise, description.gauges) for test in tests]
     tests = tuple(test for test, _ in shorter)
     remarks += [said for _, said in shorter if said]
@@ -86,6 +85,24 @@ def read(folder: Path, instead: str | None = None) -> Campaign:
         digests,
         known,
     )
+
+
+def _test(head: Head, data: Data, description: Description, complaints: Complaints) -> Test:
+    """A test with its readings, without those that were set aside by hand."""
+    test = Test(
+        head.id, head.q_deg, head.role, head.control, head.zero, head.rig, data, head.set_aside, head.keep
+    )
+    return by_hand(test, description.gauges, head.line, complaints)
+
+
+def _by_hand_remarks(tests: tuple[Test, ...]) -> list[str]:
+    """Readings that were set aside, or are kept, by hand."""
+    aside, kept = (
+        [f"{column} of {test.id} step {step}" for test in tests for step, column in cells(test)]
+        for cells in (lambda test: test.set_aside, lambda test: test.keep)
+    )
+    said = (("set aside", aside), ("kept however far off it is", kept))
+    return [f"{DESCRIPTION}: by hand {words}: {', '.join(names)}" for words, names in said if names]
 
 
 def _tolerance(description: Description) -> tuple[dict[str, float], list[str]]:

@@ -8,6 +8,7 @@ from itertools import count
 from pathlib import Path
 
 from meshes.files import replacing
+from pipeline.campaign import read
 from pipeline.campaign.reading import DESCRIPTION, MEASUREMENTS
 from pipeline.discover.effect_file import write_effect
 from pipeline.errors import InputError
@@ -56,14 +57,17 @@ class Edit:
 
 
 def edited(folder: Path, change: Callable[[str], str], words: str) -> Edit:
-    """Write campaign.toml anew, whole or not at all; its line ends stay. InputError where that cannot be done."""
+    """Write campaign.toml anew, whole or not at all; its line ends stay. InputError where that cannot be
+    done, and for a campaign that could not be read then."""
     path = folder / DESCRIPTION
     try:
         before = path.read_bytes()
         text = before.decode("utf-8-sig")
     except (OSError, UnicodeDecodeError) as error:
         raise InputError(f"{path} cannot be read: {error}") from error
-    it = Edit(path, words, before, change(text).encode())
+    new = change(text)
+    read(folder, new)
+    it = Edit(path, words, before, new.encode())
     put(path, it.after)
     return it
 

@@ -8,6 +8,7 @@ from tempfile import TemporaryDirectory
 from typing import Any
 
 from pipeline.answer.record import Answer
+from pipeline.campaign.edited import Counts, with_reading
 from pipeline.campaign.reading import DESCRIPTION
 from pipeline.discover.command import LawsFound
 from pipeline.errors import InputError
@@ -42,8 +43,8 @@ TITLES: dict[Kind, str] = {
 class Session:
     """What a page shows and its buttons do; without any widget, so that it is tested without a browser.
 
-    A campaign's folder is touched by `save` and `add_laws`, and its campaign.toml by `edit` and `undo`; by
-    nothing else. changed: called when something is to be shown anew.
+    Of a campaign's folder `save` and `add_laws` write files, `edit` and `undo` write campaign.toml; nothing else does.
+    changed: called when something is to be shown anew.
     """
 
     def __init__(self, changed: Listener = lambda: None, effects_from: Sequence[Path] = ()) -> None:
@@ -118,10 +119,9 @@ class Session:
 
     def make(self, name: str) -> None:
         """Make the table that was looked at a campaign of its own, and open it."""
-        if self.file is None or self.preview is None or self._task is not None:
-            return
-        files = {path.name: path.read_bytes() for path in (self.file, self.file.parent / DESCRIPTION)}
-        self.open(placed(files, name, TABLES))
+        if self.file is not None and self.preview is not None and self._task is None:
+            files = {path.name: path.read_bytes() for path in (self.file, self.file.parent / DESCRIPTION)}
+            self.open(placed(files, name, TABLES))
 
     def add(self, names: Sequence[str]) -> None:
         """Add effects and fit."""
@@ -166,9 +166,7 @@ class Session:
         except InputError as error:
             self.complaint = str(error)
         else:
-            self.remark = (
-                "Diagnose looks again with these tolerances; Save tolerances writes them in campaign.toml"
-            )
+            self.remark = "Diagnose looks again with these; Save tolerances writes them in campaign.toml"
         self._changed()
 
     def save_tolerances(self) -> None:
@@ -202,6 +200,11 @@ class Session:
         self._reread(f"written in {DESCRIPTION}: {words}")
         return True
 
+    def count(self, test: str, step: int, column: str, counts: Counts) -> None:
+        """Set a reading aside in campaign.toml, keep it there, or leave it to the diagnosis."""
+        said = f"{column} of {test}, step {step}: {counts.replace('_', ' ')}"
+        self.edit(lambda text: with_reading(text, test, step, column, counts), said)
+
     def undo(self) -> None:
         """Take back what was written last in campaign.toml."""
         if self.folder is None or not self.edits or self._task is not None:
@@ -211,10 +214,10 @@ class Session:
             undone(last)
         except InputError as error:
             self.complaint = str(error)
-            self._changed()
-            return
-        self.edits = tuple(rest)
-        self._reread(f"taken back in {last.path.name}: {last.words}")
+        else:
+            self.edits = tuple(rest)
+            self._reread(f"taken back in {last.path.name}: {last.words}")
+        self._changed()
 
     def discover(self) -> None:
         """Look where in the linkage the rest sits, and what law it follows, from the model as it stands."""

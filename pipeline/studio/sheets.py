@@ -104,14 +104,7 @@ def rig(actions: Actions) -> None:
         id="save_tolerances",
         **BUTTON,
     )
-    html.H2("Readings that were set aside")
-    html.P("None.", v_if=("!set_aside.length",), classes="small")
-    with html.Table(v_if=("set_aside.length",), classes="grid", id="set_aside"):
-        with html.Thead(), html.Tr():
-            for head in ("test", "step", "column", "off by, sigma"):
-                html.Th(head)
-        with html.Tbody(), html.Tr(v_for="row in set_aside"):
-            html.Td("{{ cell }}", v_for="cell in row")
+    _readings(actions)
     html.H2("Noise of the sensors, one standard deviation")
     with html.Table(classes="grid", id="sigmas"):
         with html.Thead(), html.Tr():
@@ -119,6 +112,33 @@ def rig(actions: Actions) -> None:
                 html.Th(head)
         with html.Tbody(), html.Tr(v_for="row in sigmas"):
             html.Td("{{ cell }}", v_for="cell in row")
+
+
+def _readings(actions: Actions) -> None:
+    """Those that do not count, or are kept by hand, each with the way back."""
+    html.H2("Readings that were set aside, or are kept by hand")
+    html.P("None.", v_if=("!set_aside.length",), classes="small")
+    with html.Table(v_if=("set_aside.length",), classes="grid", id="set_aside"):
+        with html.Thead(), html.Tr():
+            for head in ("test", "step", "column", "why", ""):
+                html.Th(head)
+        with html.Tbody(), html.Tr(v_for="row in set_aside"):
+            for key in ("test", "step", "column", "said"):
+                html.Td(f"{{{{ row.{key} }}}}")
+            with html.Td():
+                v3.VBtn(
+                    "{{ row.button }}",
+                    click=(actions["count"], "[row.test, row.step, row.column, row.counts]"),
+                    disabled=("!!busy",),
+                    raw_attrs=[
+                        ":aria-label=\"row.button + ': ' + row.column + ' of ' + row.test + ', step ' + row.step\""
+                    ],
+                    **BUTTON,
+                )
+    html.P(
+        "Another is set aside below the picture of its load step. Both are written in campaign.toml, under its test.",
+        classes="small mt-1",
+    )
 
 
 def laws(actions: Actions) -> None:

@@ -5,9 +5,11 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
+from pipeline.answer.record import SetAside
 from pipeline.answer.value import Value
+from pipeline.campaign.edited import Counts
 from pipeline.campaign.reading import DESCRIPTION
-from pipeline.page.record import Page, RivalPage, TestPage
+from pipeline.page.record import ByHand, Page, RivalPage, TestPage
 from pipeline.parameter_names import parted
 from pipeline.selection.mending import Mend
 from pipeline.studio import found_laws, tolerances
@@ -95,7 +97,7 @@ def _of_page(session: Session, page: Page) -> dict[str, Any]:
         "nearest": [_candidate(it) for it in record["candidates"] if not it["chosen"]][:NEAREST],
         "rivals": [_rival(session, page, it, k) for k, it in enumerate(page.rivals)],
         "tolerances": tolerances.rows(page, session.tolerance),
-        "set_aside": [[it.test, it.step, it.column, sigma(it.sigma)] for it in page.set_aside],
+        "set_aside": _readings(page),
         "sigmas": [
             [
                 channel_label(it.column),
@@ -108,6 +110,29 @@ def _of_page(session: Session, page: Page) -> dict[str, Any]:
         **found_laws.found_laws(session, page),
         "look_for_laws": page.diagnosed and page.verdict == "unknown" and not page.doctor,
         "map_height": f"{max(330, HEAD + ROW * len(page.tests))}px",
+    }
+
+
+def _readings(page: Page) -> list[dict[str, Any]]:
+    """Readings that do not count, or count by hand, and what a button makes of each."""
+    out = [
+        _reading(it, f"{sigma(it.sigma)} sigma off, by the diagnosis", "Put back", "keep")
+        for it in page.set_aside
+    ]
+    for it in page.by_hand:
+        said = "kept by hand, however far off it is" if it.kept else "set aside by hand"
+        out.append(_reading(it, said, "Leave it to the diagnosis" if it.kept else "Put back", "as it is"))
+    return out
+
+
+def _reading(it: SetAside | ByHand, said: str, button: str, counts: Counts) -> dict[str, Any]:
+    return {
+        "test": it.test,
+        "step": it.step,
+        "column": it.column,
+        "said": said,
+        "button": button,
+        "counts": counts,
     }
 
 

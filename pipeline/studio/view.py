@@ -111,6 +111,8 @@ class Studio:
             "save_tolerances": session.save_tolerances,
             "mend": session.mend,
             "undo": session.undo,
+            "count": session.count,
+            "aside": self._aside,
             "kind": lambda *_: self._kind(),
             "preview": self._preview,
             "make": lambda: session.make(str(self.state.table["name"])),
@@ -256,6 +258,16 @@ class Studio:
     def _pick(self, cell: list[str] | None) -> None:
         if cell:
             self.state.test, self.state.channel = cell
+
+    def _aside(self) -> None:
+        """Set aside the reading that is seen: test, channel and load step as they are chosen."""
+        page = self.session.shown
+        if page is not None:
+            test = test_of(page, self.state.test)
+            it = next((c for c in test.curves if channel_label(c.channel) == self.state.channel), None)
+            if it is not None:
+                step = test.steps[int(self.state.step)]
+                self.session.count(test.test, step, f"{it.channel}_{it.unit}", "set_aside")
 
     def _screen(self, name: str) -> None:
         self.state.screen = name

@@ -83,3 +83,38 @@ def test_tolerances_that_were_saved_are_taken_back(session: Session, tmp_path: P
     it.undo()
     until(it, idle)
     assert (folder / "campaign.toml").read_bytes() == before and read(folder).tolerance["EA"] != 0.013
+
+
+def test_a_reading_is_set_aside_and_comes_back(session: Session, tmp_path: Path) -> None:
+    folder = tmp_path / "rig"
+    shutil.copytree(DATA / "n_i_outlier_f", folder)
+    before = (folder / "campaign.toml").read_bytes()
+    it = opened(session, folder)
+    assert not panel(it)["set_aside"]
+    it.count("axial", 5, "mz_Nmm", "set_aside")
+    assert "set_aside: mz_Nmm was not read in step 5" in it.complaint and it.busy is None
+    assert (folder / "campaign.toml").read_bytes() == before and not it.edits
+    it.count("axial", 5, "x_mm", "set_aside")
+    until(it, idle)
+    (row,) = panel(it)["set_aside"]
+    assert (row["test"], row["step"], row["column"], row["said"]) == ("axial", 5, "x_mm", "set aside by hand")
+    assert read(folder).tests[0].set_aside == ((5, "x_mm"),) and it.page is not None
+    axial = it.page.tests[0]
+    assert axial.curves[0].measured[axial.steps.index(5)] is None
+    assert any("by hand set aside: x_mm of axial step 5" in said for said in it.page.remarks)
+    it.count(row["test"], row["step"], row["column"], row["counts"])
+    until(it, idle)
+    assert (folder / "campaign.toml").read_bytes() == before and not panel(it)["set_aside"]
+
+
+@pytest.mark.long
+def test_what_a_diagnosis_sets_aside_is_kept_once_it_is_put_back(session: Session, tmp_path: Path) -> None:
+    """That nothing of the step is set aside then: tests/pipeline/selection/adequacy/test_bad_readings.py."""
+    folder = diagnosed(session, "n_i_outlier_f", tmp_path)
+    (row,) = panel(session)["set_aside"]
+    assert row["said"] == "−14.8 sigma off, by the diagnosis" and row["button"] == "Put back"
+    session.count(row["test"], row["step"], row["column"], row["counts"])
+    until(session, idle)
+    assert read(folder).tests[0].keep == ((5, "x_mm"),)
+    (row,) = panel(session)["set_aside"]
+    assert row["said"] == "kept by hand, however far off it is"
