@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from pipeline.campaign.model import Array, Gauge, Rig
+from pipeline.campaign.model import Array, Gauge, Rig, Test
 from pipeline.campaign.names import COORDINATES, DISPLACEMENT, FORCE, SUPPORT
 from pipeline.toml.complaints import shown
 from pipeline.toml.spelling import unknown_name
@@ -78,3 +78,10 @@ def pull(rig: Rig, q: float, displacement: Array, wrench: Array, sigmas: tuple[A
         edge = noise if np.isfinite(noise) else PART * np.max(np.abs(reading[known]))
         verdict[known] = np.where(np.abs(reading[known]) > edge, np.sign(reading[known]), 0.0)
     return verdict
+
+
+def control_channels(test: Test, gauges: tuple[Gauge, ...]) -> list[int]:
+    """Channel that is prescribed for each of the six coordinates."""
+    names = [gauge.name for gauge in gauges]
+    plain = {DISPLACEMENT: 0, SUPPORT: 0, FORCE: 6}
+    return [k + plain[by] if by in plain else 12 + names.index(by) for k, by in enumerate(test.control)]

@@ -9,7 +9,7 @@ from pydantic import BaseModel, TypeAdapter, ValidationError
 from pipeline.campaign.control import controls
 from pipeline.campaign.head import Description, Draft, Head, SensorNoise
 from pipeline.campaign.mapped.sources import Sources
-from pipeline.campaign.model import Gauge, Rig, Vector
+from pipeline.campaign.model import Cells, Gauge, Rig, Vector
 from pipeline.campaign.names import (
     DISPLACEMENT,
     FORCE,
@@ -191,7 +191,8 @@ class _Reader:
         for said in wrong:
             self.say((*path, "control"), said, f"{place}, control")
         line = self.lines.of(*path)
-        return Head(table.id, table.q_deg or 0.0, table.role, held, table.zero, placed, line)
+        aside, keep = (_cells(each) for each in (table.set_aside, table.keep))
+        return Head(table.id, table.q_deg or 0.0, table.role, held, table.zero, placed, line, aside, keep)
 
     def _own_rig(self, table: TestTable, base: Raw, rig: Rig, path: Path, place: str) -> Rig | None:
         """The rig of the campaign with the values of this test."""
@@ -232,6 +233,10 @@ class _Reader:
         """A complaint about a key. place: how it is named, default the key itself."""
         where = ".".join(map(str, path)) if place is None else place
         self.complaints.add(where, said, self.lines.of(*path))
+
+
+def _cells(said: dict[str, list[int]]) -> Cells:
+    return tuple((step, column) for column, steps in said.items() for step in steps)
 
 
 def _of_others(key: str, model: type[BaseModel]) -> str:

@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 
 from pipeline.campaign.mapped.mapping import Source
-from pipeline.campaign.model import Gauge, Rig, Role, Zero
+from pipeline.campaign.model import Cells, Gauge, Rig, Role, Zero
 from pipeline.campaign.rig import distinct
 
 
@@ -18,6 +18,8 @@ class Head:
     zero: Zero
     rig: Rig
     line: int | None
+    set_aside: Cells = ()
+    keep: Cells = ()
 
 
 @dataclass(frozen=True)

@@ -21,8 +21,9 @@ from pipeline.campaign.tolerance import widest
 
 Role = Literal["fit", "holdout"]
 Zero = Literal["nominal", "first_row", "fitted"]
+Cells = tuple[tuple[int, str], ...]
 
-__all__ = ["Array", "Campaign", "Data", "Gauge", "Noise", "Rig", "Role", "Test", "Vector", "Zero"]
+__all__ = ["Array", "Campaign", "Cells", "Data", "Gauge", "Noise", "Rig", "Role", "Test", "Vector", "Zero"]
 
 
 @dataclass(frozen=True, eq=False)
@@ -53,7 +54,8 @@ class Test:
 
     q_deg: nominal angle of the bars, degrees as it was given. control: what is prescribed for each of the six
     coordinates: "displacement", "force", the name of a gauge, or "support" where the support of a bar's tip holds
-    the coordinate at zero. rig: that of the campaign with the test's own values.
+    the coordinate at zero. rig: that of the campaign with the test's own values. set_aside, keep: step and column of
+    readings that somebody left out, and of those that are to count whatever they look like.
     """
 
     id: str
@@ -63,6 +65,8 @@ class Test:
     zero: Zero
     rig: Rig
     data: Data
+    set_aside: Cells = ()
+    keep: Cells = ()
 
     # Not a class of tests, whatever its name suggests to a collector.
     __test__ = False

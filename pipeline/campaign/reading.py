@@ -5,9 +5,10 @@ from pathlib import Path
 
 import numpy as np
 
+from pipeline.campaign.aside import by_hand
 from pipeline.campaign.description import describe
 from pipeline.campaign.formats import by_suffix
-from pipeline.campaign.head import Description, Draft, SensorNoise
+from pipeline.campaign.head import Description, Draft, Head, SensorNoise
 from pipeline.campaign.long_tests import thinned
 from pipeline.campaign.mapped.assemble import measured as assembled
 from pipeline.campaign.measured import Measured
@@ -34,14 +35,15 @@ LARGEST = {DESCRIPTION: 2**24, MEASUREMENTS: 2**30}
 """Bytes."""
 
 
-def read(folder: Path) -> Campaign:
-    """The campaign in a folder.
+def read(folder: Path, instead: str | None = None) -> Campaign:
+    """The campaign in a folder. instead: a text in the place of its campaign.toml, to see what that would say.
 
     BadCampaign, an InputError, names file, line, key or column, what was found and what is allowed, for every
     mistake in campaign.toml and in the files of readings; only whether the two fit each other is looked at when
     neither has one.
     """
-    described, table = _texts(folder)
+    there, table = _texts(folder)
+    described = there if instead is None else instead
     first = Complaints(str(folder / DESCRIPTION))
     draft = describe(described, first, folder)
     paths = {source.declared.file.path or MEASUREMENTS for source in draft.sources}
@@ -64,12 +66,10 @@ def read(folder: Path) -> Campaign:
         if head.id in data:
             remarks += judge(head, data[head.id], description.gauges, noise, columns, complaints)
     complaints.check()
-    tests = tuple(
-        Test(head.id, head.q_deg, head.role, head.control, head.zero, head.rig, data[head.id])
-        for head in description.heads
-    )
+    tests = tuple(_test(head, data[head.id], description, first) for head in description.heads)
+    first.check()
     known, said = _tolerance(description)
-    remarks = [*_sigma_remarks(description, tests), *said, *remarks]
+    remarks = [*_sigma_remarks(description, tests), *said, *_by_hand_remarks(tests), *remarks]
     shorter = [thinned(test, noise, description.gauges) for test in tests]
     tests = tuple(test for test, _ in shorter)
     remarks += [said for _, said in shorter if said]
@@ -87,6 +87,24 @@ def read(folder: Path) -> Campaign:
         digests,
         known,
     )
+
+
+def _test(head: Head, data: Data, description: Description, complaints: Complaints) -> Test:
+    """A test with its readings, without those that were set aside by hand."""
+    test = Test(
+        head.id, head.q_deg, head.role, head.control, head.zero, head.rig, data, head.set_aside, head.keep
+    )
+    return by_hand(test, description.gauges, head.line, complaints)
+
+
+def _by_hand_remarks(tests: tuple[Test, ...]) -> list[str]:
+    """Readings that were set aside, or are kept, by hand."""
+    aside, kept = (
+        [f"{column} of {test.id} step {step}" for test in tests for step, column in cells(test)]
+        for cells in (lambda test: test.set_aside, lambda test: test.keep)
+    )
+    said = (("set aside", aside), ("kept however far off it is", kept))
+    return [f"{DESCRIPTION}: by hand {words}: {', '.join(names)}" for words, names in said if names]
 
 
 def _tolerance(description: Description) -> tuple[dict[str, float], list[str]]:

@@ -20,6 +20,8 @@ from pipeline.toml.fields import (
     printable,
 )
 
+Step = Annotated[int, Field(strict=True, ge=0)]
+
 
 class Top(Table):
     """The whole file, its tables still as they were read."""
@@ -134,6 +136,11 @@ class TestTable(Table):
     zero: Zero = "nominal"
     """nominal: readings count from the nominal unloaded pose. first_row: sensors and cell were zeroed in the
     first row. fitted: their offsets are not known and are fitted."""
+    set_aside: dict[str, list[Step]] = Field(default_factory=dict)
+    """Readings that do not count: the steps by the column, as { fy_N = [3, 7] }. Where one was prescribed, nothing of
+    its step is compared."""
+    keep: dict[str, list[Step]] = Field(default_factory=dict)
+    """Readings that count however far off they are: a diagnosis sets nothing of their step aside."""
     rig: dict[str, Any] = Field(default_factory=dict)
     """Values of [rig] that this test overrides. A length only where the bar is not given by its 6x6."""
     file: dict[str, Any] = Field(default_factory=dict)

@@ -99,6 +99,10 @@ def description_text(campaign: Campaign) -> str:
         entry = {"id": test.id, **place, "role": test.role, "control": inline(control)}
         if test.zero != "nominal":
             entry["zero"] = test.zero
+        # What is set aside is written as it counts: its cells are empty.
+        if test.keep:
+            names = dict.fromkeys(column for _, column in test.keep)
+            entry["keep"] = inline({it: sorted(step for step, c in test.keep if c == it) for it in names})
         if own := _differences(test.id, base, rig_table(test.rig)):
             entry["rig"] = inline(own)
         document["tests"].append(entry)

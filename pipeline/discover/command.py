@@ -51,26 +51,37 @@ def discover_laws(asked: Asked) -> Discovered:
     began, known = starting_model(campaign, asked.folder, asked.model, known)
     _check(asked)
     with Progress(asked.quiet).stage("looking for laws") as stage:
-        found, record = discovered(campaign, began, known, stage.say)
-        stage.note = f"{len(found.laws)} found"
-    record = record.model_copy(update={"seed": asked.seed})
-    following = _written(asked, found, record)
-    show(record, following, asked.quiet)
-    return record
+        found = laws_found(campaign, began, known, stage.say)
+        stage.note = f"{len(found.record.laws)} found"
+    found = replace(found, record=found.record.model_copy(update={"seed": asked.seed}))
+    following = _written(asked, found)
+    show(found.record, following, asked.quiet)
+    return found.record
 
 
-def discovered(
+@dataclass(frozen=True)
+class LawsFound:
+    """record: with all of it in words. effects: names of all that entered the model, laws by those of their effect
+    file, in order. effect_file: its text, "" where no law in the mechanism was found."""
+
+    record: Discovered
+    effects: tuple[str, ...]
+    effect_file: str
+
+
+def laws_found(
     campaign: Campaign, model: Model, known: Known, on_progress: OnProgress = lambda _: None
-) -> tuple[Discovery, Discovered]:
-    """What is found, and its record with all of it in words. InputError as of `searched`."""
+) -> LawsFound:
+    """What is found from a model on. InputError as of `searched`."""
     begin = perf_counter()
     found, whole = searched(campaign, model, known, on_progress)
     record = recorded(found, load_cases(set_aside(whole, found.bad)), perf_counter() - begin)
-    return found, record.model_copy(update={"sentences": sentences(record)})
+    record = record.model_copy(update={"sentences": sentences(record)})
+    text = effect_text(found, record) if any(law.ways for law in found.laws) else ""
+    return LawsFound(record, _effects(found, record), text)
 
 
-def effects_found(found: Discovery, record: Discovered) -> tuple[str, ...]:
-    """Names of all effects that entered the model, laws by those of their effect file, in order."""
+def _effects(found: Discovery, record: Discovered) -> tuple[str, ...]:
     names = [GEOMETRY] if found.bent else []
     names += [each.effect for each in record.entered]
     return (*names, *(name_of(law.ways[0]) for law in found.laws if law.ways))
@@ -107,8 +118,9 @@ def _check(asked: Asked) -> None:
             usable(path, named)
 
 
-def _written(asked: Asked, found: Discovery, record: Discovered) -> list[str]:
+def _written(asked: Asked, found: LawsFound) -> list[str]:
     """Writes what was asked for; commands that go on from there."""
+    record = found.record
     if asked.json is not None:
         record.write(asked.json)
     if asked.out is not None:
@@ -118,10 +130,9 @@ def _written(asked: Asked, found: Discovery, record: Discovered) -> list[str]:
             with replacing(asked.out / name) as part:
                 part.write_bytes(content)
         record.write(asked.out / "laws.json")
-    if not any(law.ways for law in found.laws):
+    if not found.effect_file:
         return []
     if asked.write is None:
         return [command("discover", asked.folder, "--write", "law.py")]
-    write_effect(asked.write, effect_text(found, record))
-    names = effects_found(found, record)
-    return [command("add", asked.folder, *names, "--effects-from", asked.write)]
+    write_effect(asked.write, found.effect_file)
+    return [command("add", asked.folder, *found.effects, "--effects-from", asked.write)]

@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING
 
 from rich.console import RenderableType
 
-from pipeline.discover.command import discovered, effects_found
-from pipeline.discover.effect_file import effect_text, write_effect
+from pipeline.discover.command import laws_found
+from pipeline.discover.effect_file import write_effect
 from pipeline.discover.record import Discovered, LawFound
 from pipeline.discover.table import headline, table
 from pipeline.discover.words import law_sentences
@@ -109,9 +109,8 @@ def discover(bench: Given) -> Discovery:
     left. InputError for a rig without places of laws, and where no test may be fitted. Source: docs/laws.md.
     """
     it = subject_of(bench)
-    found, record = discovered(it.campaign, it.model, it.known)
-    text = effect_text(found, record) if any(law.ways for law in found.laws) else ""
-    return Discovery(it, record, effects_found(found, record), text)
+    found = laws_found(it.campaign, it.model, it.known)
+    return Discovery(it, found.record, found.effects, found.effect_file)
 
 
 def _rows(law: LawFound) -> list[tuple[object, ...]]:

@@ -6,7 +6,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pipeline.campaign import Gauge, Test
-from pipeline.campaign.names import DISPLACEMENT, DISPLACEMENTS, FORCE, SUPPORT, WRENCHES
+from pipeline.campaign.control import control_channels
+from pipeline.campaign.names import DISPLACEMENTS, WRENCHES
 
 Array = NDArray[np.float64]
 TYPICAL = {"mm": 1e-3, "rad": 2e-5, "N": 1.0, "Nmm": 50.0}
@@ -22,13 +23,6 @@ def column_name(channel: int, gauges: tuple[Gauge, ...]) -> str:
 def unit_of(channel: int) -> str:
     """Unit of a channel as in the column's name: mm, rad, N, Nmm."""
     return ([name.rpartition("_")[2] for name in (*DISPLACEMENTS, *WRENCHES)] + ["mm"])[min(channel, 12)]
-
-
-def control_channels(test: Test, gauges: tuple[Gauge, ...]) -> list[int]:
-    """Channel that is prescribed for each of the six coordinates."""
-    names = [gauge.name for gauge in gauges]
-    plain = {DISPLACEMENT: 0, SUPPORT: 0, FORCE: 6}
-    return [k + plain[by] if by in plain else 12 + names.index(by) for k, by in enumerate(test.control)]
 
 
 def driving(test: Test, gauges: tuple[Gauge, ...]) -> tuple[int, Array]:

@@ -9,9 +9,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pipeline.campaign import Campaign, Gauge, Test
+from pipeline.campaign.control import control_channels
 from pipeline.campaign.names import DISPLACEMENTS, TEMPERATURE, WRENCHES, gauge_column
 from pipeline.campaign.reading import DESCRIPTION
-from pipeline.inference.driving import control_channels, driving
+from pipeline.inference.driving import driving
 from pipeline.inference.rounding import EQUAL, ROUNDING
 from pipeline.inference.sensor_noise import FEWEST, SigmaEstimate, from_lines, from_repeats, from_roughness
 

@@ -23,7 +23,7 @@ from pipeline.page.curves import rig_of, tests_of
 from pipeline.page.dossier import dossier
 from pipeline.page.record import CandidatePage, Dossier, EffectPage, Isolability, Page, RivalPage, Sigma
 from pipeline.page.stages import Stages, stages
-from pipeline.page.words import SOURCES, assumptions, following, reading, tolerances_of, why
+from pipeline.page.words import SOURCES, assumptions, by_hand, following, reading, tolerances_of, why
 from pipeline.parameter_names import path_of
 from pipeline.provenance import commit, versions
 from reports.quantities import sigma
@@ -80,6 +80,7 @@ def collect(it: Subject, commands: tuple[str, ...] = (), on_progress: OnProgress
         doctor=answer.doctor,
         nominals=answer.nominals,
         set_aside=answer.set_aside,
+        by_hand=tuple(by_hand(whole)),
         noise=answer.noise,
         titles=_titles(answer, model, known),
         certain=answer.certain,

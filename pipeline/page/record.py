@@ -122,6 +122,15 @@ class TolerancePage(Record):
     value: float
 
 
+class ByHand(Record):
+    """A reading that somebody set aside in campaign.toml, or keeps there however far off it is."""
+
+    test: str
+    step: int
+    column: str
+    kept: bool
+
+
 class Following(Record):
     """Something to do next. command: that does it, "" where none does."""
 
@@ -187,7 +196,8 @@ class Page(Record):
     here, in words. certain: effects that are there whatever the verdict. rivals: the sets of an ambiguous verdict, the
     simplest first, as far as they were fitted; alternatives: all of them but the first. laws: discovered in what is
     left. not_done: optional parts that failed, and why. following: what to do next.
-    tolerances: of what is written about the rig. dossier: of the model, where it was looked for what is missing.
+    tolerances: of what is written about the rig. by_hand: readings that campaign.toml sets aside or keeps. dossier: of
+    the model, where it was looked for what is missing.
     """
 
     campaign: str
@@ -209,6 +219,7 @@ class Page(Record):
     doctor: tuple[DoctorFinding, ...] = ()
     nominals: tuple[NominalValue, ...] = ()
     set_aside: tuple[SetAside, ...] = ()
+    by_hand: tuple[ByHand, ...] = ()
     noise: tuple[FoundNoise, ...] = ()
     titles: dict[str, str] = {}  # noqa: RUF012 (pydantic copies it)
     certain: tuple[Certain, ...] = ()

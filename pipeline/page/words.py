@@ -7,7 +7,7 @@ from collections.abc import Iterator, Mapping
 from pipeline.answer.record import Answer, Candidate
 from pipeline.campaign import Campaign
 from pipeline.inference.load_cases import LOST
-from pipeline.page.record import Following, TolerancePage
+from pipeline.page.record import ByHand, Following, TolerancePage
 from pipeline.typed import command
 from reports.quantities import short, sigma
 from vjm.effects import effect_of
@@ -63,6 +63,13 @@ def tolerances_of(campaign: Campaign) -> Iterator[TolerancePage]:
     for key in campaign.rig.written:
         words, unit = TOLERANCES.get(key, (key, "share"))
         yield TolerancePage(key=key, words=words, unit=unit, value=campaign.tolerance.get(key, 0.0))
+
+
+def by_hand(campaign: Campaign) -> Iterator[ByHand]:
+    """Readings that campaign.toml sets aside or keeps."""
+    for test in campaign.tests:
+        for cells, kept in ((test.set_aside, False), (test.keep, True)):
+            yield from (ByHand(test=test.id, step=step, column=it, kept=kept) for step, it in cells)
 
 
 def following(campaign: Campaign, answer: Answer, diagnosed: bool) -> Iterator[Following]:

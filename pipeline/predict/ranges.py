@@ -9,8 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pipeline.campaign import Campaign, Test
+from pipeline.campaign.control import control_channels
 from pipeline.campaign.names import PLACES, TEMPERATURE, channel_columns
-from pipeline.inference.driving import control_channels
 from reports.quantities import short
 
 Array = NDArray[np.float64]

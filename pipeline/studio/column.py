@@ -14,6 +14,7 @@ def left(actions: Actions, views: dict[str, Any]) -> None:
     """From what matters most downwards."""
     with html.Div(v_if=("ready",)):
         html.Div("{{ mistake }}", v_for="mistake in mistakes", classes="warn", key="mistake")
+        _mends(actions)
         html.Div("{{ headline }}", classes="lead", id="headline")
         html.Div("{{ standing }}", v_if=("standing",), classes="small mt-1", id="standing")
         _buttons(actions)
@@ -35,6 +36,20 @@ def left(actions: Actions, views: dict[str, Any]) -> None:
         with html.Details(v_if=("sentences.length",), id="why"):
             html.Summary("Why")
             html.P("{{ said }}", v_for="said in sentences", classes="small")
+
+
+def _mends(actions: Actions) -> None:
+    """The lines of campaign.toml that mend what the doctor found, each with its button."""
+    with html.Div(v_for="(it, k) in mends", key="it.words", classes="warn"):
+        html.Div("If {{ it.words }}, campaign.toml may say so:", classes="small")
+        html.Div("{{ line }}", v_for="line in it.lines", classes="small code")
+        v3.VBtn(
+            "Write it",
+            click=(actions["mend"], "[k]"),
+            disabled=("!!busy",),
+            raw_attrs=[":aria-label=\"'Write it: ' + it.words\""],
+            **BUTTON,
+        )
 
 
 def _buttons(actions: Actions) -> None:
@@ -70,6 +85,14 @@ def _buttons(actions: Actions) -> None:
             click=actions["diagnose"],
             disabled=("!!busy",),
             id="again",
+            **BUTTON,
+        )
+        v3.VBtn(
+            "Look for laws",
+            v_if=("look_for_laws",),
+            click=actions["discover"],
+            disabled=("!!busy",),
+            id="laws_next",
             **BUTTON,
         )
         v3.VBtn("Plan", click=actions["plan"], disabled=("!!busy",), id="plan", **BUTTON)

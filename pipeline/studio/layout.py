@@ -98,6 +98,10 @@ def messages(actions: Actions, work: bool = False) -> None:
     with html.Div(role="alert", v_if=(f"complaint && {seen}",), id="complaint"):
         html.Div("{{ complaint }}", classes="warn", style="white-space: pre-wrap;")
     html.Div("{{ remark }}", v_if=(f"remark && {seen}",), role="status", id="remark", classes="small mb-1")
+    if work:
+        with html.Div(v_if=("undo && !busy",), classes="small mb-1"):
+            html.Div("Written last in campaign.toml: {{ undo }}", v_if=("!remark",))
+            v3.VBtn("Take it back", click=actions["undo"], id="undo", **BUTTON)
     with html.Div(v_if=(f"busy && {seen}",), id="busy", classes="mb-2"):
         v3.VProgressLinear(indeterminate=True, color="#005f94", raw_attrs=['aria-label="working"'])
         html.Div("{{ progress }}", role="status", id="progress", classes="small")

@@ -24,6 +24,7 @@ html { overflow-y: auto; } .v-application { font-size: 14px; color: #1c2733; }
 .small { color: #3d4852; line-height: 1.4; } code { font-size: 11.5px; color: #4a5661; margin-left: 4px; }
 h2 { font-size: 14.5px; line-height: 1.3; margin: 14px 0 4px; } h3 { font-size: 14px; margin: 0 0 4px; }
 p { margin: 0 0 6px; } ul { padding-left: 18px; margin: 0 0 6px; }
+.code { font-family: monospace; overflow-wrap: anywhere; margin: 2px 0; }
 .away { height: 0; overflow: hidden; visibility: hidden; }
 .work { display: grid; grid-template-columns: 390px minmax(0, 1fr); height: calc(100vh - 53px); }
 .left { overflow-y: auto; padding: 10px 14px; border-right: 1px solid #d9dee3; }
@@ -49,6 +50,7 @@ select.plain { appearance: auto; } .grid select { appearance: auto; }
 .card { display: flex; flex-direction: column; }
 .card h2 { font-size: 17px; margin: 0; } .card .push { flex: 1; }
 .rivals { display: grid; gap: 12px; grid-template-columns: repeat(auto-fit, minmax(230px, 1fr)); }
+.law { display: grid; gap: 12px; grid-template-columns: repeat(auto-fit, minmax(400px, 1fr)); margin-bottom: 12px; }
 .rival { border: 1px solid #c6ced5; border-radius: 8px; padding: 10px 12px; } .rival.seen { border: 2px solid #0072B2; }
 .warn { border-left: 5px solid #a34700; padding: 4px 10px; background: #fff6ee; margin-bottom: 6px; }
 details summary { cursor: pointer; font-weight: 600; color: #005f94; margin: 8px 0 4px; font-size: 13.5px; }

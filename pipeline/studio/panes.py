@@ -9,14 +9,14 @@ from trame.widgets import html, plotly
 from trame.widgets import vuetify3 as v3
 from trame_pyvista.widgets import PyVistaLocalView
 
-from pipeline.studio.look import FIELD, WIDE, Actions
+from pipeline.studio.look import BUTTON, FIELD, WIDE, Actions
 from pipeline.studio.sheets import candidates, laws, plan, rig, rivals
 from reports.shading import MISFIT
 
 TABS = (
     ("data", "Measured and predicted", ""),
     ("rivals", "Sets that fit alike", "rivals.length"),
-    ("laws", "Laws", "laws.length"),
+    ("laws", "Laws", ""),
     ("rig", "Rig and readings", ""),
     ("candidates", "Candidates", "candidates.length"),
     ("plan", "What these tests can show", ""),
@@ -32,7 +32,7 @@ def right(actions: Actions, plotter: Any, views: dict[str, Any]) -> None:
     made: dict[str, Callable[[], None]] = {
         "data": lambda: _data(actions, plotter, views),
         "rivals": lambda: rivals(actions, views),
-        "laws": laws,
+        "laws": lambda: laws(actions),
         "rig": lambda: rig(actions),
         "candidates": candidates,
         "plan": lambda: plan(views),
@@ -64,10 +64,10 @@ def _data(actions: Actions, plotter: Any, views: dict[str, Any]) -> None:
             with html.Div(classes="fill"):
                 views["curve"] = plotly.Figure(**WIDE, style="height: 100%; width: 100%;")
         with html.Div(classes="scene"):
-            _scene(plotter, views)
+            _scene(actions, plotter, views)
 
 
-def _scene(plotter: Any, views: dict[str, Any]) -> None:
+def _scene(actions: Actions, plotter: Any, views: dict[str, Any]) -> None:
     with html.Div(classes="view", id="scene"):
         views["scene"] = PyVistaLocalView(plotter)
     v3.VSlider(
@@ -84,6 +84,15 @@ def _scene(plotter: Any, views: dict[str, Any]) -> None:
         raw_attrs=['aria-label="load step"'],
     )
     html.Div("{{ seen }}", classes="small", id="seen")
+    v3.VBtn(
+        "Set this reading of {{ channel }} aside",
+        v_if=("measured && channel",),
+        click=actions["aside"],
+        disabled=("!!busy",),
+        id="aside",
+        style="align-self: flex-start;",
+        **BUTTON,
+    )
     stops = ", ".join(f"{shade} {100 * place:.0f}%" for place, shade in MISFIT)
     with html.Div(classes="small row"):
         html.Span("1")

@@ -7,9 +7,10 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
 
-from meshes.files import replacing
 from pipeline.answer.record import Answer
-from pipeline.campaign.reading import DESCRIPTION, MEASUREMENTS
+from pipeline.campaign.edited import Counts, with_reading
+from pipeline.campaign.reading import DESCRIPTION
+from pipeline.discover.command import LawsFound
 from pipeline.errors import InputError
 from pipeline.inference.model_file import NAME
 from pipeline.init.choices import Choices
@@ -17,8 +18,10 @@ from pipeline.init.found import Found
 from pipeline.page.command import RESULTS
 from pipeline.page.record import Page
 from pipeline.plan.record import Plan
+from pipeline.selection.mending import Mend
 from pipeline.studio import tolerances
 from pipeline.studio.drop import TABLES, placed, table
+from pipeline.studio.files import Edit, content, edited, put, stamps, undone, write_laws
 from pipeline.studio.preview import Preview
 from pipeline.studio.work import Done, Kind, Proposal, Task
 from pipeline.studio.worker import Event, Refused, Said, Worker
@@ -29,6 +32,7 @@ TITLES: dict[Kind, str] = {
     "add": "adding",
     "remove": "removing",
     "diagnose": "looking for what is missing",
+    "discover": "looking for laws",
     "plan": "looking at what these tests show",
     "export": "drawing the report",
     "look": "looking at the table",
@@ -39,7 +43,8 @@ TITLES: dict[Kind, str] = {
 class Session:
     """What a page shows and its buttons do; without any widget, so that it is tested without a browser.
 
-    Nothing in a campaign's folder is touched but by `save`. changed: called when something is to be shown anew.
+    Of a campaign's folder `save` and `add_laws` write files, `edit` and `undo` write campaign.toml; nothing else does.
+    changed: called when something is to be shown anew.
     """
 
     def __init__(self, changed: Listener = lambda: None, effects_from: Sequence[Path] = ()) -> None:
@@ -57,6 +62,11 @@ class Session:
         self.answer: Answer | None = None
         self.proposals: tuple[Proposal, ...] = ()
         self.choice: int | None = None
+        self.mends: tuple[Mend, ...] = ()
+        self.edits: tuple[Edit, ...] = ()
+        self.laws: LawsFound | None = None
+        self._laws_of: str | None = None
+        self._law_file: Path | None = None
         self.plan: Plan | None = None
         self.planned: Page | None = None
         self.names: tuple[tuple[str, str], ...] = ()
@@ -109,10 +119,9 @@ class Session:
 
     def make(self, name: str) -> None:
         """Make the table that was looked at a campaign of its own, and open it."""
-        if self.file is None or self.preview is None or self._task is not None:
-            return
-        files = {path.name: path.read_bytes() for path in (self.file, self.file.parent / DESCRIPTION)}
-        self.open(placed(files, name, TABLES))
+        if self.file is not None and self.preview is not None and self._task is None:
+            files = {path.name: path.read_bytes() for path in (self.file, self.file.parent / DESCRIPTION)}
+            self.open(placed(files, name, TABLES))
 
     def add(self, names: Sequence[str]) -> None:
         """Add effects and fit."""
@@ -157,24 +166,84 @@ class Session:
         except InputError as error:
             self.complaint = str(error)
         else:
-            self.remark = (
-                "Diagnose looks again with these tolerances; Save tolerances writes them in campaign.toml"
-            )
+            self.remark = "Diagnose looks again with these; Save tolerances writes them in campaign.toml"
         self._changed()
 
     def save_tolerances(self) -> None:
         """Write them in campaign.toml, which is read again then."""
-        if self.folder is None or self.page is None or self.tolerance is None or self._task is not None:
-            return
+        page, known = self.page, self.tolerance
+        if page is not None and known is not None:
+            written = self.edit(
+                lambda text: tolerances.with_tolerances(text, known, page.tolerances), "[tolerance]"
+            )
+            self.tolerance = None if written else known
+
+    def mend(self, number: int) -> None:
+        """Write a line that mends what the doctor found in campaign.toml, which is read again then."""
+        if 0 <= number < len(self.mends):
+            it = self.mends[number]
+            self.edit(lambda _: it.text, "; ".join(it.lines))
+
+    def edit(self, change: Callable[[str], str], words: str) -> bool:
+        """Write campaign.toml otherwise and read it again; whether it was written."""
+        if self.folder is None or self._task is not None:
+            return False
         self.complaint = self.remark = ""
         try:
-            if _stamps(self.folder) != self._seen:
-                raise InputError("the campaign was edited meanwhile: it is read again, then save once more")
-            tolerances.write(self.folder, self.tolerance, self.page.tolerances)
+            if stamps(self.folder) != self._seen:
+                raise InputError("the campaign was edited meanwhile: it is read again, then once more")
+            self.edits = (*self.edits, edited(self.folder, change, words))
+        except InputError as error:
+            self.complaint = str(error)
+            self._changed()
+            return False
+        self._reread(f"written in {DESCRIPTION}: {words}")
+        return True
+
+    def count(self, test: str, step: int, column: str, counts: Counts) -> None:
+        """Set a reading aside in campaign.toml, keep it there, or leave it to the diagnosis."""
+        said = f"{column} of {test}, step {step}: {counts.replace('_', ' ')}"
+        self.edit(lambda text: with_reading(text, test, step, column, counts), said)
+
+    def undo(self) -> None:
+        """Take back what was written last in campaign.toml."""
+        if self.folder is None or not self.edits or self._task is not None:
+            return
+        *rest, last = self.edits
+        try:
+            undone(last)
         except InputError as error:
             self.complaint = str(error)
         else:
-            self.tolerance = None
+            self.edits = tuple(rest)
+            self._reread(f"taken back in {last.path.name}: {last.words}")
+        self._changed()
+
+    def discover(self) -> None:
+        """Look where in the linkage the rest sits, and what law it follows, from the model as it stands."""
+        self._change("discover", ())
+
+    @property
+    def laws_fresh(self) -> bool:
+        """Whether the model is the one from which on laws were looked for."""
+        return self._laws_of == self.model
+
+    @property
+    def may_add_laws(self) -> bool:
+        """Whether laws were found that are no part of the model yet, which is as it was when they were looked for."""
+        return self.laws is not None and bool(self.laws.effect_file) and self.laws_fresh
+
+    def add_laws(self) -> None:
+        """Write the effect file of the laws beside the campaign, and add them with what entered the model."""
+        if self.folder is None or self.laws is None or not self.may_add_laws or self._task is not None:
+            return
+        try:
+            self._law_file = write_laws(self.folder, self.laws.effect_file)
+        except InputError as error:
+            self.complaint = str(error)
+        else:
+            self._change("add", self.laws.effects)
+            self.remark = f"written: {self._law_file}"
         self._changed()
 
     def look_ahead(self) -> None:
@@ -200,22 +269,19 @@ class Session:
         if self.folder is None or self.model is None or self._task is not None:
             return
         self.complaint = self.remark = ""
-        path, now = self.folder / NAME, _content(self.folder / NAME)
+        path, now = self.folder / NAME, content(self.folder / NAME)
         try:
             if now != self._on_disk:
                 self._on_disk = now
                 raise InputError(
                     f"{path} was changed since it was read: Open reads it, Save again replaces it"
                 )
-            with replacing(path) as part:
-                part.write_text(self._kept or "", encoding="utf-8")
-        except OSError as error:
-            self.complaint = f"{path} cannot be written: {error.strerror}"
+            put(path, (self._kept or "").encode())
         except InputError as error:
             self.complaint = str(error)
         else:
-            self._on_disk, self.dirty = _content(path), False
-            self._seen = _stamps(self.folder)
+            self._on_disk, self.dirty = content(path), False
+            self._seen = stamps(self.folder)
             self.remark = f"saved: {path}"
         self._changed()
 
@@ -223,10 +289,8 @@ class Session:
         """Take what the worker has sent; files of the campaign that were edited meanwhile are read again."""
         while (event := self._worker.poll()) is not None:
             self._take(event)
-        if self._task is None and self.folder is not None and _stamps(self.folder) != self._seen:
-            # What was added and is not saved yet is kept; else the model is read again as well.
-            self._begin(Task("open", self.folder, self._at, self.model if self.dirty else None))
-            self.remark = "the campaign was edited: read again"
+        if self._task is None and self.folder is not None and stamps(self.folder) != self._seen:
+            self._reread("the campaign was edited: read again")
 
     def close(self) -> None:
         """End the worker and leave nothing behind."""
@@ -243,6 +307,11 @@ class Session:
     def _at(self) -> Path:
         return Path(self._scratch.name)
 
+    @property
+    def _known_files(self) -> tuple[Path, ...]:
+        """Of effects: the user's, and the last one of laws."""
+        return self._effects_from if self._law_file is None else (*self._effects_from, self._law_file)
+
     def _change(self, kind: Kind, names: Sequence[str], out: Path | None = None) -> None:
         if self.folder is None or self.page is None:
             return
@@ -254,12 +323,19 @@ class Session:
                 self._at,
                 self.model,
                 tuple(names),
-                self._effects_from,
+                self._known_files,
                 shown,
                 out,
                 tolerance=self.tolerance,
             )
         )
+
+    def _reread(self, remark: str) -> None:
+        """What was added and is not saved yet is kept; else the model is read again as well."""
+        if self.folder is not None:
+            self._begin(Task("open", self.folder, self._at, self.model if self.dirty else None))
+            self.remark = remark
+            self._changed()
 
     def _begin(self, task: Task) -> bool:
         """Whether it was begun."""
@@ -270,7 +346,7 @@ class Session:
         self.complaint = self.remark = ""
         self._task, self.progress = task, TITLES[task.kind]
         # Taken before the files are read: an edit meanwhile is seen afterwards.
-        self._pending = (_stamps(task.folder), _content(task.folder / NAME))
+        self._pending = (stamps(task.folder), content(task.folder / NAME))
         self._worker.submit(task)
         self._changed()
         return True
@@ -296,16 +372,20 @@ class Session:
 
     def _finish(self, task: Task, done: Done) -> None:
         if task.kind == "open":
-            self.folder, self._seen = task.folder, self._pending[0]
+            if task.folder != self.folder:
+                self._law_file, self.edits = None, ()
+            self.folder, self._seen, self.laws = task.folder, self._pending[0], None
             if task.model is None:
                 self._on_disk, self.dirty = self._pending[1], False
                 self.answer = self.plan = None
         if done.page is not None:
             self.model, self._kept, self.page, self.names = done.model, done.kept, done.page, done.names
             self.dirty = self.dirty or task.kind in ("add", "remove")
-            self.proposals, self.choice = (), None
+            self.proposals, self.choice, self.mends = (), None, ()
         if done.answer is not None:
             self._propose(done)
+        if done.laws is not None:
+            self.laws, self._laws_of = done.laws, task.model
         if done.plan is not None:
             self.plan, self.planned = done.plan, self.page
         self.found, self.preview = done.found or self.found, done.preview or self.preview
@@ -314,25 +394,7 @@ class Session:
 
     def _propose(self, done: Done) -> None:
         """What was found is shown as it would be; where it adds nothing the page is that of the model itself."""
-        self.answer, self.proposals, self.choice = done.answer, done.proposals, 0
+        self.answer, self.proposals, self.choice, self.mends = done.answer, done.proposals, 0, done.mends
         first = done.proposals[0].page
         if len(done.proposals) == 1 and self.page is not None and first.effects == self.page.effects:
             self.page, self.proposals, self.choice = first, (), None
-
-
-def _stamps(folder: Path) -> tuple[int, ...]:
-    """When the files of a campaign were last changed; 0 for one that is missing."""
-    out = []
-    for name in (DESCRIPTION, MEASUREMENTS, NAME):
-        try:
-            out.append((folder / name).stat().st_mtime_ns)
-        except OSError:
-            out.append(0)
-    return tuple(out)
-
-
-def _content(path: Path) -> bytes | None:
-    try:
-        return path.read_bytes()
-    except OSError:
-        return None

@@ -104,14 +104,7 @@ def rig(actions: Actions) -> None:
         id="save_tolerances",
         **BUTTON,
     )
-    html.H2("Readings that were set aside")
-    html.P("None.", v_if=("!set_aside.length",), classes="small")
-    with html.Table(v_if=("set_aside.length",), classes="grid", id="set_aside"):
-        with html.Thead(), html.Tr():
-            for head in ("test", "step", "column", "off by, sigma"):
-                html.Th(head)
-        with html.Tbody(), html.Tr(v_for="row in set_aside"):
-            html.Td("{{ cell }}", v_for="cell in row")
+    _readings(actions)
     html.H2("Noise of the sensors, one standard deviation")
     with html.Table(classes="grid", id="sigmas"):
         with html.Thead(), html.Tr():
@@ -121,18 +114,75 @@ def rig(actions: Actions) -> None:
             html.Td("{{ cell }}", v_for="cell in row")
 
 
-def laws() -> None:
-    """What was found beyond the catalogue: where, by which law, and the picture of it."""
+def _readings(actions: Actions) -> None:
+    """Those that do not count, or are kept by hand, each with the way back."""
+    html.H2("Readings that were set aside, or are kept by hand")
+    html.P("None.", v_if=("!set_aside.length",), classes="small")
+    with html.Table(v_if=("set_aside.length",), classes="grid", id="set_aside"):
+        with html.Thead(), html.Tr():
+            for head in ("test", "step", "column", "why", ""):
+                html.Th(head)
+        with html.Tbody(), html.Tr(v_for="row in set_aside"):
+            for key in ("test", "step", "column", "said"):
+                html.Td(f"{{{{ row.{key} }}}}")
+            with html.Td():
+                v3.VBtn(
+                    "{{ row.button }}",
+                    click=(actions["count"], "[row.test, row.step, row.column, row.counts]"),
+                    disabled=("!!busy",),
+                    raw_attrs=[
+                        ":aria-label=\"row.button + ': ' + row.column + ' of ' + row.test + ', step ' + row.step\""
+                    ],
+                    **BUTTON,
+                )
     html.P(
-        "What follows a law at a place of the linkage, whatever its effect is called. discover writes it as an effect.",
+        "Another is set aside below the picture of its load step. Both are written in campaign.toml, under its test.",
+        classes="small mt-1",
+    )
+
+
+def laws(actions: Actions) -> None:
+    """What was found beyond the catalogue: where, by which law, and the picture of it; and the way into the model."""
+    html.P(
+        "Every place of the linkage is asked whether one function there, shared by all tests, explains what is left. "
+        "What is found is a law at a place, whatever its effect is called.",
         classes="mt-2",
     )
-    with html.Div(v_for="(law, k) in laws", key="k", classes="rival mb-3"):
-        html.H3("{{ law.title }}")
-        html.Code("{{ law.site }}")
-        html.P("{{ law.said }}", classes="small")
-        html.P("{{ law.equation }}", v_if=("law.equation",))
-        html.P("{{ value }}", v_for="value in law.values", classes="small")
+    with html.Div(classes="row"):
+        v3.VBtn(
+            "Look for laws",
+            click=actions["discover"],
+            disabled=("!measured || !!busy",),
+            id="discover",
+            **MAIN,
+        )
+        v3.VBtn(
+            "Write laws.py and add them",
+            v_if=("laws_add",),
+            click=actions["add_laws"],
+            disabled=("!!busy",),
+            id="add_laws",
+            **MAIN,
+        )
+    html.P(
+        "An effect file is written beside campaign.toml, and added with a fit of all numbers: {{ laws_names }}",
+        v_if=("laws_add",),
+        classes="small mt-1",
+    )
+    with html.Div(v_if=("laws_looked",), id="laws_said"):
+        html.P("{{ laws_about }}", classes="small mt-1")
+        html.P("{{ said }}", v_for="said in laws_said")
+    with html.Div(v_if=("laws.length",), id="laws"):
+        _law()
+
+
+def _law() -> None:
+    """Beside its picture what is said of it."""
+    with html.Div(v_for="(law, k) in laws", key="k", classes="rival law"):
+        with html.Div():
+            html.H3("{{ law.title }}")
+            html.P("{{ said }}", v_for="said in law.said", classes="small")
+            html.P("{{ law.left }}", v_if=("law.left",), classes="small")
         html.Img(
             v_if=("law.picture",),
             src=("law.picture",),

@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
-from base64 import b64encode
 from pathlib import Path
 from typing import Any
 
-from pipeline.answer.law import LawFound
+from pipeline.answer.record import SetAside
 from pipeline.answer.value import Value
+from pipeline.campaign.edited import Counts
 from pipeline.campaign.reading import DESCRIPTION
-from pipeline.page.record import Page, RivalPage, TestPage
+from pipeline.page.record import ByHand, Page, RivalPage, TestPage
 from pipeline.parameter_names import parted
+from pipeline.selection.mending import Mend
+from pipeline.studio import found_laws, tolerances
 from pipeline.studio.planning import planning
 from pipeline.studio.session import Session
 from reports import bars
@@ -18,12 +20,13 @@ from reports.campaign import tables, words
 from reports.campaign.doubt import mistakes
 from reports.campaign.names import channel_label, measured, test_label, unit_label
 from reports.formats import number
-from reports.laws import law_picture
 from reports.load import Json
 from reports.quantities import estimate, phrase, sigma
 
 NEAREST = 6
 """Candidates that were not chosen and are shown beside the model."""
+LINES = 3
+"""Of a mend that are shown."""
 DEEP = 3
 """Folders below the present one in which campaigns are looked for."""
 ROW, HEAD = 15, 90
@@ -46,6 +49,8 @@ def panel(session: Session) -> dict[str, Any]:
         "standing": _standing(session),
         "addable": [] if page is None else _addable(session, page),
         "edited": session.tolerance is not None,
+        "mends": [_mend(it) for it in session.mends],
+        "undo": session.edits[-1].words if session.edits else "",
         **(EMPTY if page is None else _of_page(session, page)),
         **planning(session),
     }
@@ -68,7 +73,8 @@ EMPTY: dict[str, Any] = {
     "tolerances": [],
     "set_aside": [],
     "sigmas": [],
-    "laws": [],
+    **found_laws.NOTHING,
+    "look_for_laws": False,
     "map_height": "330px",
 }
 
@@ -90,8 +96,8 @@ def _of_page(session: Session, page: Page) -> dict[str, Any]:
         "candidates": [_candidate(it) for it in record["candidates"]],
         "nearest": [_candidate(it) for it in record["candidates"] if not it["chosen"]][:NEAREST],
         "rivals": [_rival(session, page, it, k) for k, it in enumerate(page.rivals)],
-        "tolerances": _tolerances(session, page),
-        "set_aside": [[it.test, it.step, it.column, sigma(it.sigma)] for it in page.set_aside],
+        "tolerances": tolerances.rows(page, session.tolerance),
+        "set_aside": _readings(page),
         "sigmas": [
             [
                 channel_label(it.column),
@@ -101,9 +107,38 @@ def _of_page(session: Session, page: Page) -> dict[str, Any]:
             ]
             for it in page.sigmas
         ],
-        "laws": [_law(page, it) for it in page.laws],
+        **found_laws.found_laws(session, page),
+        "look_for_laws": page.diagnosed and page.verdict == "unknown" and not page.doctor,
         "map_height": f"{max(330, HEAD + ROW * len(page.tests))}px",
     }
+
+
+def _readings(page: Page) -> list[dict[str, Any]]:
+    """Readings that do not count, or count by hand, and what a button makes of each."""
+    out = [
+        _reading(it, f"{sigma(it.sigma)} sigma off, by the diagnosis", "Put back", "keep")
+        for it in page.set_aside
+    ]
+    for it in page.by_hand:
+        said = "kept by hand, however far off it is" if it.kept else "set aside by hand"
+        out.append(_reading(it, said, "Leave it to the diagnosis" if it.kept else "Put back", "as it is"))
+    return out
+
+
+def _reading(it: SetAside | ByHand, said: str, button: str, counts: Counts) -> dict[str, Any]:
+    return {
+        "test": it.test,
+        "step": it.step,
+        "column": it.column,
+        "said": said,
+        "button": button,
+        "counts": counts,
+    }
+
+
+def _mend(it: Mend) -> dict[str, Any]:
+    more = len(it.lines) - LINES
+    return {"words": it.words, "lines": [*it.lines[:LINES], *([f"and {more} more"] if more > 0 else [])]}
 
 
 def _standing(session: Session) -> str:
@@ -186,42 +221,5 @@ def _rival(session: Session, page: Page, it: RivalPage, at: int) -> dict[str, An
     }
 
 
-def _law(page: Page, it: LawFound) -> dict[str, Any]:
-    """What was found where, and its picture as an address that holds it."""
-    png = b"" if it.curve is None else law_picture(page.campaign, it.model_dump())
-    return {
-        "title": words.capital(it.where),
-        "site": it.site,
-        "said": f"The readings say of it: {it.shape}.",
-        "equation": it.equation or "",
-        "values": [
-            phrase(name, estimate(value.model_dump()), value.unit, number)
-            for name, value in it.parameters.items()
-        ],
-        "picture": f"data:image/png;base64,{b64encode(png).decode('ascii')}" if png else "",
-    }
-
-
 def _held(it: RivalPage) -> str:
     return "" if it.error.holdout is None else f", held out {sigma(it.error.holdout)}"
-
-
-def _tolerances(session: Session, page: Page) -> list[dict[str, str]]:
-    """As written, or as typed and not written yet; with what a diagnosis found beside them."""
-    typed = None if session.tolerance is None else dict(session.tolerance)
-    found = {it.name: it for it in page.nominals if it.seen}
-    rows = []
-    for it in page.tolerances:
-        value = it.value if typed is None else typed.get(it.key, 0.0)
-        mine = found.get(it.key)
-        rows.append(
-            {
-                "key": it.key,
-                "words": it.words,
-                "unit": it.unit,
-                "value": f"{value:g}" if value else "exact",
-                "found": "" if mine is None else f"{number(mine.value, 4)} ± {number(mine.std, 2)}",
-                "pull": "" if mine is None else f"{mine.pull:+.1f}",
-            }
-        )
-    return rows

@@ -1,18 +1,17 @@
-"""Tolerances as somebody types them, and the campaign's file with them: the one thing that is written there."""
+"""Tolerances as somebody types them, and the campaign's file with them."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from pathlib import Path
 
 import tomlkit
-from tomlkit.exceptions import TOMLKitError
 
-from meshes.files import replacing
-from pipeline.campaign.reading import DESCRIPTION
+from pipeline.campaign.edited import parsed
 from pipeline.campaign.tolerance import EXACT, table, tolerance
+from pipeline.campaign.writing import inline
 from pipeline.errors import InputError
-from pipeline.page.record import TolerancePage
+from pipeline.page.record import Page, TolerancePage
+from reports.formats import number
 
 Known = tuple[tuple[str, float], ...]
 
@@ -44,28 +43,35 @@ def _number(words: str, text: str) -> float:
         raise InputError(f'{words}: is {text!r}, allowed is a number or "{EXACT}"') from None
 
 
-def write(folder: Path, known: Known, shown: Sequence[TolerancePage]) -> None:
-    """Put the table [tolerance] in campaign.toml in the place of what stands there; all else stays, comments too.
+def with_tolerances(text: str, known: Known, shown: Sequence[TolerancePage]) -> str:
+    """campaign.toml with the table [tolerance] in the place of what stands there; all else stays, comments too.
 
-    InputError where it cannot be written.
+    InputError for what is no TOML.
     """
-    path = folder / DESCRIPTION
-    try:
-        document = tomlkit.parse(path.read_text(encoding="utf-8"))
-        new = tomlkit.table()
-        for key, value in table(dict(known), tuple(it.key for it in shown)).items():
-            new[key] = _inline(value) if isinstance(value, dict) else value
-        document["tolerance"] = new
-        with replacing(path) as part:
-            part.write_text(tomlkit.dumps(document), encoding="utf-8", newline="")
-    except OSError as error:
-        raise InputError(f"{path} cannot be written: {error.strerror}") from error
-    except TOMLKitError as error:
-        raise InputError(f"{path} is no TOML: {error}") from error
+    document = parsed(text)
+    new = tomlkit.table()
+    for key, value in table(dict(known), tuple(it.key for it in shown)).items():
+        new[key] = inline(value) if isinstance(value, dict) else value
+    document["tolerance"] = new
+    return tomlkit.dumps(document)
 
 
-def _inline(values: Mapping[str, object]) -> tomlkit.items.InlineTable:
-    it = tomlkit.inline_table()
-    for key, value in values.items():
-        it[key] = value
-    return it
+def rows(page: Page, changed: Known | None) -> list[dict[str, str]]:
+    """For the page: as written, or as typed and not written yet; with what a diagnosis found beside them."""
+    own = None if changed is None else dict(changed)
+    found = {it.name: it for it in page.nominals if it.seen}
+    out = []
+    for it in page.tolerances:
+        value = it.value if own is None else own.get(it.key, 0.0)
+        mine = found.get(it.key)
+        out.append(
+            {
+                "key": it.key,
+                "words": it.words,
+                "unit": it.unit,
+                "value": f"{value:g}" if value else "exact",
+                "found": "" if mine is None else f"{number(mine.value, 4)} ± {number(mine.std, 2)}",
+                "pull": "" if mine is None else f"{mine.pull:+.1f}",
+            }
+        )
+    return out

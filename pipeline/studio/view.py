@@ -9,6 +9,7 @@ from typing import Any
 from trame.app import get_server
 from trame.decorators import TrameApp, change
 
+from pipeline.discover.command import LawsFound
 from pipeline.errors import InputError
 from pipeline.page.record import Page
 from pipeline.plan.record import Plan
@@ -70,6 +71,7 @@ class Studio:
         self.session = Session(self._show, effects_from)
         self._shown: Page | None = None
         self._foreseen: Plan | None = None
+        self._found: LawsFound | None = None
         self._framed = ""
         self._exported: Path | None = None
         self._drawn: tuple[str, str] = ("", "")
@@ -100,11 +102,17 @@ class Studio:
             "back": session.back,
             "choose": self._choose,
             "take": self._take,
+            "discover": session.discover,
+            "add_laws": session.add_laws,
             "plan": session.look_ahead,
             "cancel": session.cancel,
             "pick": self._pick,
             "tolerate": lambda: session.tolerate({row["key"]: row["value"] for row in self.state.tolerances}),
             "save_tolerances": session.save_tolerances,
+            "mend": session.mend,
+            "undo": session.undo,
+            "count": session.count,
+            "aside": self._aside,
             "kind": lambda *_: self._kind(),
             "preview": self._preview,
             "make": lambda: session.make(str(self.state.table["name"])),
@@ -147,6 +155,10 @@ class Studio:
             self.state.tab = "data" if plan is None else "plan"
             if plan is not None:
                 self.views["alike"].update(matrix.numbered(plan.names, plan.alike, MATRIX))
+        if self.session.laws is not self._found:
+            self._found = self.session.laws
+            if self._found is not None:
+                self.state.tab = "laws"
         if self.session.report is not None and self.session.report != self._exported:
             self._link(self.session.report)
         self._show_table()
@@ -246,6 +258,16 @@ class Studio:
     def _pick(self, cell: list[str] | None) -> None:
         if cell:
             self.state.test, self.state.channel = cell
+
+    def _aside(self) -> None:
+        """Set aside the reading that is seen: test, channel and load step as they are chosen."""
+        page = self.session.shown
+        if page is not None:
+            test = test_of(page, self.state.test)
+            it = next((c for c in test.curves if channel_label(c.channel) == self.state.channel), None)
+            if it is not None:
+                step = test.steps[int(self.state.step)]
+                self.session.count(test.test, step, f"{it.channel}_{it.unit}", "set_aside")
 
     def _screen(self, name: str) -> None:
         self.state.screen = name

@@ -14,6 +14,7 @@ from pipeline.callbacks import OnProgress
 from pipeline.campaign import read
 from pipeline.campaign.reading import DESCRIPTION
 from pipeline.discover.beyond_catalogue import with_laws
+from pipeline.discover.command import LawsFound, laws_found
 from pipeline.inference.model_file import NAME, ModelFile, Uncertainty, model_text
 from pipeline.inference.model_reading import read_model_file
 from pipeline.inference.suitable import known_effects, named_effects
@@ -28,10 +29,11 @@ from pipeline.plan.command import plan_of
 from pipeline.plan.record import Plan
 from pipeline.provenance import commit, versions
 from pipeline.selection.diagnosis import diagnose
+from pipeline.selection.mending import Mend, mends
 from pipeline.studio.preview import Preview, preview_of
 from pipeline.typed import command
 
-Kind = Literal["open", "add", "remove", "diagnose", "plan", "export", "look", "preview"]
+Kind = Literal["open", "add", "remove", "diagnose", "discover", "plan", "export", "look", "preview"]
 
 
 @dataclass(frozen=True)
@@ -70,7 +72,7 @@ class Done:
     """What came of it; None where the task does not change it. model, kept: text of a model.toml in the folder of the
     task and in that of the campaign, which differ in the paths of the user's effects. names: effects that are known.
     proposals: of a diagnosis, one for each set that it leaves possible, the simplest first; where it adds nothing the
-    one is the model as it is.
+    one is the model as it is. mends: what campaign.toml can say of what the doctor found.
     """
 
     kind: Kind
@@ -80,6 +82,8 @@ class Done:
     answer: Answer | None = None
     isolability: Isolability | None = None
     proposals: tuple[Proposal, ...] = ()
+    mends: tuple[Mend, ...] = ()
+    laws: LawsFound | None = None
     plan: Plan | None = None
     names: tuple[tuple[str, str], ...] = ()
     written: Path | None = None
@@ -107,6 +111,8 @@ def do(task: Task, on_progress: OnProgress) -> Done:
     subject = Subject(campaign, model, known, told)
     if task.kind == "diagnose":
         return _diagnosed(task, subject, on_progress)
+    if task.kind == "discover":
+        return Done("discover", laws=laws_found(campaign, model, known, on_progress))
     if task.kind == "plan":
         return Done("plan", plan=plan_of(campaign, model, known.effects, on_progress))
     return _model(task, subject, on_progress)
@@ -138,6 +144,7 @@ def _diagnosed(task: Task, subject: Subject, on_progress: OnProgress) -> Done:
         diagnose(subject.campaign, subject.model, subject.known.effects, on_progress), on_progress
     )
     sets = possible(found, answered(found), on_progress)
+    zero = found.decision.zero
     seen = of_diagnosis(subject, found, sets)
     shown = [replace(seen, answer=each.answer, fitted=each.model) for each in sets]
     return Done(
@@ -145,6 +152,7 @@ def _diagnosed(task: Task, subject: Subject, on_progress: OnProgress) -> Done:
         answer=sets[0].answer,
         isolability=seen.isolability,
         proposals=tuple(_proposal(task, it, on_progress) for it in shown),
+        mends=mends(task.folder, found.doctor, None if zero is None else zero.zero),
     )
 
 

@@ -17,6 +17,7 @@ from pipeline.inference.suitable import known_effects
 from pipeline.page.collect import Subject, collect
 from pipeline.page.record import RivalPage
 from pipeline.studio import tolerances
+from pipeline.studio.files import edited
 from pipeline.studio.session import Session
 from pipeline.studio.state import panel
 from pipeline.studio.work import Done, Proposal, Task
@@ -125,7 +126,8 @@ def test_tolerances_are_written_by_saving_alone(session: Session) -> None:
     session.save_tolerances()
     assert "edited meanwhile" in session.complaint and file.read_text(encoding="utf-8") == text
     assert session.tolerance is not None
-    tolerances.write(folder, session.tolerance, session.page.tolerances)
+    known, shown_there = session.tolerance, session.page.tolerances
+    edited(folder, lambda text: tolerances.with_tolerances(text, known, shown_there), "")
     now = read(folder).tolerance
     assert {key: value for key, value in now.items() if value} == {"EA": 0.01, "length_mm": 0.1}
     assert file.read_text(encoding="utf-8").endswith("# kept\n")

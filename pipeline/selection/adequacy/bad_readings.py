@@ -24,8 +24,8 @@ from numpy.typing import NDArray
 from scipy.stats import norm
 
 from pipeline.campaign import Campaign, Test
+from pipeline.campaign.aside import without
 from pipeline.campaign.names import channel_columns
-from pipeline.inference.driving import control_channels
 from pipeline.inference.fit import Fit
 from pipeline.inference.noise import MEDIAN
 from pipeline.inference.orthonormal_basis import basis
@@ -104,7 +104,7 @@ class _Shifts:
 
 
 def bad_readings(found: Fit, criteria: Criteria) -> tuple[BadReading, ...]:
-    """The single bad readings of the fitted tests, the worst first."""
+    """The single bad readings of the fitted tests, the worst first; none of those that are kept by hand."""
     it, taken = found.residual, basis(found.jacobian)
     residual = found.whitened - taken @ (taken.T @ found.whitened)
     shifts = _Shifts(it, ReadingErrors.of(found), residual, taken)
@@ -113,6 +113,7 @@ def bad_readings(found: Fit, criteria: Criteria) -> tuple[BadReading, ...]:
     count = int(there.sum())
     if count < criteria.few_readings:
         return ()
+    there &= ~_kept(shifts)
     limit = float(norm.isf(0.5 * criteria.false_alarm / count))
     channels = it.load_cases.measured.shape[1]
     out: list[BadReading] = []
@@ -134,6 +135,17 @@ def bad_readings(found: Fit, criteria: Criteria) -> tuple[BadReading, ...]:
             out.append(_named(found, row, int(shifts.of.channels[row, number]), off))
             shifts = less
     return tuple(out)
+
+
+def _kept(shifts: _Shifts) -> Mask:
+    """(R, 1) rows with a reading that counts whatever it is: the one that was prescribed beside it would take it
+    along."""
+    whole = shifts.it.load_cases
+    out = np.zeros((shifts.of.there.shape[0], 1), dtype=bool)
+    for number, test in enumerate(whole.campaign.tests):
+        steps = [step for step, _ in test.keep]
+        out[whole.first[number] + np.flatnonzero(np.isin(test.data.steps, steps))] = True
+    return out
 
 
 def _scales(shifts: _Shifts) -> Array:
@@ -182,7 +194,8 @@ def set_aside(campaign: Campaign, bad: tuple[BadReading, ...]) -> Campaign:
     if not bad:
         return campaign
     names = channel_columns(campaign.gauges)
-    tests = [_test_without(campaign, test, set(_of(test, bad, names))) for test in campaign.tests]
+    found = [(test, set(_of(test, bad, names))) for test in campaign.tests]
+    tests = [without(test, cells, campaign.gauges) if cells else test for test, cells in found]
     return replace(campaign, tests=tuple(test for test in tests if test is not None))
 
 
@@ -191,24 +204,3 @@ def _of(test: Test, bad: tuple[BadReading, ...], names: list[str]) -> Iterator[t
     for each in bad:
         if each.test == test.id:
             yield int(np.flatnonzero(test.data.steps == each.step)[0]), names.index(each.column)
-
-
-def _test_without(campaign: Campaign, test: Test, cells: set[tuple[int, int]]) -> Test | None:
-    if not cells:
-        return test
-    data = test.data
-    readings = np.hstack([data.displacement, data.wrench, data.gauges])
-    controls = control_channels(test, campaign.gauges)
-    compared = np.setdiff1d(np.arange(readings.shape[1]), controls)
-    for row, channel in cells:
-        if channel not in controls:
-            readings[row, channel] = np.nan
-            continue
-        there = np.flatnonzero(np.isfinite(readings[:, channel])).tolist()
-        good = np.array([k for k in there if (k, channel) not in cells], dtype=int)
-        if not good.size:
-            return None
-        readings[row, channel] = np.interp(row, good, readings[good, channel])
-        readings[row, compared] = np.nan
-    data = replace(data, displacement=readings[:, :6], wrench=readings[:, 6:12], gauges=readings[:, 12:])
-    return replace(test, data=data)

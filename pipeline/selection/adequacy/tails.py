@@ -26,7 +26,7 @@ from scipy.optimize import minimize
 from scipy.stats import norm, t
 
 from pipeline.campaign import Campaign
-from pipeline.inference.driving import control_channels
+from pipeline.campaign.control import control_channels
 from pipeline.inference.fit import Fit
 from pipeline.inference.noise import MEDIAN
 from pipeline.inference.residual import whitening

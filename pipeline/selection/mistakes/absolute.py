@@ -8,6 +8,7 @@ from functools import partial
 import numpy as np
 
 from pipeline.campaign import Campaign
+from pipeline.campaign.edited import Change
 from pipeline.selection.mistakes.base import (
     GROUPS,
     Array,
@@ -38,6 +39,7 @@ def mistakes(campaign: Campaign) -> Iterator[Mistake]:
             f'subtract the reading of the unloaded rig from {", ".join(columns)}, or write zero = "first_row" in '
             "the tests whose first row is unloaded",
             partial(_from_first, columns=columns),
+            tuple(Change("columns", each, "zero", "first_row") for each in columns),
         )
 
 

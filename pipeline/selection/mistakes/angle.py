@@ -8,6 +8,7 @@ from dataclasses import replace
 import numpy as np
 
 from pipeline.campaign import Campaign
+from pipeline.campaign.edited import Change
 from pipeline.selection.mistakes.base import Mistake
 
 LARGEST = float(np.pi / 2.0)
@@ -23,7 +24,15 @@ def mistakes(campaign: Campaign) -> Iterator[Mistake]:
             "q_deg is in radians",
             "write q_deg of every test in degrees: multiply it by 57.29578",
             _in_degrees,
+            tuple(_changes(campaign)),
         )
+
+
+def _changes(campaign: Campaign) -> Iterator[Change]:
+    """Of every angle that is not zero, to the digits that somebody would write."""
+    for test in _in_degrees(campaign).tests:
+        if test.q_deg:
+            yield Change("tests", test.id, "q_deg", float(f"{test.q_deg:.10g}"))
 
 
 def _in_degrees(campaign: Campaign) -> Campaign:

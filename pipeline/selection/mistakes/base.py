@@ -10,23 +10,25 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pipeline.campaign import Campaign
+from pipeline.campaign.edited import Change
 from pipeline.campaign.names import DISPLACEMENTS, WRENCHES, channel_columns
 from pipeline.inference.sensor_noise import from_roughness
 
 Array = NDArray[np.float64]
-Change = Callable[[Campaign], Campaign]
+Mended = Callable[[Campaign], Campaign]
 
 
 @dataclass(frozen=True, eq=False)
 class Mistake:
     """kind: of mistake. columns: that have it. words: as a guess; mend: what to do in the table or the file. mended:
-    the campaign without it."""
+    the campaign without it. changes: of campaign.toml that do so, none where only the table can be mended."""
 
     kind: str
     columns: tuple[str, ...]
     words: str
     mend: str
-    mended: Change
+    mended: Mended
+    changes: tuple[Change, ...] = ()
 
 
 def columns_of(campaign: Campaign) -> tuple[str, ...]:

@@ -9,6 +9,7 @@ from itertools import combinations
 import numpy as np
 
 from pipeline.campaign import Campaign
+from pipeline.campaign.edited import Change
 from pipeline.selection.mistakes.base import (
     FORCES,
     MOMENTS,
@@ -35,6 +36,7 @@ def mistakes(campaign: Campaign) -> Iterator[Mistake]:
                     f"{pair[0]} and {pair[1]} are exchanged",
                     f"exchange the names {pair[0]} and {pair[1]} in the header",
                     partial(_exchanged, pair=pair),
+                    (Change("columns", pair[0], "is", pair[1]), Change("columns", pair[1], "is", pair[0])),
                 )
 
 

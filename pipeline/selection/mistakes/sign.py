@@ -6,6 +6,7 @@ from collections.abc import Iterator
 from functools import partial
 
 from pipeline.campaign import Campaign
+from pipeline.campaign.edited import Change
 from pipeline.selection.mistakes.base import Mistake, groups, times, verb
 
 
@@ -18,4 +19,5 @@ def mistakes(campaign: Campaign) -> Iterator[Mistake]:
             f"{name} {verb(columns, 'has', 'have')} the wrong sign",
             f"multiply {', '.join(columns)} by -1",
             partial(times, columns=columns, factor=-1.0),
+            tuple(Change("columns", each, "sign") for each in columns),
         )

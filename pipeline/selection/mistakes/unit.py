@@ -9,6 +9,7 @@ from collections.abc import Iterator
 from functools import partial
 
 from pipeline.campaign import Campaign
+from pipeline.campaign.edited import Change
 from pipeline.campaign.mapped.units import INCH, LBF, UNITS
 from pipeline.selection.mistakes.base import FORCES, MOMENTS, Mistake, groups, times, verb
 
@@ -28,6 +29,8 @@ LENGTH = {"m": THOUSAND, "in": INCH, "µm": 1.0 / THOUSAND, "thousandths of an i
 TURN = {"degrees": DEGREE, "mrad": 1.0 / THOUSAND}
 BOTH = {"kgf": KGF, "lbf": POUND}
 """Of forces and moments together."""
+KNOWN = {"thousandths of an inch": "thou", "degrees": "°"}
+"""How the files spell a unit that is said in words."""
 MEANT = {"N": FORCE, "Nmm": MOMENT, "mm": LENGTH, "rad": TURN}
 WRITTEN = {"N": "N", "Nmm": "N·mm", "mm": "mm", "rad": "rad"}
 
@@ -55,6 +58,7 @@ def _read_in(name: str, columns: tuple[str, ...], unit: str, factor: float) -> M
         f"multiply {_listed(columns)} by {factor:.7g} ({_meant(columns)} in {unit}), and {_its(columns)} sigma as well "
         f"where it is in {unit} too",
         partial(times, columns=columns, factor=factor),
+        tuple(Change("columns", each, "unit", KNOWN.get(unit, unit)) for each in columns),
     )
 
 

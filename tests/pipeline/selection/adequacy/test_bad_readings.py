@@ -70,6 +70,14 @@ def test_each_that_is_off_alone_is_found_and_no_other() -> None:
     assert found(knocked(campaign(), off)) == set(off)
 
 
+def test_one_that_is_kept_by_hand_is_none_and_the_others_stay() -> None:
+    off = {("axial_held_q+0", 5, "x_mm"): 14.0, ("swing_q+30", 7, "fz_N"): -12.0}
+    it = knocked(campaign(), off)
+    assert found(it) == set(off)
+    tests = (replace(t, keep=((5, "x_mm"),)) if t.id == "axial_held_q+0" else t for t in it.tests)
+    assert found(replace(it, tests=tuple(tests))) == {("swing_q+30", 7, "fz_N")}
+
+
 def test_a_score_is_that_of_a_fit_with_the_shift_as_a_number() -> None:
     """As least squares with a column more, of the readings alone."""
     cell = (IDS[0], 3, "x_mm")
