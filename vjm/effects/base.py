@@ -66,7 +66,8 @@ class Parameter:
     """One number of an effect.
 
     null: where the effect is absent. typical: the size of a real one, from null. low, high: bounds.
-    one_sided: only one direction from null has a meaning.
+    one_sided: only one direction from null has a meaning. along: "x" to "rz", where it is a compliance that carries the
+    whole rig: its sizes then go with what the rig gives in that direction.
     """
 
     name: str
@@ -76,6 +77,7 @@ class Parameter:
     low: float
     high: float
     meaning: str
+    along: str = ""
 
     @property
     def one_sided(self) -> bool:
@@ -88,6 +90,14 @@ class Parameter:
             return self
         values = {name: factor * getattr(self, name) for name in ("null", "typical", "low", "high")}
         return replace(self, **values)
+
+
+class Sizes(Protocol):
+    """By how much sizes of a rig differ from those of the catalogue."""
+
+    def __call__(self, unit: str, along: str = "") -> float:
+        """Of a number in this unit, and of a compliance of the whole rig in a direction."""
+        ...
 
 
 class Effect(ABC):
@@ -173,10 +183,10 @@ class Effect(ABC):
             where = "at its base" if self.hinge == "base" else "at either end"
             raise ValueError(f"{self.name} needs a bar with a hinge {where}")
 
-    def sized_by(self, factor: Callable[[str], float]) -> Self:
+    def sized_by(self, factor: Sizes) -> Self:
         """The effect with typical sizes, bounds and probes so many times those of its class, by their unit."""
         own, it = type(self), copy.copy(self)
-        parameters = tuple(p.times(factor(p.unit)) for p in own.parameters)
+        parameters = tuple(p.times(factor(p.unit, p.along)) for p in own.parameters)
         probes = tuple(value * factor(own.parameters[0].unit) for value in own.probes)
         # Attributes of the instance stand before those of its class.
         vars(it).update(parameters=parameters, probes=probes)

@@ -11,11 +11,11 @@ from vjm.sensors import BaseSpring
 
 _NAMES = ("x", "y", "z", "rx", "ry", "rz")
 _SHIFT = [
-    Parameter(f"{n}_mm_per_N", "mm/N", 0.0, 2e-6, 0.0, 1e-2, f"give of the base along {n}")
+    Parameter(f"{n}_mm_per_N", "mm/N", 0.0, 2e-6, 0.0, 1e-2, f"give of the base along {n}", n)
     for n in _NAMES[:3]
 ]
 _TURN = [
-    Parameter(f"{n}_rad_per_Nmm", "rad/(N·mm)", 0.0, 1e-9, 0.0, 1e-5, f"give of the base about {n[1]}")
+    Parameter(f"{n}_rad_per_Nmm", "rad/(N·mm)", 0.0, 1e-9, 0.0, 1e-5, f"give of the base about {n[1]}", n)
     for n in _NAMES[3:]
 ]
 

@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import copy
 from abc import abstractmethod
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from typing import ClassVar, Self
 
 import numpy as np
 from numpy.typing import NDArray
 
-from vjm.effects.base import Changing, Effect, Parameter, Rig, Values
+from vjm.effects.base import Changing, Effect, Parameter, Rig, Sizes, Values
 from vjm.frames import Array
 
 UNITS = {"Nmm": "N·mm"}
@@ -30,7 +30,7 @@ class Rows:
     columns: tuple[str, ...]
 
 
-def _one(unit: str) -> float:
+def _one(unit: str, along: str = "") -> float:
     return 1.0
 
 
@@ -44,7 +44,7 @@ class SensorFault(Effect):
     kinds: ClassVar = ("parallelogram", "bar", "manipulator")
     parts: ClassVar = "sensors"
     column: str = ""
-    factor: Callable[[str], float] = staticmethod(_one)
+    factor: Sizes = staticmethod(_one)
 
     @abstractmethod
     def error(self, readings: Array, rows: Rows, values: Values) -> Array:
@@ -65,7 +65,7 @@ class SensorFault(Effect):
         )
         return other
 
-    def sized_by(self, factor: Callable[[str], float]) -> Self:
+    def sized_by(self, factor: Sizes) -> Self:
         """The fault with sizes so many times as large, by the unit of its column, now or when it has one."""
         other = copy.copy(self)
         vars(other)["factor"] = factor

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import Any, Literal, get_args
 
 import numpy as np
@@ -15,6 +16,7 @@ from pipeline.campaign.rigs.bars import RigOfBars, TableOfBars
 from pipeline.campaign.usual_tests import UsualTest
 from pipeline.toml.complaints import shown
 from pipeline.toml.fields import Length, Number
+from vjm.effects.sized import Scale, scale_of_bar
 from vjm.link import Link
 from vjm.mechanisms.assembly import GaugeAt
 from vjm.mechanisms.bar import HELD, Bar, Base, Tip
@@ -64,6 +66,10 @@ class BarRig(RigOfBars):
     @property
     def supports(self) -> dict[str, str]:
         return dict.fromkeys(HELD[self.tip], f"the {self.tip} tip")
+
+    @cached_property
+    def scale(self) -> Scale:
+        return scale_of_bar(self.length, self.stiffness)
 
     @property
     def ends(self) -> tuple[Base, Tip]:

@@ -71,8 +71,8 @@ def test_it_has_the_sizes_of_the_rig_and_keeps_its_parts() -> None:
     scale = scale_for(bench())
     it = sized(effect_of("joint_friction@tip", all_sized(catalogue(), scale)), scale)
     assert it.parameters == sized(catalogue()["joint_friction"], scale).parameters
-    assert it.sized_by(lambda unit: 2.0).parameters[0].typical == 2.0 * it.parameters[0].typical
-    assert it.name == it.sized_by(lambda unit: 2.0).name == "joint_friction@tip"
+    assert it.sized_by(lambda *_: 2.0).parameters[0].typical == 2.0 * it.parameters[0].typical
+    assert it.name == it.sized_by(lambda *_: 2.0).name == "joint_friction@tip"
     assert it.tags == "tip"
 
 
