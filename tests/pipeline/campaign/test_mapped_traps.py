@@ -103,6 +103,13 @@ def test_a_sensor_that_was_not_used_in_a_test_needs_no_zero_there(tmp_path: Path
     assert np.isnan(found.tests[1].data.displacement[:, 2]).all()
 
 
+def test_rows_without_a_test_are_not_left_out_in_silence(tmp_path: Path) -> None:
+    content = "test,Travel,Load\nload,0,0\n,0.1,5\n,0.2,7\n,,pause\n"
+    columns = '[file]\nmissing = ["pause"]\n' + S
+    said = "line 3, column 'test': 2 rows from here on have numbers and no test"
+    assert_refused(tmp_path, columns, content, said, "write fill_down = ['test'] under [file]")
+
+
 def test_rows_of_a_shared_file_are_counted_once(tmp_path: Path) -> None:
     content = "test,Travel,Load\nload,0,0\nload,0.1,5\nagain,0,0\nagain,0.2,7\n"
     (tmp_path / "all.csv").write_text(content)
