@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from math import isfinite
 from pathlib import Path
 
+from pipeline.campaign.mapped.grid import Cell
 from pipeline.campaign.mapped.layout import Layout, word
 from pipeline.campaign.mapped.mapping import Source
 from pipeline.campaign.mapped.readings import words_of
@@ -49,6 +51,7 @@ class Owners:
                 complaints.add("", f"has no column {shown(how.test_column)}, which test_column names")
         column = column or words_of(layout, self.source.declared, "test", complaints)
         if column is not None:
+            _all_named(column, layout, how.test_column or self._column_of_tests(), complaints)
             return column
         if self.source.own:
             return tests * count
@@ -62,6 +65,9 @@ class Owners:
             complaints.add("", said)
         return (tests[0] if tests else "",) * count
 
+    def _column_of_tests(self) -> str:
+        return next((name for name, it in self.source.declared.columns.items() if it.what == "test"), "test")
+
     def _named(self, path: Path, layout: Layout, by: str, complaints: Complaints) -> str:
         name = path.stem if by == "file" else layout.sheet
         every = (*self.source.tests, *self.source.elsewhere)
@@ -72,3 +78,23 @@ class Owners:
             said = f"has the name of {other}, so both would be test {shown(name)}"
             complaints.add("", f"{said}; allowed is one file for each")
         return name
+
+
+def _all_named(tests: tuple[str, ...], layout: Layout, column: str, complaints: Complaints) -> None:
+    """A complaint where rows with numbers have no test: they would be left out and nobody told."""
+    lines = [
+        line
+        for test, line, *cells in zip(tests, layout.lines, *layout.cells, strict=True)
+        if not test and any(map(_is_number, cells))
+    ]
+    if lines:
+        rows = "this row has" if len(lines) == 1 else f"{len(lines)} rows from here on have"
+        said = f"{rows} numbers and no test; where an empty cell repeats the one above, write fill_down = "
+        complaints.add(f"column {shown(column)}", f"{said}[{shown(column)}] under [file]", lines[0])
+
+
+def _is_number(cell: Cell) -> bool:
+    try:
+        return isfinite(float(word(cell).replace(",", ".")))
+    except ValueError:
+        return False

@@ -79,9 +79,8 @@ def _used(
             there = ", ".join(shown(each) for each in layout.names)
             complaints.add(f"column {shown(name)}", f"is not in the file, which has {there}")
         elif name in parts:
-            complaints.add(
-                f"column {shown(name)}", "is used by [derived] already, allowed is one use of each"
-            )
+            said = "is used by [derived] already, allowed is one use of each: delete its line here or there"
+            complaints.add(f"column {shown(name)}", said)
     for name in layout.names:
         own = declared.columns.get(name)
         if own is None and name in contract:

@@ -35,16 +35,18 @@ class Read:
 def zeroed(tables: Sequence[Read]) -> None:
     """Takes away the first reading of each test where that was declared to be zero; a test may go over several tables.
 
-    A first row without a reading is a complaint: what would be zero then is not said.
+    A first row without a reading is a complaint: what would be zero then is not said. A sensor that has no reading in
+    all of a test was not used there, and needs no zero.
     """
     first: dict[tuple[str, str], float] = {}
+    used = _used(tables)
     for table in tables:
         for what, column in table.columns.items():
             if not column.from_first:
                 continue
             values = column.values.copy()
             for k, test in enumerate(table.tests):
-                if not test:
+                if not test or (test, what) not in used:
                     continue
                 if (test, what) not in first:
                     first[test, what] = float(values[k])
@@ -55,3 +57,14 @@ def zeroed(tables: Sequence[Read]) -> None:
                         table.complaints.add(f"column {shown(column.name)}", said, table.layout.lines[k])
                 values[k] -= first[test, what]
             table.columns[what] = replace(column, values=values)
+
+
+def _used(tables: Sequence[Read]) -> set[tuple[str, str]]:
+    """Tests, each with what a sensor that was read there at least once reads."""
+    return {
+        (test, what)
+        for table in tables
+        for what, column in table.columns.items()
+        for test, value in zip(table.tests, column.values, strict=True)
+        if not np.isnan(value)
+    }

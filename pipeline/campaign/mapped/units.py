@@ -45,7 +45,8 @@ class Unit:
         into = QUANTITIES[self.quantity]
         if self.offset:
             return f"{into} = {self.factor:.10g} {self.spelling} {self.offset:+.10g}"
-        return f"1 {self.spelling} = {self.factor:.10g} {into}"
+        once = "" if self.spelling[0].isdigit() else "1 "
+        return f"{once}{self.spelling} = {self.factor:.10g} {into}"
 
 
 _FACTORS: dict[str, dict[str, float]] = {
@@ -55,6 +56,7 @@ _FACTORS: dict[str, dict[str, float]] = {
         "cm": 10.0,
         "µm": 1e-3,
         "nm": 1e-6,
+        "1/100 mm": 0.01,
         "in": INCH,
         "ft": 12.0 * INCH,
         "thou": 1e-3 * INCH,
@@ -106,8 +108,17 @@ UNITS: dict[str, Unit] = {
 _ALSO = {
     "um": "µm",
     "μm": "µm",
+    "1/1000·mm": "µm",
+    "1/1000mm": "µm",
     "micron": "µm",
     "microns": "µm",
+    "1/100·mm": "1/100 mm",
+    "1/100mm": "1/100 mm",
+    "mm/100": "1/100 mm",
+    "0·01·mm": "1/100 mm",
+    "0·01mm": "1/100 mm",
+    "0,01·mm": "1/100 mm",
+    "0,01mm": "1/100 mm",
     "inch": "in",
     "inches": "in",
     "μrad": "µrad",

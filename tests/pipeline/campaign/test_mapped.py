@@ -339,7 +339,9 @@ def test_two_dials_are_an_angle(tmp_path: Path) -> None:
     found = campaign(tmp_path, tables, content)
     np.testing.assert_allclose(found.tests[0].data.displacement[:, 5], angle, atol=1e-12)
     twice = tables.replace("[columns]\n", '[columns]\n"Dial 1" = { is = "z", unit = "um" }\n')
-    assert_refused(tmp_path, twice, content, "is used by [derived] already")
+    assert_refused(
+        tmp_path, twice, content, "is used by [derived] already, allowed is one use of each: delete"
+    )
 
 
 def test_every_quantity_comes_out_in_the_unit_of_the_contract(tmp_path: Path) -> None:

@@ -94,6 +94,22 @@ def test_a_zero_that_was_not_read_is_asked_about(tmp_path: Path) -> None:
     )
 
 
+def test_a_sensor_that_was_not_used_in_a_test_needs_no_zero_there(tmp_path: Path) -> None:
+    tests = "".join(TEST.format(id=n) for n in ("load", "again"))
+    columns = S.replace('unit = "mm"', 'unit = "mm", zero = "first_row"')
+    content = "test,Travel,Load\nload,2.5,0\nload,2.6,5\nagain,,0\nagain,,7\n"
+    found = campaign(tmp_path, columns, content, tests=tests)
+    np.testing.assert_allclose(found.tests[0].data.displacement[:, 2], [0.0, 0.1], atol=1e-12)
+    assert np.isnan(found.tests[1].data.displacement[:, 2]).all()
+
+
+def test_rows_without_a_test_are_not_left_out_in_silence(tmp_path: Path) -> None:
+    content = "test,Travel,Load\nload,0,0\n,0.1,5\n,0.2,7\n,,pause\n"
+    columns = '[file]\nmissing = ["pause"]\n' + S
+    said = "line 3, column 'test': 2 rows from here on have numbers and no test"
+    assert_refused(tmp_path, columns, content, said, "write fill_down = ['test'] under [file]")
+
+
 def test_rows_of_a_shared_file_are_counted_once(tmp_path: Path) -> None:
     content = "test,Travel,Load\nload,0,0\nload,0.1,5\nagain,0,0\nagain,0.2,7\n"
     (tmp_path / "all.csv").write_text(content)

@@ -62,6 +62,13 @@ def test_brackets_blanks_and_marks_of_products_do_not_matter(spelling: str) -> N
     assert unit(spelling).quantity in ("length", "moment")
 
 
+@pytest.mark.parametrize(
+    "spelling", ["[1/100 mm]", "1/100mm", "mm/100", "0.01 mm", "(0,01 mm)", "0.01mm", "1/1000 mm"]
+)
+def test_what_stands_on_the_face_of_a_dial_is_a_unit(spelling: str) -> None:
+    assert unit(spelling, "length").factor == (1e-3 if "1000" in spelling else 0.01)
+
+
 @pytest.mark.parametrize("spelling", sorted(QUESTIONS))
 def test_what_means_two_things_is_asked_about(spelling: str) -> None:
     with pytest.raises(NoUnit, match=r"\?"):
@@ -79,5 +86,6 @@ def test_what_is_unknown_or_of_another_quantity_is_refused_with_what_is_allowed(
 
 def test_the_conversion_is_said() -> None:
     assert UNITS["in"].words == "1 in = 25.4 mm"
+    assert UNITS["1/100 mm"].words == "1/100 mm = 0.01 mm"
     assert UNITS["°F"].words == "°C = 0.5555555556 °F -17.77777778"
     assert math.isclose(UNITS["gon"].factor * 400.0, 2.0 * math.pi)
