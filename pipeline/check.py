@@ -76,7 +76,8 @@ def _examined(campaign: Campaign) -> Iterator[str]:
         )
         yield (
             f"Doctor: {noise.column} scatters by {short(noise.found)}, {short(noise.declared)} is declared{law}: "
-            f"{noise.column} = {noise.found:.3g} under [noise]."
+            f"{noise.column} = {noise.found:.3g} under [noise] if the sensor is no better; if it is, look at the "
+            "numbers of [rig] first: a wrong length looks like this too."
         )
 
 

@@ -13,7 +13,7 @@ from tests.docs.fences import NotAsShownError, fences, run
 from tests.docs.shown import difference
 
 PAGES = ROOT / "docs" / "tutorials"
-LONG = {"own_table", "own_report", "own_part", "calibration", "prediction"}
+LONG = {"own_table", "own_walk", "own_report", "own_part", "calibration", "prediction"}
 """Pages of a minute or more; a whole machine at 40 postures takes several."""
 
 

@@ -7,7 +7,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from pipeline import check
 from pipeline.answer.of_diagnosis import answer_of, answered
+from pipeline.answer.record import FoundNoise
 from pipeline.campaign import Campaign, Data
 from pipeline.check import _examined
 from pipeline.compare.models import compare_models
@@ -15,6 +17,7 @@ from pipeline.compare.table import sentence
 from pipeline.inference.model import Model
 from pipeline.selection.diagnosis import cached_fits, diagnose
 from pipeline.selection.doctor import Suspicion, suspicions
+from pipeline.selection.examined import Examination
 from tests.pipeline.selection.bench import bench, creeping_gauge, cross_talk, growing_gain, with_fault
 from tests.pipeline.selection.mistakes import made
 from vjm.effects import catalogue
@@ -128,3 +131,13 @@ def test_a_zero_of_one_column_is_told_as_a_zero() -> None:
     answer = answer_of(it)
     assert answer.zeros[0].column == "x" and answer.zeros[0].value == pytest.approx(30.0, abs=1.0)
     assert answered(it).sentences[0].startswith("unknown: x starts at 30")
+
+
+def test_a_sigma_is_proposed_only_for_a_sensor_that_is_no_better(monkeypatch: pytest.MonkeyPatch) -> None:
+    """With a bar of 4000 mm instead of 400 each dial seems to scatter by a millimetre."""
+    noise = (FoundNoise(column="y_mm", declared=0.003, found=1.32),)
+    monkeypatch.setattr(check, "examined", lambda *_: Examination((), judged=True, noise=noise))
+    *_, said = _examined(None)  # type: ignore[arg-type]
+    assert (
+        "y_mm = 1.32 under [noise] if the sensor is no better; if it is, look at the numbers of [rig]" in said
+    )
