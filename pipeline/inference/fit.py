@@ -13,7 +13,7 @@ from pipeline.inference.levenberg_marquardt import levenberg_marquardt
 from pipeline.inference.load_cases import LoadCases
 from pipeline.inference.model import Model
 from pipeline.inference.nuisance_line import along_a_line, with_line
-from pipeline.inference.nuisances import lined, nominals
+from pipeline.inference.nuisances import beside, lined, nominals
 from pipeline.inference.objective import Objective
 from pipeline.inference.predicted import Prediction
 from pipeline.inference.residual import Residual, residual
@@ -180,6 +180,17 @@ def _fit(
         pieces.append((rest, apart, with_line(model.at(values), found, near, apart)))
     whole = joined(load_cases, pieces)
     return Fit(model.at(values), whole, residual(load_cases, whole), end.evaluations, end.ended)
+
+
+def as_it_is(model: Model, load_cases: LoadCases, start: Prediction) -> Fit:
+    """What a model with its own values leaves of the tests that may be fitted, and how that follows its free numbers:
+    nothing is fitted but the inputs. What was written about the rig is where it is in the start, a prediction of a like
+    model."""
+    rows, own = load_cases.by_role[0]
+    near = at_rows(start, load_cases, own, rows)
+    model, own = beside(model, own, near)
+    there = Objective(model, own).at(model.values, near).with_slopes
+    return Fit(model, there.prediction, there.residual, there.rounds)
 
 
 def with_own_line(

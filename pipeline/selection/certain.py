@@ -7,7 +7,7 @@ more. The effect is certain where the rival is still worse by far.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 
 import numpy as np
 
@@ -23,12 +23,13 @@ NEW = 0.1
 """Part of a pattern that must be left when those that were chosen are taken out of it."""
 
 
-def certain(found: Found, sets: tuple[Names, ...]) -> tuple[str, ...]:
-    """Names of the effects with numbers that are in all sets of a verdict and that nothing else replaces."""
+def certain(found: Found, sets: tuple[Names, ...], doubted: Collection[str] = ()) -> tuple[str, ...]:
+    """Names of the effects with numbers that are in all sets of a verdict and that nothing else replaces. doubted:
+    those in whose place a fault of a sensor explains as much."""
     cache, criteria = found.cache, found.cache.criteria
     best = sets[0]
     common = frozenset.intersection(*sets)
-    names = [n for n in cache.order(common) if cache.candidates[n].parameters]
+    names = [n for n in cache.order(common) if cache.candidates[n].parameters and n not in doubted]
     if not names:
         return ()
     fit = cache.fit(best)

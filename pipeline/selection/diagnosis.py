@@ -166,7 +166,8 @@ def diagnose(
     found, decision = it.found, it.decision
     next_test = attempts.get("the next test", lambda: _next_test(cache, decision), None)
     on_progress("what is certain")
-    sure = attempts.get("what is certain", lambda: certain(found, decision.sets), ())
+    doubted = {it.effect for it in decision.instead}
+    sure = attempts.get("what is certain", lambda: certain(found, decision.sets, doubted), ())
     stable = attempts.get("whether folds of the tests agree", lambda: _agreements(cache, found.best), {})
     alike = attempts.get("whether rows are alike", lambda: alike_rows(cache, decision), NONE)
     return Diagnosis(

@@ -7,14 +7,15 @@ from dataclasses import dataclass
 
 from scipy.stats import chi2
 
-from pipeline.inference.fit import Fit
+from pipeline.inference.fit import Fit, as_it_is
+from pipeline.inference.solvers import far
 from pipeline.selection.adequacy.patterns import scores
 from pipeline.selection.cost import cost, entry_for, misfit, numbers
 from pipeline.selection.criteria import Criteria
 from pipeline.selection.doctor import Suspicion
 from pipeline.selection.fit_cache import FitCache, Names
 from pipeline.selection.rivals import Found
-from pipeline.selection.unknown_zeros import Zero, zeros
+from pipeline.selection.unknown_zeros import Zero, left_beside, zeros
 from vjm.effects.sensor_fault import SensorFault
 
 
@@ -46,7 +47,8 @@ def faults_instead(found: Found) -> tuple[Instead, ...]:
             continue
         gain = misfit(cache, without) - misfit(cache, best)
         enough = gain - cache.criteria.apart(numbers(effect) - 1)
-        every = sorted(_faults(cache, name, without, gain), key=lambda it: -it.explains)
+        faults = [*_faults(cache, name, without, gain), *_zeros_about(cache, name, best, gain)]
+        every = sorted(faults, key=lambda it: -it.explains)
         out += [it for it in every[:1] if it.explains >= enough]
     return tuple(out)
 
@@ -65,6 +67,19 @@ def _faults(cache: FitCache, name: str, without: Names, gain: float) -> Iterator
     explains, words = max(every, default=(0.0, ""))
     if words:
         yield Instead(name, without, words, explains, gain)
+
+
+def _zeros_about(cache: FitCache, name: str, best: Names, gain: float) -> Iterator[Instead]:
+    """What zeros would explain in place of an effect, about the numbers of the best set: where a set without it is far
+    from the readings its numbers have gone far to explain a constant, and say nothing of what is left beside it."""
+    without, fit = best - {name}, cache.fit(best)
+    if not far(cache.fit(without).chi_square, fit.whitened.size):
+        return
+    about = as_it_is(fit.model.without(name), cache.whole, fit.prediction)
+    for zero in zeros(about, cache.criteria):
+        explains = misfit(cache, without) - left_beside(about, zero)
+        if zero.everywhere or explains >= gain:
+            yield Instead(name, without, zero.words, explains, gain, zero)
 
 
 def plain_zero(found: Fit, criteria: Criteria) -> bool:

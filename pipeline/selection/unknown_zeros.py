@@ -59,7 +59,7 @@ def zeros(found: Fit, criteria: Criteria) -> list[Zero]:
         return []
     used = whole.predicted & whole.fitted[:, None]
     weights = whitening(whole, found.prediction)
-    taken = basis(np.hstack([found.jacobian, found.residual.flat(found.residual.offsets)]))
+    taken = _taken(found)
     out = []
     for channel in dict.fromkeys(channel for channel, _ in named):
         own = [tests for other, tests in named if other == channel]
@@ -81,6 +81,16 @@ def zeros(found: Fit, criteria: Criteria) -> list[Zero]:
                 )
             )
     return sorted(out, key=lambda it: -it.gain)
+
+
+def left_beside(found: Fit, zero: Zero) -> float:
+    """Chi-square that a fit leaves beside a zero, its numbers fitted anew, to first order."""
+    return float(np.sum(found.whitened**2) - np.sum((_taken(found).T @ found.whitened) ** 2)) - zero.gain
+
+
+def _taken(found: Fit) -> Array:
+    """(N, r) orthonormal basis of what the numbers of a fit and unknown zeros can make."""
+    return basis(np.hstack([found.jacobian, found.residual.flat(found.residual.offsets)]))
 
 
 def _farthest(whole: LoadCases, channel: int) -> float:

@@ -27,7 +27,8 @@ from pipeline.selection.sensor_faults import Instead, faults_instead, zero_first
 @dataclass(frozen=True, eq=False)
 class Decision:
     """A verdict. sets: the simplest first; one where the verdict is certain. fit: of the first, numbers that nothing
-    determines at null. instead: faults of sensors that explain as much; zero: one that comes before all physics.
+    determines at null. instead: faults of sensors that explain as much; zero: a sensor that
+    may not have been zeroed, which comes before all physics.
 
     at_bound: numbers of the first set that end at their bound. out: sets that only an implausible size excludes.
     because: why the best set is not named though it explains all. law: a law beyond the catalogue that explains as
@@ -77,7 +78,8 @@ def ruled(found: Found, judgement: Judgement, attempts: Attempts) -> Decision:
             sets,
             cache.with_own_line(sets[0]),
             instead,
-            zero,
+            # It is sooner looked at than anything about the rig.
+            zero or next((it for it in instead if it.zero is not None), None),
             alike,
             at_bound(cache.fit(sets[0]).model),
             out,

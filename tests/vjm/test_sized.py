@@ -8,7 +8,7 @@ import pytest
 from vjm import paper
 from vjm.effects import catalogue
 from vjm.effects.base import Effect, Parameter, Rig, Values
-from vjm.effects.sized import LENGTH, Scale, scale_of, sized
+from vjm.effects.sized import LENGTH, Scale, scale_of, scale_of_bar, sized
 
 
 def test_on_the_bench_of_the_paper_nothing_changes() -> None:
@@ -45,6 +45,22 @@ def test_a_size_scales_as_its_unit_does(force: float, length: float) -> None:
                 assert getattr(new, name) == pytest.approx(factor * getattr(old, name), rel=1e-12)
         # From the catalogue's own sizes, however often it is done.
         assert sized(sized(effect, scale), scale).parameters == sized(effect, scale).parameters
+
+
+def test_a_base_counts_by_what_a_single_bar_gives_in_the_same_direction() -> None:
+    """In units of the bar's own compliance it is as typical as on the linkage, and on a bar of other units too."""
+    for factor in (1.0, 0.01):
+        stiffness = factor * np.diag(np.diag(paper.BAR_STIFFNESS))
+        base = sized(catalogue()["base_compliance"], scale_of_bar(LENGTH, stiffness))
+        shares = np.array([p.typical for p in base.parameters]) * np.diag(stiffness)
+        linkage = 2.0 * paper.BAR_STIFFNESS[0, 0]
+        np.testing.assert_allclose(shares[:3], 2e-6 * linkage)
+        np.testing.assert_allclose(shares[3:], 1e-9 * linkage * (paper.WIDTH / 2.0) ** 2)
+        assert shares.min() > 0.05 and shares.max() < 0.1
+        friction = sized(catalogue()["joint_friction"], scale_of_bar(LENGTH, stiffness)).parameters
+        assert friction[0].typical == pytest.approx(
+            factor * catalogue()["joint_friction"].parameters[0].typical
+        )
 
 
 class Own(Effect):

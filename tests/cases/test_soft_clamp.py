@@ -1,0 +1,122 @@
+"""A cantilever whose clamp turns, as every bench in a vice has it, by the formulas of beams; and a dial not zeroed."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from pipeline.answer.of_diagnosis import answered
+from pipeline.answer.record import Answer
+from pipeline.campaign import read
+from pipeline.inference.model import Model
+from pipeline.inference.suitable import known_effects
+from pipeline.selection.diagnosis import diagnose
+
+E, LENGTH, THICK, HIGH = 210e3, 400.0, 10.0, 20.0
+"""MPa and mm: flat steel on edge, pushed across (y) and along its height (z)."""
+RIGIDITY = {"y": E * HIGH * THICK**3 / 12.0, "z": E * THICK * HIGH**3 / 12.0}
+CLAMP = 4e-8
+"""rad/(N·mm): a tenth of what the tip gives along y, 0.4 of it along z."""
+LOADS = {"y": (0, 10, 20, 30, 40, 50, 40, 20, 0), "z": (0, 40, 80, 120, 160, 80)}
+SIGMA = 0.002
+DESCRIPTION = f"""\
+schema = 1
+name = "vice"
+
+[rig]
+kind = "bar"
+length_mm = {LENGTH}
+section = {{ kind = "rectangle", width_mm = {THICK}, height_mm = {HIGH} }}
+material = {{ E_MPa = {E}, nu = 0.3 }}
+base = "clamped"
+tip = "free"
+
+[noise]
+y_mm = {SIGMA}
+z_mm = {SIGMA}
+my_mm = {SIGMA}
+mz_mm = {SIGMA}
+fy_N = 0.1
+fz_N = 0.1
+
+[[gauges]]
+name = "my"
+on = "bar"
+bar = 1
+station = 0.5
+direction = "y"
+
+[[gauges]]
+name = "mz"
+on = "bar"
+bar = 1
+station = 0.5
+direction = "z"
+"""
+TEST = """
+[[tests]]
+id = "along_{0}"
+role = "fit"
+control = {{ x = "force", y = "force", z = "force", rx = "force", ry = "force", rz = "force" }}
+"""
+
+
+def give(force: float, rigidity: float, a: float, clamp: float) -> float:
+    """mm at a from the clamp: a cantilever under a force at its tip, and the turn of its clamp."""
+    return force * a**2 * (3.0 * LENGTH - a) / (6.0 * rigidity) + clamp * force * LENGTH * a
+
+
+def said(
+    folder: Path, clamp: float, thinner: float = 1.0, offset: float = 0.0, middle: bool = True
+) -> Answer:
+    """The diagnosis of such a bench. thinner: share of the thickness. offset: mm that the dial along y began with."""
+    rng = np.random.default_rng(7)
+    rows = ["test,step,y_mm,z_mm,my_mm,mz_mm,fy_N,fz_N"]
+    for way, loads in LOADS.items():
+        rigidity = RIGIDITY[way] * thinner ** (3 if way == "y" else 1)
+        for step, load in enumerate(loads):
+            force = load + rng.normal(0.0, 0.1)
+            tip, half = (
+                give(force, rigidity, a, clamp) + rng.normal(0.0, SIGMA) for a in (LENGTH, LENGTH / 2.0)
+            )
+            tip += offset if way == "y" else 0.0
+            half_said = f"{half:.6f}" if middle else ""
+            cells = (f"{tip:.6f}", "", half_said, "") if way == "y" else ("", f"{tip:.6f}", "", half_said)
+            forces = (f"{load}", "") if way == "y" else ("", f"{load}")
+            rows.append(",".join([f"along_{way}", str(step), *cells, *forces]))
+    folder.mkdir()
+    (folder / "measurements.csv").write_text("\n".join(rows) + "\n", encoding="utf-8")
+    text = DESCRIPTION + "".join(TEST.format(way) for way in LOADS)
+    (folder / "campaign.toml").write_text(text, encoding="utf-8")
+    return answered(diagnose(read(folder), Model(), known_effects(()).effects))
+
+
+def test_a_clamp_that_turns_is_named(tmp_path: Path) -> None:
+    found = said(tmp_path / "a", CLAMP)
+    assert (found.verdict, found.added) == ("identified", ("base_compliance",))
+    turns = {name.rpartition(".")[2]: it.value for name, it in found.parameters.items()}
+    assert turns["ry_rad_per_Nmm"] == pytest.approx(CLAMP, rel=0.1)
+    assert turns["rz_rad_per_Nmm"] == pytest.approx(CLAMP, rel=0.1)
+
+
+@pytest.mark.long
+def test_dials_at_the_tip_alone_do_not_tell_it_from_a_thinner_bar(tmp_path: Path) -> None:
+    found = said(tmp_path / "a", CLAMP, middle=False)
+    assert found.verdict == "ambiguous"
+    assert {("base_compliance",), ("bar_section_error",)} <= {found.added, *found.alternatives}
+
+
+def test_nothing_hidden_is_nothing(tmp_path: Path) -> None:
+    assert said(tmp_path / "a", 0.0).verdict == "within_noise"
+
+
+@pytest.mark.long
+def test_a_dial_that_was_not_zeroed_is_asked_about_first(tmp_path: Path) -> None:
+    """A tilt of the mounting moves the tip along y as well: it is neither named nor certain."""
+    found = said(tmp_path / "a", CLAMP, offset=2.37)
+    assert found.verdict in ("ambiguous", "unknown") and not found.certain
+    assert 'y starts at 2.37 mm: zero = "fitted"?' in found.sentences[0]
+    (zero,) = found.zeros
+    assert zero.column == "y" and zero.value == pytest.approx(2.37, abs=0.05)
