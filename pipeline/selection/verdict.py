@@ -82,7 +82,7 @@ def ruled(found: Found, judgement: Judgement, attempts: Attempts) -> Decision:
             zero or next((it for it in instead if it.zero is not None), None),
             alike,
             at_bound(cache.fit(sets[0]).model),
-            out,
+            tuple(names for names in out if names not in sets),
         )
     settled = determined(here, cache.whole, cache.criteria)
     # One that nothing determines may end at its bound as well as beside it; it is at null now.

@@ -9,6 +9,8 @@ from pipeline.parameter_names import parted
 from reports.quantities import Estimate, short, sigma, value_text
 
 CLEARLY = 1.0 - LEVEL
+MANY = 4
+"""Sets that are named where more could be."""
 
 
 def verdict_sentence(answer: Answer, nothing: str = "") -> str:
@@ -89,8 +91,12 @@ def limits(answer: Answer) -> Iterator[str]:
     """Parameters whose fit ended at their bound, and sets that only an implausible size makes fit."""
     for name in answer.at_bound:
         yield f"{name} ends at its bound: what the effect explains there, it explains with a size that is not allowed."
-    for names in answer.out_by_plausibility:
-        yield f"{' + '.join(names)} would fit as well, but only with an implausible size."
+    out = [" + ".join(names) for names in answer.out_by_plausibility]
+    if len(out) == 1:
+        yield f"{out[0]} would fit as well, but only with an implausible size."
+    elif out:
+        more = f" and {len(out) - MANY} more" if len(out) > MANY else ""
+        yield f"Only with implausible sizes would fit as well: {'; '.join(out[:MANY])}{more}."
 
 
 def written(answer: Answer) -> Iterator[str]:
