@@ -12,7 +12,7 @@ from typing import Any
 import plotly.graph_objects as go
 from plotly.subplots import make_subplots
 
-from reports.campaign.names import AFTER, BEFORE, axis_label, place, test_label
+from reports.campaign.names import AFTER, BEFORE, axis_label, standing
 from reports.formats import number
 from reports.load import Json
 from reports.plots import style
@@ -46,7 +46,7 @@ def figure(
     traces += [_left(test, curve, key, str(axis)) for axis, key in enumerate(stages, 2)]
     layout = json.loads(_layout(height, tuple(stages)))
     channel = axis_label(curve["channel"], curve["unit"])
-    layout["title"]["text"] = f"{escape(test_label(test))}, {place(test)}: {channel}"
+    layout["title"]["text"] = f"{escape(standing(test))}: {channel}"
     layout[f"xaxis{len(stages) + 1}"]["title"]["text"] = (
         f"{axis_label(test['load'], test['load_unit'])} (drives the test)"
     )

@@ -7,9 +7,9 @@ from reports.campaign.names import (
     AFTER,
     BEFORE,
     measured,
-    place,
     spelled,
-    test_label,
+    stages_of,
+    standing,
     unit_label,
     worst,
 )
@@ -30,8 +30,7 @@ def drawn(page: Json) -> tuple[str, bytes]:
     test, it = worst(page, 1)[0]
     figure = Figure(figsize=(6.2, 3.7))
     ax = figure.subplots()
-    # Without any effect both are the same line.
-    for key in LOOKS if page["effects"] else ("before",):
+    for key in stages_of(page):
         name, dash = LOOKS[key]
         ax.plot(_known(test["loads"]), _known(it[key]), color=COLOURS[key], ls=dash, lw=1.8, label=name)
     ax.plot(_known(test["loads"]), _known(it["measured"]), "o", ms=3.4, color=INK, label="measured", zorder=3)
@@ -48,8 +47,8 @@ def caption(page: Json) -> str:
     test, it = worst(page, 1)[0]
     models = f"{BEFORE} and {AFTER}" if page["effects"] else PLAIN
     return (
-        f"Where plain virtual springs fail most: {spelled(it['channel'])} in test {test_label(test)}, "
-        f"{place(test)}; measured, {models}."
+        f"Where plain virtual springs fail most: {spelled(it['channel'])} in test {standing(test)}; "
+        f"measured, {models}."
     )
 
 

@@ -39,6 +39,16 @@ def test_label(test: Json) -> str:
     return f"{test['test']} (held out)" if test["role"] == "holdout" else str(test["test"])
 
 
+def stages_of(page: Json) -> tuple[str, ...]:
+    """Before and after; before alone where nothing was added."""
+    return ("before", "after") if page["effects"] else ("before",)
+
+
+def standing(test: Json) -> str:
+    """A test's name, and where the rig stands in it: a single bar has no other place."""
+    return ", ".join(filter(None, (test_label(test), place(test) if test["rig"]["kind"] != "bar" else "")))
+
+
 def place(test: Json) -> str:
     """Where the rig stands in a test."""
     point = test["rig"].get("place_mm")

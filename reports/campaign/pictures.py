@@ -15,12 +15,13 @@ from reports.campaign.names import (
     channel_label,
     channels,
     measured,
-    place,
+    stages_of,
+    standing,
     test_label,
     unit_label,
     worst,
 )
-from reports.campaign.plots import short
+from reports.campaign.plots import FEW_TESTS, short
 from reports.charts import dress, picture
 from reports.load import Json
 from reports.shading import ATTENTION, LIKENESS, MISFIT, TOP, colormap, colour, ink_on, share_of
@@ -34,7 +35,9 @@ STYLES = {"before": (BEFORE, "--"), "after": (AFTER, "-")}
 def draw(page: Json) -> dict[str, bytes]:
     """All pictures by name."""
     out = {"misfit": misfit(page), first_picture.NAME: first_picture.drawn(page)[1]} if measured(page) else {}
-    out |= {f"curve_{k}": curve(test, it) for k, (test, it) in enumerate(worst(page, WORST), 1)}
+    out |= {
+        f"curve_{k}": curve(test, it, stages_of(page)) for k, (test, it) in enumerate(worst(page, WORST), 1)
+    }
     if page["isolability"] is not None:
         out["isolability"] = isolability(page["isolability"])
     return out
@@ -43,11 +46,13 @@ def draw(page: Json) -> dict[str, bytes]:
 def misfit(page: Json) -> bytes:
     """Tests by channels before and after."""
     names, tests = channels(page), by_role(page)
-    figure = Figure(figsize=(2.6 + 0.72 * len(names), 1.6 + 0.27 * len(tests)))
-    axes = figure.subplots(1, 2, sharey=True, gridspec_kw={"wspace": 0.04})
-    grids = [_grid(tests, names, key) for key in ("rms_before", "rms_after")]
+    stages = stages_of(page)
+    figure = Figure(figsize=(2.6 + 0.36 * len(stages) * len(names), 1.6 + 0.27 * max(len(tests), FEW_TESTS)))
+    axes = figure.subplots(1, len(stages), sharey=True, squeeze=False, gridspec_kw={"wspace": 0.04})[0]
+    grids = [_grid(tests, names, f"rms_{key}") for key in stages]
     shades = colormap(MISFIT)
-    for ax, grid, title in zip(axes, grids, (f"before: {BEFORE}", f"after: {AFTER}"), strict=True):
+    titles = [f"{key}: {STYLES[key][0]}" for key in stages] if len(stages) > 1 else [BEFORE]
+    for ax, grid, title in zip(axes, grids, titles, strict=True):
         shares = np.array([[np.nan if np.isnan(v) else share_of(v) for v in row] for row in grid])
         image = ax.imshow(shares, cmap=shades, vmin=0.0, vmax=1.0, aspect="auto")
         ax.set_title(title, fontsize=10, loc="left", color=INK)
@@ -65,14 +70,15 @@ def misfit(page: Json) -> bytes:
     return picture(figure)
 
 
-def curve(test: Json, it: Json) -> bytes:
-    """One channel of one test."""
-    figure = Figure(figsize=(8.2, 6.0))
+def curve(test: Json, it: Json, stages: Sequence[str]) -> bytes:
+    """One channel of one test. stages: as of `curve.figure`."""
+    figure = Figure(figsize=(8.2, 3.6 + 1.2 * len(stages)))
+    heights = [2.6, 1.0, 1.2] if len(stages) > 1 else [2.6, 1.2]
     upper, *lower = figure.subplots(
-        3, 1, sharex=True, gridspec_kw={"height_ratios": [2.6, 1, 1.2], "hspace": 0.12}
+        len(heights), 1, sharex=True, gridspec_kw={"height_ratios": heights, "hspace": 0.12}
     )
-    loads = _floats(test["loads"])
-    for key, (name, dash) in STYLES.items():
+    loads, styles = _floats(test["loads"]), {key: STYLES[key] for key in stages}
+    for key, (name, dash) in styles.items():
         upper.plot(loads, _floats(it[key]), color=COLOURS[key], ls=dash, lw=1.6, label=name)
     upper.errorbar(
         loads,
@@ -86,12 +92,12 @@ def curve(test: Json, it: Json) -> bytes:
         label="measured, ± 1 sigma",
     )
     upper.set_ylabel(f"{channel_label(it['channel'])}, {unit_label(it['unit'])}")
-    upper.set_title(f"{test_label(test)}, {place(test)}", fontsize=10, loc="left", color=INK)
+    upper.set_title(standing(test), fontsize=10, loc="left", color=INK)
     upper.legend(frameon=False, fontsize=8, loc="lower right", bbox_to_anchor=(1.0, 1.0), ncol=3)
-    for ax, (key, (_, dash)) in zip(lower, STYLES.items(), strict=True):
+    for ax, (key, (_, dash)) in zip(lower, styles.items(), strict=True):
         ax.axhspan(-BAND, BAND, color=FAINT, alpha=0.18, lw=0)
         ax.plot(loads, _floats(it[f"left_{key}"]), color=COLOURS[key], ls=dash, marker="o", ms=3, lw=0.9)
-        ax.set_ylabel(f"left {key},\nsigma", fontsize=9)
+        ax.set_ylabel(f"left {key},\nsigma" if len(stages) > 1 else "left, sigma", fontsize=9)
     for ax in (upper, *lower):
         dress(ax)
     lower[-1].set_xlabel(

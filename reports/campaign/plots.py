@@ -15,6 +15,8 @@ from reports.shading import ATTENTION, MISFIT, TOP, inks, scale, share_of
 from reports.style import INK
 
 CHOSEN = "#0072B2"
+FEW_TESTS = 5
+"""Tests for which a map has room at least: its scale needs it."""
 CELL = 11
 """Pixels of a number in a cell."""
 CELLS: dict[str, Any] = {
@@ -58,11 +60,11 @@ def misfit_map(
         shares = [[None if v is None else share_of(v) for v in row] for row in grid]
         said = [["" if v is None else short(v) for v in row] for row in grid]
         numbers(plot, columns, labels, said, [inks(MISFIT, row) for row in shares], row=1, col=column)
-    height = 130 + 24 * len(labels)
+    height = 130 + 24 * max(len(labels), FEW_TESTS)
     style(
         plot,
         height,
-        margin={"l": 20, "r": 20, "t": 50 if len(stages) > 1 else 10, "b": 50},
+        margin={"l": 20, "r": 20, "t": 50 if len(stages) > 1 else 40, "b": 50},
         coloraxis=_shades(),
     )
     plot.update_xaxes(title_text="channel", showgrid=False, type="category")

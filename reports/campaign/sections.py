@@ -18,7 +18,7 @@ from reports.blocks import (
     Text,
 )
 from reports.campaign import curve, dossier, doubt, first_picture, matrix, plots, tables, words
-from reports.campaign.names import BEFORE, channel_label, measured, test_label, worst
+from reports.campaign.names import BEFORE, channel_label, measured, stages_of, test_label, worst
 from reports.formats import number
 from reports.laws import law_picture
 from reports.load import Json
@@ -102,7 +102,7 @@ def misfit(page: Json, pictures: Pictures) -> Section:
         "sigmas; coloured: misfit, the darker the more (k: thousand). Empty: prescribed or not measured. Tests held "
         "out stand below the line. A click shows the curve below."
     )
-    drawn = Figure(MAP, caption, plots.misfit_map(page), png=pictures[MAP])
+    drawn = Figure(MAP, caption, plots.misfit_map(page, stages_of(page)), png=pictures[MAP])
     more = [tables.tests(page, "fit"), *held_out(page), tables.stages(page)]
     return Section(
         "misfit", "Where it fails", [drawn, Details("Errors test by test, and as effects are added", more)]
@@ -112,7 +112,7 @@ def misfit(page: Json, pictures: Pictures) -> Section:
 def curves(page: Json, pictures: Pictures) -> Section:
     """Every curve, and the worst as pictures."""
     caption = (
-        "Measured with error bars of one sigma, noise of the inputs included, and both models over what drives the "
+        "Measured with error bars of one sigma, noise of the inputs included, and each model over what drives the "
         "test; below, what each leaves, in sigmas; within the grey band noise stays in 95 % of steps. Lines join the "
         "steps in the order in which they were done, so that a loop is a loop. Drag to zoom, the three move together."
     )
@@ -120,8 +120,11 @@ def curves(page: Json, pictures: Pictures) -> Section:
     stride = max(1, ceil(readings / READINGS))
     if stride > 1:
         caption += f" Of so many steps one in {stride} is drawn; all are in page.json."
+    stages = stages_of(page)
     plots_of = {
-        (test_label(test), channel_label(it["channel"])): curve.figure(*curve.thinned(test, it, stride))
+        (test_label(test), channel_label(it["channel"])): curve.figure(
+            *curve.thinned(test, it, stride), stages=stages
+        )
         for test in page["tests"]
         for it in test["curves"]
     }
