@@ -52,7 +52,7 @@ def raw_of(grid: Any) -> Raw:
     values, numbers = np.unique(np.asarray(data)[np.isin(types, list(KIND_OF))], return_inverse=True)
     region_of = np.full(len(types), -1, dtype=np.int64)
     region_of[np.isin(types, list(KIND_OF))] = numbers.ravel()
-    offsets, connectivity = np.asarray(grid.offset), np.asarray(grid.cell_connectivity)
+    offsets, connectivity = np.asarray(grid.cell_offsets), np.asarray(grid.cell_connectivity)
     points = np.asarray(grid.points, dtype=float)
     blocks, regions = [], []
     for code, kind in KIND_OF.items():
