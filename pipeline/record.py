@@ -8,8 +8,8 @@ from typing import Self
 
 from pydantic import BaseModel, ConfigDict, ValidationError
 
-from meshes.files import replacing
 from pipeline.errors import InputError
+from pipeline.saving import put
 
 
 class Record(BaseModel):
@@ -35,8 +35,4 @@ class Record(BaseModel):
 
     def write(self, path: Path) -> None:
         """Write the JSON whole or not at all. InputError where nothing can be written."""
-        try:
-            with replacing(path) as part:
-                part.write_text(self.text(), encoding="utf-8")
-        except OSError as error:
-            raise InputError(f"{path} cannot be written: {error.strerror}") from error
+        put(path, self.text())

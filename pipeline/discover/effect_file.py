@@ -7,12 +7,12 @@ import re
 from collections.abc import Sequence
 from pathlib import Path
 
-from meshes.files import replacing
 from pipeline.answer.law import LawFound
 from pipeline.discover.record import Discovered
 from pipeline.discover.search import Discovery
 from pipeline.discover.through import Through
 from pipeline.errors import InputError
+from pipeline.saving import put
 from vjm.effects.base import Parameter
 
 DIGITS = 8
@@ -38,11 +38,7 @@ def write_effect(path: Path, text: str) -> None:
     """Write the file whole or not at all. InputError where it cannot be written."""
     if path.suffix != ".py":
         raise InputError(f"--write {path} is no Python file, allowed is a name that ends with .py")
-    try:
-        with replacing(path) as part:
-            part.write_text(text, encoding="utf-8")
-    except OSError as error:
-        raise InputError(f"{path} cannot be written: {error.strerror}") from error
+    put(path, text)
 
 
 def name_of(way: Through) -> str:

@@ -29,10 +29,9 @@ from typing import Any
 import tomlkit
 from tomlkit.items import InlineTable, Table
 
-from meshes.files import replacing
-from pipeline.errors import InputError
 from pipeline.inference.model import Model, Term
 from pipeline.parameter_names import path_of
+from pipeline.saving import put
 
 NAME = "model.toml"
 SCHEMA, BASE = 1, "vjm"
@@ -69,11 +68,7 @@ class ModelFile:
 
 def write_model(path: Path, it: ModelFile) -> None:
     """Write whole or not at all. InputError where nothing can be written."""
-    try:
-        with replacing(path) as part:
-            part.write_text(model_text(it, path.parent), encoding="utf-8", newline="")
-    except OSError as error:
-        raise InputError(f"{path} cannot be written: {error.strerror}") from error
+    put(path, model_text(it, path.parent))
 
 
 def model_text(it: ModelFile, folder: Path) -> str:

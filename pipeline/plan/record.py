@@ -10,13 +10,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from meshes.files import replacing
 from pipeline.campaign.names import COORDINATES
-from pipeline.errors import InputError
 from pipeline.plan.isolability import Visible
 from pipeline.plan.next import Worth
 from pipeline.provenance import commit, versions
 from pipeline.record import Record
+from pipeline.saving import put
 
 
 class Size(Record):
@@ -73,11 +72,7 @@ class Plan(Record):
     def write(self, path: Path) -> None:
         """Write the JSON whole or not at all. InputError where nothing can be written."""
         text = json.dumps(self.model_dump(mode="json"), indent=1, ensure_ascii=False, allow_nan=False) + "\n"
-        try:
-            with replacing(path) as part:
-                part.write_text(text, encoding="utf-8")
-        except OSError as error:
-            raise InputError(f"{path} cannot be written: {error.strerror}") from error
+        put(path, text)
 
 
 def plan_record(

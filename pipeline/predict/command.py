@@ -7,7 +7,6 @@ from dataclasses import dataclass
 from pathlib import Path
 from time import perf_counter
 
-from meshes.files import replacing
 from pipeline.add.command import starting_model
 from pipeline.callbacks import OnProgress
 from pipeline.campaign import Campaign, read
@@ -23,6 +22,7 @@ from pipeline.predict.recording import recorded
 from pipeline.predict.table import show
 from pipeline.predict.words import about, sentences
 from pipeline.progress import Progress
+from pipeline.saving import put
 
 CSV, JSON = "predictions.csv", "predictions.json"
 
@@ -87,24 +87,16 @@ def _written(asking: Asking, it: Predictions) -> list[str]:
     """Writes what was asked for; sentences that say where."""
     said = []
     if asking.compensation is not None:
-        _write(asking.compensation, compensation_table(it).encode())
+        put(asking.compensation, compensation_table(it).encode())
         said.append(f"correction to be subtracted: {asking.compensation}")
     if asking.json is not None:
         it.write(asking.json)
     if asking.out is not None:
         from reports.prediction import drawn
 
-        _write(asking.out / CSV, readings_table(it).encode())
+        put(asking.out / CSV, readings_table(it).encode())
         it.write(asking.out / JSON)
         for name, content in drawn(it.model_dump()).items():
-            _write(asking.out / name, content)
+            put(asking.out / name, content)
         said.append(f"every reading: {asking.out / CSV}")
     return said
-
-
-def _write(path: Path, content: bytes) -> None:
-    try:
-        with replacing(path) as part:
-            part.write_bytes(content)
-    except OSError as error:
-        raise InputError(f"{path} cannot be written: {error.strerror}") from error

@@ -7,12 +7,12 @@ from dataclasses import dataclass
 from itertools import count
 from pathlib import Path
 
-from meshes.files import replacing
 from pipeline.campaign import read
 from pipeline.campaign.reading import DESCRIPTION, MEASUREMENTS
 from pipeline.discover.effect_file import write_effect
 from pipeline.errors import InputError
 from pipeline.inference.model_file import NAME
+from pipeline.saving import put
 
 LAWS = "laws"
 """Name of an effect file of laws."""
@@ -35,15 +35,6 @@ def content(path: Path) -> bytes | None:
         return path.read_bytes()
     except OSError:
         return None
-
-
-def put(path: Path, text: bytes) -> None:
-    """Write a file whole or not at all. InputError where it cannot be written."""
-    try:
-        with replacing(path) as part:
-            part.write_bytes(text)
-    except OSError as error:
-        raise InputError(f"{path} cannot be written: {error.strerror}") from error
 
 
 @dataclass(frozen=True)

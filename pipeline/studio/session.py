@@ -18,10 +18,11 @@ from pipeline.init.found import Found
 from pipeline.page.command import RESULTS
 from pipeline.page.record import Page
 from pipeline.plan.record import Plan
+from pipeline.saving import put
 from pipeline.selection.mending import Mend
 from pipeline.studio import tolerances
 from pipeline.studio.drop import TABLES, placed, table
-from pipeline.studio.files import Edit, content, edited, put, stamps, undone, write_laws
+from pipeline.studio.files import Edit, content, edited, stamps, undone, write_laws
 from pipeline.studio.preview import Preview
 from pipeline.studio.work import Done, Kind, Proposal, Task
 from pipeline.studio.worker import Event, Refused, Said, Worker
@@ -273,10 +274,8 @@ class Session:
         try:
             if now != self._on_disk:
                 self._on_disk = now
-                raise InputError(
-                    f"{path} was changed since it was read: Open reads it, Save again replaces it"
-                )
-            put(path, (self._kept or "").encode())
+                raise InputError(f"{path} was changed since it was read: Open reads it, Save replaces it")
+            put(path, self._kept or "")
         except InputError as error:
             self.complaint = str(error)
         else:

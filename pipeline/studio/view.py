@@ -21,7 +21,7 @@ from pipeline.studio.scene import Scene
 from pipeline.studio.session import Session
 from pipeline.studio.state import campaigns, channels, panel, test_of, tests
 from reports.campaign import curve, matrix, plots, rivals_plot, words
-from reports.campaign.names import channel_label, test_label, worst
+from reports.campaign.names import channel_label, stages_of, test_label, worst
 from reports.files import write_bytes
 
 LOW, MATRIX = 330, 400
@@ -230,7 +230,7 @@ class Studio:
         for k, it in enumerate(test.curves):
             if channel_label(it.channel) != self.state.channel:
                 continue
-            stages = ("before", "after") if page.effects else ("before",)
+            stages = stages_of(page.effects)
             self.views["curve"].update(filling(curve.figure(test.model_dump(), it.model_dump(), LOW, stages)))
             if every:
                 names = [words.set_of(each.page.effects, page.titles) for each in every]
@@ -238,7 +238,7 @@ class Studio:
                 self.views["rivals"].update(Drawn(rivals_plot.figure(names, test.model_dump(), curves)))
 
     def _show_map(self, page: Page, cell: tuple[str, str]) -> None:
-        stages = ("before", "after") if page.effects else ("before",)
+        stages = stages_of(page.effects)
         self.views["map"].update(dense(plots.misfit_map(page.model_dump(), stages, chosen=cell)))
 
     def _show_step(self, page: Page) -> None:

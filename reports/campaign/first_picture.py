@@ -30,7 +30,7 @@ def drawn(page: Json) -> tuple[str, bytes]:
     test, it = worst(page, 1)[0]
     figure = Figure(figsize=(6.2, 3.7))
     ax = figure.subplots()
-    for key in stages_of(page):
+    for key in stages_of(page["effects"]):
         name, dash = LOOKS[key]
         ax.plot(_known(test["loads"]), _known(it[key]), color=COLOURS[key], ls=dash, lw=1.8, label=name)
     ax.plot(_known(test["loads"]), _known(it["measured"]), "o", ms=3.4, color=INK, label="measured", zorder=3)

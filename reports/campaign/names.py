@@ -1,5 +1,6 @@
 """Channels, units and tests of a campaign as a reader sees them."""
 
+from collections.abc import Sequence
 from html import escape
 
 from reports.load import Json
@@ -39,9 +40,9 @@ def test_label(test: Json) -> str:
     return f"{test['test']} (held out)" if test["role"] == "holdout" else str(test["test"])
 
 
-def stages_of(page: Json) -> tuple[str, ...]:
-    """Before and after; before alone where nothing was added."""
-    return ("before", "after") if page["effects"] else ("before",)
+def stages_of(effects: Sequence[str]) -> tuple[str, ...]:
+    """Before and after effects were added; before alone where none was."""
+    return ("before", "after") if effects else ("before",)
 
 
 def standing(test: Json) -> str:

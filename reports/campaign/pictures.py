@@ -36,7 +36,8 @@ def draw(page: Json) -> dict[str, bytes]:
     """All pictures by name."""
     out = {"misfit": misfit(page), first_picture.NAME: first_picture.drawn(page)[1]} if measured(page) else {}
     out |= {
-        f"curve_{k}": curve(test, it, stages_of(page)) for k, (test, it) in enumerate(worst(page, WORST), 1)
+        f"curve_{k}": curve(test, it, stages_of(page["effects"]))
+        for k, (test, it) in enumerate(worst(page, WORST), 1)
     }
     if page["isolability"] is not None:
         out["isolability"] = isolability(page["isolability"])
@@ -46,7 +47,7 @@ def draw(page: Json) -> dict[str, bytes]:
 def misfit(page: Json) -> bytes:
     """Tests by channels before and after."""
     names, tests = channels(page), by_role(page)
-    stages = stages_of(page)
+    stages = stages_of(page["effects"])
     figure = Figure(figsize=(2.6 + 0.36 * len(stages) * len(names), 1.6 + 0.27 * max(len(tests), FEW_TESTS)))
     axes = figure.subplots(1, len(stages), sharey=True, squeeze=False, gridspec_kw={"wspace": 0.04})[0]
     grids = [_grid(tests, names, f"rms_{key}") for key in stages]

@@ -102,7 +102,7 @@ def misfit(page: Json, pictures: Pictures) -> Section:
         "sigmas; coloured: misfit, the darker the more (k: thousand). Empty: prescribed or not measured. Tests held "
         "out stand below the line. A click shows the curve below."
     )
-    drawn = Figure(MAP, caption, plots.misfit_map(page, stages_of(page)), png=pictures[MAP])
+    drawn = Figure(MAP, caption, plots.misfit_map(page, stages_of(page["effects"])), png=pictures[MAP])
     more = [tables.tests(page, "fit"), *held_out(page), tables.stages(page)]
     return Section(
         "misfit", "Where it fails", [drawn, Details("Errors test by test, and as effects are added", more)]
@@ -120,7 +120,7 @@ def curves(page: Json, pictures: Pictures) -> Section:
     stride = max(1, ceil(readings / READINGS))
     if stride > 1:
         caption += f" Of so many steps one in {stride} is drawn; all are in page.json."
-    stages = stages_of(page)
+    stages = stages_of(page["effects"])
     plots_of = {
         (test_label(test), channel_label(it["channel"])): curve.figure(
             *curve.thinned(test, it, stride), stages=stages
