@@ -21,7 +21,11 @@ def cost(cache: FitCache, names: Names) -> float:
 def misfit(cache: FitCache, names: Names) -> float:
     """Chi-square of the fit, what choices of sides took off it, and of its numbers, each
     `Criteria.plausible` typical sizes a sigma."""
-    found = cache.fit(names)
+    return misfit_of(cache, cache.fit(names))
+
+
+def misfit_of(cache: FitCache, found: Fit) -> float:
+    """The same of a fit of the same tests."""
     return (
         found.chi_square
         + found.residual.doubt

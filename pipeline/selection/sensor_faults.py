@@ -7,15 +7,17 @@ from dataclasses import dataclass
 
 from scipy.stats import chi2
 
-from pipeline.inference.fit import Fit, as_it_is
-from pipeline.inference.solvers import far
+from pipeline.inference.fit import Fit, as_it_is, fit
+from pipeline.inference.load_cases import load_cases
+from pipeline.inference.solvers import ALL, Effort, far
+from pipeline.inference.subsets import carried
 from pipeline.selection.adequacy.patterns import scores
-from pipeline.selection.cost import cost, entry_for, misfit, numbers
+from pipeline.selection.cost import cost, entry_for, misfit, misfit_of, numbers
 from pipeline.selection.criteria import Criteria
 from pipeline.selection.doctor import Suspicion
 from pipeline.selection.fit_cache import FitCache, Names
 from pipeline.selection.rivals import Found
-from pipeline.selection.unknown_zeros import Zero, left_beside, zeros
+from pipeline.selection.unknown_zeros import Zero, left_beside, taken_out, zeros
 from vjm.effects.sensor_fault import SensorFault
 
 
@@ -47,7 +49,7 @@ def faults_instead(found: Found) -> tuple[Instead, ...]:
             continue
         gain = misfit(cache, without) - misfit(cache, best)
         enough = gain - cache.criteria.apart(numbers(effect) - 1)
-        faults = [*_faults(cache, name, without, gain), *_zeros_about(cache, name, best, gain)]
+        faults = [*_faults(cache, name, without, gain), *_zero_about(cache, name, best, gain, enough)]
         every = sorted(faults, key=lambda it: -it.explains)
         out += [it for it in every[:1] if it.explains >= enough]
     return tuple(out)
@@ -55,31 +57,54 @@ def faults_instead(found: Found) -> tuple[Instead, ...]:
 
 def _faults(cache: FitCache, name: str, without: Names, gain: float) -> Iterator[Instead]:
     """What each fault would explain in place of an effect."""
-    fit = cache.fit(without)
-    for zero in zeros(fit, cache.criteria):
+    found = cache.fit(without)
+    for zero in zeros(found, cache.criteria):
         # One test alone that was not zeroed is a choice among many: it has to do better than the effect.
         if zero.everywhere or zero.gain >= gain:
             yield Instead(name, without, zero.words, zero.gain, gain, zero)
     vouched = cache.whole.campaign.vouched
     # An effect is no steadier than a fault: a few large loads may say all that is known of either. Of a sensor that is
     # vouched for it takes more than one reading.
-    every = ((p.score**2 if vouched else p.takes, p.words) for p in scores(fit, cache.criteria))
+    every = ((p.score**2 if vouched else p.takes, p.words) for p in scores(found, cache.criteria))
     explains, words = max(every, default=(0.0, ""))
     if words:
         yield Instead(name, without, words, explains, gain)
 
 
-def _zeros_about(cache: FitCache, name: str, best: Names, gain: float) -> Iterator[Instead]:
-    """What zeros would explain in place of an effect, about the numbers of the best set: where a set without it is far
-    from the readings its numbers have gone far to explain a constant, and say nothing of what is left beside it."""
-    without, fit = best - {name}, cache.fit(best)
-    if not far(cache.fit(without).chi_square, fit.whitened.size):
+def _zero_about(cache: FitCache, name: str, best: Names, gain: float, enough: float) -> Iterator[Instead]:
+    """What a zero would explain in place of an effect, about the numbers of the best set: where a set without it is far
+    from the readings its numbers have gone far to explain a constant, and say nothing of what is left beside it.
+
+    So far from the fit without the effect a slope promises what is not there: the set is fitted to the readings without
+    the constant, and what that leaves counts."""
+    without, whole = best - {name}, cache.fit(best)
+    if not far(cache.fit(without).chi_square, whole.whitened.size):
         return
-    about = as_it_is(fit.model.without(name), cache.whole, fit.prediction)
+    about = as_it_is(whole.model.without(name), cache.whole, whole.prediction)
+    alone = misfit(cache, without)
     for zero in zeros(about, cache.criteria):
-        explains = misfit(cache, without) - left_beside(about, zero)
+        promised = alone - left_beside(about, zero)
+        if promised < (enough if zero.everywhere else max(enough, gain)):
+            continue
+        beside = fitted_beside(about, zero, cache.criteria.plausible, cache.effort)
+        explains = alone - misfit_of(cache, beside) + _gain(zero, beside, cache.criteria)
         if zero.everywhere or explains >= gain:
             yield Instead(name, without, zero.words, explains, gain, zero)
+        return
+
+
+def fitted_beside(found: Fit, zero: Zero, plausible: float, effort: Effort = ALL) -> Fit:
+    """A model fitted anew, from where it is, to the readings of its tests without a constant. plausible: typical sizes
+    of a number, effort: what it may take (`pipeline.inference.fit.fit`)."""
+    before = found.residual.load_cases
+    cases = load_cases(taken_out(before.campaign, zero))
+    return fit(found.model, cases, carried(found.prediction, cases, before), None, plausible, effort)
+
+
+def _gain(zero: Zero, beside: Fit, criteria: Criteria) -> float:
+    """What more the same zero takes off once its first estimate is taken out."""
+    same = (it for it in zeros(beside, criteria) if (it.column, it.tests) == (zero.column, zero.tests))
+    return next((it.gain for it in same), 0.0)
 
 
 def plain_zero(found: Fit, criteria: Criteria) -> bool:

@@ -7,11 +7,12 @@ controls a coordinate acts through the mechanism.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
+from pipeline.campaign import Campaign
 from pipeline.inference.driving import column_name, unit_of
 from pipeline.inference.fit import Fit
 from pipeline.inference.load_cases import LoadCases
@@ -20,6 +21,7 @@ from pipeline.inference.residual import whitening
 from pipeline.inference.rounding import TINY
 from pipeline.selection.adequacy.patterns import FLAT, acting
 from pipeline.selection.criteria import Criteria
+from pipeline.selection.mistakes.base import with_readings
 from vjm.effects.sized import LENGTH
 
 Array = NDArray[np.float64]
@@ -86,6 +88,15 @@ def zeros(found: Fit, criteria: Criteria) -> list[Zero]:
 def left_beside(found: Fit, zero: Zero) -> float:
     """Chi-square that a fit leaves beside a zero, its numbers fitted anew, to first order."""
     return float(np.sum(found.whitened**2) - np.sum((_taken(found).T @ found.whitened) ** 2)) - zero.gain
+
+
+def taken_out(campaign: Campaign, zero: Zero) -> Campaign:
+    """A campaign whose readings are without a constant."""
+    less = np.zeros(12 + len(campaign.gauges))
+    less[[column_name(k, campaign.gauges) for k in range(less.size)].index(zero.column)] = zero.value
+    own = replace(campaign, tests=tuple(test for test in campaign.tests if test.id in zero.tests))
+    new = {test.id: test for test in with_readings(own, lambda values: values - less).tests}
+    return replace(campaign, tests=tuple(new.get(test.id, test) for test in campaign.tests))
 
 
 def _taken(found: Fit) -> Array:
