@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import logging
+import traceback
 from collections.abc import Callable
 from dataclasses import dataclass, field
+from pathlib import Path
 from typing import Any, TypeVar, cast
 
 from numpy.linalg import LinAlgError
@@ -36,4 +38,12 @@ def plain(error: Exception) -> str:
         return "its equations have no single solution"
     if isinstance(error, ArithmeticError):
         return "its numbers leave the range of arithmetic"
+    if _of_a_library(error):
+        return f"an error that was not foreseen ({type(error).__name__}); --log FILE before the command says where"
     return str(error) or type(error).__name__
+
+
+def _of_a_library(error: Exception) -> bool:
+    """Whether it was raised outside the project: its words are about arrays and types."""
+    frames = traceback.extract_tb(error.__traceback__)
+    return bool(frames) and "site-packages" in Path(frames[-1].filename).parts

@@ -14,6 +14,7 @@ from pipeline.attempt import Attempts
 from pipeline.campaign import Campaign, Test, read
 from pipeline.campaign.names import channel_columns
 from pipeline.progress import Progress
+from pipeline.selection.beginnings import Beginning
 from pipeline.selection.examined import examined
 from pipeline.terminal import terminal
 from pipeline.typed import command
@@ -58,6 +59,8 @@ def _examined(campaign: Campaign) -> Iterator[str]:
     yield "Doctor: no unit, sign, exchange or order that would explain most of the misfit."
     if it.zero is not None:
         yield f"Doctor: {it.zero.words}"
+    for begin in it.begins:
+        yield f"Doctor: {_begins(campaign, begin)}"
     if not it.judged:
         yield (
             "Doctor: single readings and sigmas cannot be judged before a model leaves nothing that follows the load: "
@@ -79,6 +82,19 @@ def _examined(campaign: Campaign) -> Iterator[str]:
             f"{noise.column} = {noise.found:.3g} under [noise] if the sensor is no better; if it is, look at the "
             "numbers of [rig] first: a wrong length looks like this too."
         )
+
+
+def _begins(campaign: Campaign, it: Beginning) -> str:
+    """Where a channel begins, and what that may be."""
+    column = channel_columns(campaign.gauges)[it.channel]
+    name, _, unit = column.rpartition("_")
+    where = it.tests[0] if len(it.tests) == 1 else f"{len(it.tests)} of the {it.of} tests that read it"
+    value = f"{it.value:.4g} {unit.replace('Nmm', 'N·mm')}"
+    return (
+        f"{name} begins at {value} in {where}, by {sigma(it.sigmas)} sigma, where the model expects nothing: the "
+        'sensor was not zeroed (zero = "fitted" in the test leaves that open), or the rig is mounted off or has other '
+        "lengths."
+    )
 
 
 def _ranges(campaign: Campaign, test: Test) -> list[str]:

@@ -46,6 +46,12 @@ class Marginal:
 
     @property
     def covariance(self) -> Array:
-        """(K, K) of the estimate, all else known."""
-        shares = self.sizes**2 / (1.0 + self.sizes**2)
-        return np.asarray(np.eye(self.right.shape[1]) - (self.right.T * shares) @ self.right)
+        """(K, K) of the estimate, all else known: 1 / (1 + D²) along what the columns show, 1 along what they do not.
+
+        No difference of ones, which sharp sensors round to less than nothing."""
+        rank, size = self.right.shape
+        shown = (self.right.T / (1.0 + self.sizes**2)) @ self.right
+        if rank == size:
+            return np.asarray(shown)
+        unseen = np.linalg.svd(self.right, full_matrices=True)[2][rank:]
+        return np.asarray(shown + unseen.T @ unseen)

@@ -47,6 +47,11 @@ class Prediction:
         """(R, C) readings where what was written about the rig is true, along the line of the prediction."""
         return self.values - self.by_nominal @ self.nominal if self.nominal.size else self.values
 
+    @property
+    def as_measured(self) -> Array:
+        """(R, C) the same where the inputs are as they were measured, along the tangent."""
+        return np.asarray(self.as_written - np.einsum("rci,ri->rc", self.by_inputs, self.shift))
+
 
 def moved_along(found: Prediction, shift: Array) -> Prediction:
     """A prediction at inputs shifted by (R, 7), along its own tangent: exact where that is constant."""

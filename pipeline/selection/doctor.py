@@ -8,7 +8,7 @@ taken, with the differences of what is prescribed through the constant stiffness
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -29,7 +29,7 @@ from pipeline.inference.suitable import scale_for
 from pipeline.selection.cost import misfit
 from pipeline.selection.criteria import Criteria
 from pipeline.selection.faulty_sensor import least_with_a_fault
-from pipeline.selection.first_order import FirstOrder, first_order
+from pipeline.selection.first_order import FirstOrder
 from pipeline.selection.first_order_costs import estimates
 from pipeline.selection.fit_cache import FitCache, Names
 from pipeline.selection.mistakes import possible
@@ -38,6 +38,7 @@ from pipeline.selection.signatures import look
 from vjm.effects import catalogue
 from vjm.effects.base import Effect
 from vjm.effects.sized import all_sized
+from vjm.work import at_most
 
 Array = NDArray[np.float64]
 
@@ -54,7 +55,13 @@ class Suspicion:
 
 
 def suspicions(cache: FitCache) -> tuple[Suspicion, ...]:
-    """The mistake of the table that explains most, with those that explain as much; none where none does."""
+    """The mistake of the table that explains most, with those that explain as much; none where none does. TooMuch where
+    that takes more work than a search may."""
+    with at_most(cache.work):
+        return _suspicions(cache)
+
+
+def _suspicions(cache: FitCache) -> tuple[Suspicion, ...]:
     criteria = cache.criteria
     # A mistake that explains most is seen in few rows, and by effects that need no search.
     some = look(cache.whole, criteria.doctor_steps).load_cases
@@ -77,30 +84,35 @@ def suspicions(cache: FitCache) -> tuple[Suspicion, ...]:
     share = noise / max(cache.fit(table.root).degrees, 1)
     found = _found(table, promising, fault * share)
     if found:
-        # A column of which the model predicts little is silenced by a factor: effects with kinks explain it too.
-        enough = criteria.doctor_factor * max(it.after for it in found) / share
-        kinked = _least_with_kinks(cache, table.root, enough) * share
-        found = [it for it in found if it.after * criteria.doctor_factor <= kinked]
         # A table may be right and the rig lack two effects: neither alone explains most.
         two = table.left_by_two({it.beside for it in found})
         found = [it for it in found if it.after * criteria.doctor_factor <= two]
+    if found:
+        # A column of which the model predicts little is silenced by a factor: effects with kinks explain it too.
+        kinked = _least_with_kinks(
+            cache, table.root, [it.after * criteria.doctor_factor / share for it in found]
+        )
+        found = [it for it in found if it.after * criteria.doctor_factor <= kinked * share]
     # A factor that silences a column leaves less than noise: that explains no more than noise does.
     least = max(min((it.after for it in found), default=0.0), noise)
     kept = [it for it in found if it.after < least + criteria.doctor_tie * least / noise]
     return tuple(sorted(kept, key=lambda it: (it.after, len(it.mistake.columns))))
 
 
-def _least_with_kinks(cache: FitCache, root: Names, enough: float) -> float:
+def _least_with_kinks(cache: FitCache, root: Names, enough: Sequence[float]) -> float:
     """Chi-square that the best single effect leaves of those that need a search: friction, play, yielding. A fit that
-    does not come near what is enough ends before."""
+    does not come near what is enough ends before; none is made once one leaves less than all of that. Those that
+    take longest come last."""
     before, known = cache.fit(root), root | set(cache.base.names)
     plausible, out = cache.criteria.plausible, np.inf
-    for name, effect in cache.candidates.items():
-        if effect.smooth or not known >= set(effect.includes):
-            continue
-        cache.on_progress(f"whether {name} explains as much")
+    kinked = [it for it in cache.candidates.values() if not it.smooth and known >= set(it.includes)]
+    for effect in sorted(kinked, key=lambda it: cache.quickness(frozenset({it.name})), reverse=True):
+        if out < min(enough):
+            break
+        cache.on_progress(f"whether {effect.name} explains as much")
         model = before.model.with_effects([effect])
-        there = best_fit(model, cache.whole, [name], before.prediction, None, plausible, Effort(known=enough))
+        effort = Effort(known=max(enough))
+        there = best_fit(model, cache.whole, [effect.name], before.prediction, None, plausible, effort)
         out = min(out, there.chi_square + implausibility(there.model.free, there.model.values, plausible))
     return out
 
@@ -138,7 +150,7 @@ class Table:
 
     def first_order_of(self, found: Fit) -> float:
         """The same of a fit of a table that is like this one."""
-        here = self._first_order_about(found)
+        here = self.cache.first_order_about(found, self.root)
         gains = [here.gain([name]).value for name in here.signatures if self._allowed(here, name)]
         return max(found.chi_square - max(gains, default=0.0), 0.0)
 
@@ -146,13 +158,9 @@ class Table:
     def leaves_bounds(self) -> bool:
         """Whether an effect would explain most with a number beyond its bounds, to first order: what it does within
         them only a fit can tell."""
-        here = self._first_order_about(self.fit)
+        here = self.cache.first_order_about(self.fit, self.root)
         gains = {name: here.gain([name]).value for name in here.signatures}
         return bool(gains) and not self._allowed(here, max(gains, key=gains.__getitem__))
-
-    def _first_order_about(self, found: Fit) -> FirstOrder:
-        known = self.cache.first_order(self.root).signatures
-        return first_order(found, list(known.values()), self.cache.at, {}, self.cache.criteria.plausible)
 
     def _allowed(self, here: FirstOrder, name: str) -> bool:
         """Whether the numbers of an effect lie within its bounds, to first order: a stiffness below zero explains a
@@ -199,7 +207,10 @@ class Table:
         cache = self.cache
         cases = load_cases(trusted(mistake.mended(cache.whole.campaign), cache.base))
         return replace(
-            self, cache=FitCache(cases, cache.base, cache.candidates, cache.on_progress, cache.criteria)
+            self,
+            cache=FitCache(
+                cases, cache.base, cache.candidates, cache.on_progress, cache.criteria, before=cache
+            ),
         )
 
 

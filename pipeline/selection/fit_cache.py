@@ -24,7 +24,16 @@ from pipeline.inference.subsets import at_rows, carried, rows_in
 from pipeline.parameter_names import parted, path_of
 from pipeline.selection.criteria import CRITERIA, Criteria, refits
 from pipeline.selection.first_order import FirstOrder, first_order
-from pipeline.selection.signatures import Look, Probe, hidden, look, probed, probes, signatures
+from pipeline.selection.signatures import (
+    Look,
+    Probe,
+    hidden,
+    look,
+    probed,
+    probes,
+    signatures,
+    smooth_signatures,
+)
 from vjm.effects.base import Effect
 from vjm.work import TooMuch, spent
 
@@ -38,7 +47,8 @@ class FitCache:
     candidates: by name, in the order in which they enter a model. tried: sets that were fitted from where a larger one
     stands, and that one. looks: what `left_without` found. ends: work (`vjm.work`) after which nothing new is
     begun, but `TooMuch` raised. known: fits of the same campaign, model and candidates that need not be made again.
-    before: fits of the same sets to other readings of the same tests, from which these begin.
+    before: fits of the same sets to other readings of the same tests, from which these begin. since: work that was done
+    when the first of them was made.
     """
 
     whole: LoadCases
@@ -53,9 +63,11 @@ class FitCache:
     ends: float = np.inf
     known: FitCache | None = None
     before: FitCache | None = None
+    since: float = field(default_factory=spent)
     at: Look = field(init=False)
 
     def __post_init__(self) -> None:
+        self.since = self.since if self.before is None else self.before.since
         self.at = look(self.whole, self.criteria.screened_steps)
 
     @property
@@ -67,6 +79,16 @@ class FitCache:
     def room(self) -> int:
         """Numbers that a set may have: readings less unknown zeros and the numbers of the base model."""
         return self.fit(frozenset()).degrees
+
+    @property
+    def work(self) -> float:
+        """That a search of these load cases may take, and the look for mistakes of their table."""
+        return self.criteria.search_work * allowance(self.whole)
+
+    @property
+    def worn_out(self) -> bool:
+        """Whether as much was done about this campaign, whatever its readings: then no further search is begun."""
+        return spent() - self.since > self.work
 
     @property
     def effort(self) -> Effort:
@@ -159,7 +181,7 @@ class FitCache:
 
     def _fit_all(self, new: Mapping[Names, Mapping[str, float]]) -> None:
         # What takes longest is begun first: rows that choose their side, then other kinks.
-        every = sorted(new, key=self._quickness)
+        every = sorted(new, key=self.quickness)
         while every:
             self._begun(self._title(every[0]) + (f" and {len(every) - 1} more" if len(every) > 1 else ""))
             # No more at once than there is work left for: where one ends the search, none runs beside it in vain.
@@ -253,6 +275,20 @@ class FitCache:
             self.first_orders[names] = first_order(found, every, self.at, self._rescues(found), plausible)
         return self.first_orders[names]
 
+    def first_order_about(self, found: Fit, names: Names) -> FirstOrder:
+        """What could be added to a fit of a set to the same tests with other readings."""
+        cases, every, at = (
+            found.residual.load_cases,
+            list(self.first_order(names).signatures.values()),
+            self.at,
+        )
+        if not np.array_equal(cases.predicted, self.whole.predicted):
+            # Columns or rows that are exchanged are read in other rows: what is known of each reading is not of these.
+            smooth = [it.effect for it in every if it.effect.smooth]
+            at = look(cases, self.criteria.screened_steps)
+            every = smooth_signatures(found, smooth, at) if smooth else []
+        return first_order(found, every, at, {}, self.criteria.plausible)
+
     def _rescues(self, found: Fit) -> dict[str, float]:
         """Chi-square with each further effect at its typical size, where the fit has lost rows: they have no slope."""
         if not found.prediction.lost[self.whole.fitted].any():
@@ -311,7 +347,8 @@ class FitCache:
     def _title(self, names: Names) -> str:
         return " + ".join(self.order(names)) or "the model as it is"
 
-    def _quickness(self, names: Names) -> tuple[bool, bool]:
+    def quickness(self, names: Names) -> tuple[bool, bool]:
+        """Larger for sets that take less time to fit: rows that choose their side take most."""
         effects = [self.candidates[name] for name in names]
         return not any(map(sided, effects)), all(effect.smooth for effect in effects)
 

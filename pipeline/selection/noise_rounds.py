@@ -24,6 +24,7 @@ from pipeline.selection.reading_noise import AS_DECLARED, Readings
 from pipeline.selection.search import singles_first
 from pipeline.selection.searched import Chosen, beginning, chosen
 from pipeline.selection.sensor_faults import plain_zero
+from pipeline.selection.verdict import ENDED
 from vjm.effects.base import Effect
 
 Again = Callable[[Campaign, FitCache], FitCache]
@@ -60,6 +61,9 @@ def settled(cache: FitCache, again: Again, attempts: Attempts) -> Settled:
             new = attempts.get(what, partial(_readings, it, readings, given), readings)
         if new.same(readings):
             break
+        if it.found.cache.worn_out:
+            it = _ended(it)
+            break
         cache.on_progress("with the readings as they are")
         readings, attempts = new, Attempts()
         it = chosen(again(readings.applied(given.campaign), it.found.cache), attempts)
@@ -71,7 +75,7 @@ def with_faults(before: Settled, known: Iterable[Effect], again: Again) -> Settl
     are vouched for. known: effects, kinds of such faults among them."""
     it = before.it
     cache, best = it.found.cache, it.found.best
-    if it.untested or it.decision.verdict != "unknown" or cache.whole.campaign.vouched:
+    if it.untested or it.decision.verdict != "unknown" or cache.whole.campaign.vouched or cache.worn_out:
         return before
     if judge(cache.fit(best), cache.criteria).noise:
         return before
@@ -92,6 +96,13 @@ def with_faults(before: Settled, known: Iterable[Effect], again: Again) -> Settl
     ):
         return before
     return replace(new, with_all=before.with_all, alone=before.alone)
+
+
+def _ended(it: Chosen) -> Chosen:
+    """A choice beside which the readings are not as they were declared, without the work left to choose again."""
+    if it.decision.verdict != "identified":
+        return it
+    return replace(it, decision=replace(it.decision, verdict="unknown", because=ENDED))
 
 
 def _at_first(cache: FitCache, begun: list[Names]) -> Readings:

@@ -13,7 +13,6 @@ from itertools import combinations
 import numpy as np
 
 from pipeline.inference.nuisances import nominals
-from pipeline.inference.solvers import allowance
 from pipeline.inference.stops import sided
 from pipeline.selection.cost import cost, is_noise, root_of
 from pipeline.selection.exclusion import possible
@@ -32,15 +31,11 @@ def singles(cache: FitCache, root: Names) -> list[Names]:
 
 def singles_first(cache: FitCache) -> list[Names]:
     """Those of the first root, a part of the search that follows and of what it may take; none where that is all."""
-    cache.ends = _end(cache)
+    cache.ends = spent() + cache.work
     try:
         return singles(cache, first_root(cache))
     except TooMuch:
         return []
-
-
-def _end(cache: FitCache) -> float:
-    return spent() + cache.criteria.search_work * allowance(cache.whole)
 
 
 def search_one_by_one(cache: FitCache, root: Names, begun: Sequence[Names] = ()) -> Found:
@@ -59,7 +54,7 @@ def first_root(cache: FitCache) -> Names:
 def search(cache: FitCache, begun: Sequence[Names] = ()) -> Found:
     """The best set, and those that may as well be true; what was fitted until then where that takes too long. begun:
     what `singles` found of the first root."""
-    cache.ends = min(cache.ends, _end(cache))
+    cache.ends = min(cache.ends, spent() + cache.work)
     try:
         return _searched(cache, begun)
     except TooMuch:

@@ -122,7 +122,7 @@ def _zero(
     criteria: Criteria,
 ) -> Zero:
     """estimate: the constant and its standard error."""
-    whole, expected = found.residual.load_cases, found.prediction.as_written
+    whole, expected = found.residual.load_cases, found.prediction.as_measured
     value, std = estimate
     ids = tuple(whole.campaign.tests[k].id for k in tests)
     unit = unit_of(channel).replace("Nmm", "N·mm")

@@ -23,6 +23,8 @@ from pipeline.selection.fit_cache import FitCache, Names
 from pipeline.selection.rivals import Found
 from pipeline.selection.sensor_faults import Instead, faults_instead, zero_first
 
+ENDED = "the search ended before all that might explain it as well was looked at, as it takes long"
+
 
 @dataclass(frozen=True, eq=False)
 class Decision:
@@ -63,8 +65,7 @@ def ruled(found: Found, judgement: Judgement, attempts: Attempts) -> Decision:
             return Decision("unknown", (zero.without,), cache.fit(zero.without), (), zero)
         return Decision("unknown", (best,), here, (), zero, alike, bounded, out)
     if found.ended and best:
-        because = "the search ended before all that might explain it as well was looked at, as it takes long"
-        return Decision("unknown", (best,), here, (), zero, alike, bounded, out, because)
+        return Decision("unknown", (best,), here, (), zero, alike, bounded, out, ENDED)
     instead = attempts.get("what a sensor's fault would explain", lambda: faults_instead(found), ())
     rivals = _with_equals(found, alike, bounded)
     if zero is not None:

@@ -10,6 +10,7 @@ import pytest
 from pipeline.answer.of_diagnosis import answered
 from pipeline.answer.record import Answer
 from pipeline.campaign import read
+from pipeline.check import check
 from pipeline.inference.model import Model
 from pipeline.inference.suitable import known_effects
 from pipeline.selection.diagnosis import diagnose
@@ -68,10 +69,10 @@ def give(force: float, rigidity: float, a: float, clamp: float) -> float:
     return force * a**2 * (3.0 * LENGTH - a) / (6.0 * rigidity) + clamp * force * LENGTH * a
 
 
-def said(
+def measured(
     folder: Path, clamp: float, thinner: float = 1.0, offset: float = 0.0, middle: bool = True
-) -> Answer:
-    """The diagnosis of such a bench. thinner: share of the thickness. offset: mm that the dial along y began with."""
+) -> Path:
+    """The folder of such a bench. thinner: share of the thickness. offset: mm that the dial along y began with."""
     rng = np.random.default_rng(7)
     rows = ["test,step,y_mm,z_mm,my_mm,mz_mm,fy_N,fz_N"]
     for way, loads in LOADS.items():
@@ -90,11 +91,16 @@ def said(
     (folder / "measurements.csv").write_text("\n".join(rows) + "\n", encoding="utf-8")
     text = DESCRIPTION + "".join(TEST.format(way) for way in LOADS)
     (folder / "campaign.toml").write_text(text, encoding="utf-8")
+    return folder
+
+
+def said(folder: Path) -> Answer:
+    """The diagnosis of a bench."""
     return answered(diagnose(read(folder), Model(), known_effects(()).effects))
 
 
 def test_a_clamp_that_turns_is_named(tmp_path: Path) -> None:
-    found = said(tmp_path / "a", CLAMP)
+    found = said(measured(tmp_path / "a", CLAMP))
     assert (found.verdict, found.added) == ("identified", ("base_compliance",))
     turns = {name.rpartition(".")[2]: it.value for name, it in found.parameters.items()}
     assert turns["ry_rad_per_Nmm"] == pytest.approx(CLAMP, rel=0.1)
@@ -103,20 +109,30 @@ def test_a_clamp_that_turns_is_named(tmp_path: Path) -> None:
 
 @pytest.mark.long
 def test_dials_at_the_tip_alone_do_not_tell_it_from_a_thinner_bar(tmp_path: Path) -> None:
-    found = said(tmp_path / "a", CLAMP, middle=False)
+    found = said(measured(tmp_path / "a", CLAMP, middle=False))
     assert found.verdict == "ambiguous"
     assert {("base_compliance",), ("bar_section_error",)} <= {found.added, *found.alternatives}
 
 
 def test_nothing_hidden_is_nothing(tmp_path: Path) -> None:
-    assert said(tmp_path / "a", 0.0).verdict == "within_noise"
+    assert said(measured(tmp_path / "a", 0.0)).verdict == "within_noise"
 
 
 @pytest.mark.long
 def test_a_dial_that_was_not_zeroed_is_asked_about_first(tmp_path: Path) -> None:
     """A tilt of the mounting moves the tip along y as well: it is neither named nor certain."""
-    found = said(tmp_path / "a", CLAMP, offset=2.37)
+    found = said(measured(tmp_path / "a", CLAMP, offset=2.37))
     assert found.verdict in ("ambiguous", "unknown") and not found.certain
     assert 'y starts at 2.37 mm: zero = "fitted"?' in found.sentences[0]
     (zero,) = found.zeros
     assert zero.column == "y" and zero.value == pytest.approx(2.37, abs=0.05)
+
+
+def test_the_table_alone_says_that_a_dial_begins_far_off(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    check(measured(tmp_path / "a", CLAMP, offset=2.37))
+    told = " ".join(capsys.readouterr().out.split())
+    assert "y begins at 2.371 mm in along_y, by 1185 sigma, where the model expects nothing" in told
+    check(measured(tmp_path / "b", CLAMP))
+    assert "begins at" not in capsys.readouterr().out

@@ -11,7 +11,7 @@ from rich.table import Table
 from rich.text import Text
 
 from pipeline.answer.record import LEVEL, Answer, TestChange, TestNoise
-from pipeline.answer.tables.headline import headline
+from pipeline.answer.tables.headline import headline, title
 from pipeline.answer.value import Value
 from pipeline.parameter_names import parted
 from pipeline.terminal import cell, folded, lean, terminal
@@ -59,7 +59,7 @@ def show(
 def error_table(answer: Answer) -> Table:
     """Error of every test before and after, held-out tests apart, with bars on one scale."""
     before, after = answer.error[0], answer.error[-1]
-    table = lean("test", "rows", "before", "after", title=f"{answer.campaign}: error in sigmas, 1 is noise")
+    table = lean("test", "rows", "before", "after", title=title(answer))
     top = max([1.0, *(each.rms or 0.0 for t in answer.tests for each in (t.before, t.after))])
     table.add_column(scale(top), no_wrap=True, width=BAR)
     table.add_column("noise?", overflow="fold")

@@ -11,7 +11,7 @@ from rich.text import Text
 
 from pipeline.answer.record import Answer
 from pipeline.answer.tables.added import BAR, NAME, bar, error_table, parameter_table, scale
-from pipeline.answer.tables.headline import headline
+from pipeline.answer.tables.headline import headline, title
 from pipeline.terminal import cell, lean, terminal
 from reports.quantities import short, sigma
 
@@ -39,7 +39,7 @@ def show(answer: Answer, following: Iterable[str], quiet: bool, console: Console
 
 def waterfall(answer: Answer) -> Table:
     """The error as effects are added one by one."""
-    table = lean("model", "fitted", "held out", title=f"{answer.campaign}: error in sigmas, 1 is noise")
+    table = lean("model", "fitted", "held out", title=title(answer))
     top = max(step.fit for step in answer.error)
     table.add_column(scale(top), no_wrap=True, width=BAR)
     seen: tuple[str, ...] = ()

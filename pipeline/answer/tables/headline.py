@@ -23,6 +23,12 @@ def headline(answer: Answer) -> str:
     return one_line(*_tries(answer))
 
 
+def title(answer: Answer) -> str:
+    """Of a table of errors: what they are of."""
+    within = ", rig within its tolerances" if answer.nominals else ""
+    return f"{answer.campaign}: error in sigmas, 1 is noise{within}"
+
+
 def sets_of(answer: Answer) -> tuple[tuple[str, ...], ...]:
     """The sets of effects that an answer leaves possible, without those of the model that it began with."""
     began = answer.error[0].effects

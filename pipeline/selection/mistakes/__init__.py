@@ -9,6 +9,8 @@ import importlib
 import pkgutil
 from collections.abc import Iterator
 
+import numpy as np
+
 from pipeline.campaign import Campaign
 from pipeline.selection.mistakes.base import Mistake
 
@@ -18,4 +20,9 @@ def possible(campaign: Campaign) -> Iterator[Mistake]:
     for info in sorted(pkgutil.iter_modules(__path__), key=lambda it: it.name):
         module = importlib.import_module(f"{__name__}.{info.name}")
         if hasattr(module, "mistakes"):
-            yield from module.mistakes(campaign)
+            yield from (it for it in module.mistakes(campaign) if _complete(it.mended(campaign)))
+
+
+def _complete(campaign: Campaign) -> bool:
+    """Whether all that is prescribed was read, as in every campaign that can be."""
+    return all(np.isfinite(test.inputs(campaign.gauges)).all() for test in campaign.tests)

@@ -56,3 +56,12 @@ def test_no_rows_are_no_news() -> None:
     it = Marginal.of(np.zeros((0, 3)))
     assert it.weakened(np.zeros(0)).size == 0
     np.testing.assert_array_equal(it.covariance, np.eye(3))
+
+
+def test_no_variance_is_rounded_to_less_than_nothing() -> None:
+    """Sensors a thousand million times finer than a tolerance, fewer or more readings than numbers."""
+    generator = np.random.default_rng(3)
+    for count in (2, 5, 40):
+        columns = 1e9 * generator.normal(size=(count, 5)) * 10.0 ** generator.uniform(-9.0, 3.0, 5)
+        variances = np.diag(Marginal.of(columns).covariance)
+        assert np.all(variances > 0.0) and np.all(variances <= 1.0 + 1e-12)
