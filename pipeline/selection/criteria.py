@@ -211,8 +211,8 @@ class Criteria(LawCriteria):
         5000.0,
         "work of the solver",
         "search",
-        "after which a search of no load step begins no further fit, more where there are more: of the 36 slowest of "
-        "600 benches one is cut, an unknown that stays one; the next takes 0.82 of it",
+        "after which a search of no load step begins no further fit, more where there are more, and a diagnosis no "
+        "further search: of the 36 slowest of 600 benches one search is cut, the next takes 0.82 of it",
         fits=True,
     )
     sets_fitted: int = criterion(4, COUNT, "search", "sets of one size that are fitted of those that compete")

@@ -18,10 +18,12 @@ from pipeline.inference.model import Model
 from pipeline.selection.diagnosis import cached_fits, diagnose
 from pipeline.selection.doctor import Suspicion, suspicions
 from pipeline.selection.examined import Examination
+from pipeline.selection.mistakes import possible
 from tests.pipeline.selection.bench import bench, creeping_gauge, cross_talk, growing_gain, with_fault
 from tests.pipeline.selection.mistakes import made
 from vjm.effects import catalogue
 
+FEW = ("axial_held_q+0", "lateral_q+0", "swing_q+0")
 LACKS = ("modulus_error.scale", 0.93)
 """The bench has an effect missing too: a mistake is not what is left of it."""
 
@@ -44,6 +46,32 @@ WRONG = {
     "x_mm was not zeroed: absolute positions or loads": made.shifted(30.0, "x_mm"),
     "q_deg is in radians": made.angles_in_radians,
 }
+
+
+def test_exchanged_columns_with_empty_cells_are_told() -> None:
+    """Cells that are empty in one of two columns are those of the other once they are exchanged."""
+
+    def with_gaps(data: Data) -> Data:
+        wrench = data.wrench.copy()
+        wrench[2:5, 1] = np.nan
+        wrench[1, 2] = np.nan
+        return replace(data, wrench=wrench)
+
+    table = WRONG["fx_N and fy_N are exchanged"](with_fault(bench(*LACKS, ids=FEW), with_gaps))
+    assert "fx_N and fy_N are exchanged" in words(table)
+
+
+def test_no_table_that_lacks_what_is_prescribed_is_looked_at() -> None:
+    """y is prescribed and x is not read in a row: with their columns exchanged that row has no y."""
+
+    def with_gap(data: Data) -> Data:
+        displacement = data.displacement.copy()
+        displacement[3, 0] = np.nan
+        return replace(data, displacement=displacement)
+
+    table = with_fault(bench(ids=("lateral_q+0",)), with_gap)
+    pairs = [it.columns for it in possible(table) if it.kind == "exchanged"]
+    assert ("y_mm", "z_mm") in pairs and ("x_mm", "y_mm") not in pairs and ("x_mm", "z_mm") not in pairs
 
 
 # Quickly on seven readings: a lost sign and a slipped decimal point in tests/cases/test_small_tables.py.
