@@ -33,7 +33,7 @@ from pipeline.selection.reading_noise import AS_DECLARED, Readings
 from pipeline.selection.rivals import Found
 from pipeline.selection.searched import beginning
 from pipeline.selection.sensor_faults import Instead, asked_about
-from pipeline.selection.verdict import Decision
+from pipeline.selection.verdict import UNSURE_OF_TABLE, Decision
 from vjm.effects.base import Effect
 from vjm.effects.sensor_fault import SensorFault
 from vjm.effects.sized import all_sized
@@ -148,6 +148,7 @@ def diagnose(
     attempts = Attempts()
     beginning(cache)
     doctor = attempts.get("the look for mistakes of the table", lambda: suspicions(cache), ())
+    unlooked = tuple(attempts.failed)
     if doctor:
         return _unsettled(cache, doctor, refused, attempts, _since(begin))
     again = partial(_cache_of, model, known)
@@ -163,7 +164,7 @@ def diagnose(
         return Diagnosis(
             whole, found, it.decision, judgement, {}, None, refused, it.untested, (), _since(begin)
         )
-    found, decision = it.found, it.decision
+    found, decision = it.found, it.decision.withheld(UNSURE_OF_TABLE) if unlooked else it.decision
     next_test = attempts.get("the next test", lambda: _next_test(cache, decision), None)
     on_progress("what is certain")
     doubted = {it.effect for it in decision.instead}
@@ -179,7 +180,7 @@ def diagnose(
         next_test,
         refused,
         "",
-        tuple(attempts.failed),
+        tuple(dict.fromkeys((*unlooked, *attempts.failed))),
         _since(begin),
         (),
         done.readings,

@@ -62,7 +62,8 @@ def settled(cache: FitCache, again: Again, attempts: Attempts) -> Settled:
         if new.same(readings):
             break
         if it.found.cache.worn_out:
-            it = _ended(it)
+            # Beside it the readings are not as they were declared, and no work is left to choose again.
+            it = replace(it, decision=it.decision.withheld(ENDED))
             break
         cache.on_progress("with the readings as they are")
         readings, attempts = new, Attempts()
@@ -96,13 +97,6 @@ def with_faults(before: Settled, known: Iterable[Effect], again: Again) -> Settl
     ):
         return before
     return replace(new, with_all=before.with_all, alone=before.alone)
-
-
-def _ended(it: Chosen) -> Chosen:
-    """A choice beside which the readings are not as they were declared, without the work left to choose again."""
-    if it.decision.verdict != "identified":
-        return it
-    return replace(it, decision=replace(it.decision, verdict="unknown", because=ENDED))
 
 
 def _at_first(cache: FitCache, begun: list[Names]) -> Readings:

@@ -7,7 +7,7 @@ never where a sensor that was not zeroed would do.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from pipeline.answer.record import Verdict
 from pipeline.attempt import Attempts
@@ -24,6 +24,7 @@ from pipeline.selection.rivals import Found
 from pipeline.selection.sensor_faults import Instead, faults_instead, zero_first
 
 ENDED = "the search ended before all that might explain it as well was looked at, as it takes long"
+UNSURE_OF_TABLE = "the look for mistakes of the table, which come first, did not come to its end"
 
 
 @dataclass(frozen=True, eq=False)
@@ -47,6 +48,10 @@ class Decision:
     out: tuple[Names, ...] = ()
     because: str = ""
     law: str = ""
+
+    def withheld(self, because: str) -> Decision:
+        """Without the name, where one is given."""
+        return self if self.verdict != "identified" else replace(self, verdict="unknown", because=because)
 
 
 def ruled(found: Found, judgement: Judgement, attempts: Attempts) -> Decision:

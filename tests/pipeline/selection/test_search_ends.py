@@ -7,9 +7,14 @@ import pytest
 from pipeline.answer.of_diagnosis import answered
 from pipeline.assessment.coverage.trial import campaign
 from pipeline.inference.model import Model
+from pipeline.selection import diagnosis
 from pipeline.selection.criteria import CRITERIA
 from pipeline.selection.diagnosis import Diagnosis, diagnose
+from pipeline.selection.fit_cache import FitCache
+from pipeline.selection.verdict import ENDED, UNSURE_OF_TABLE
+from tests.pipeline.selection.test_reading_noise import knocked, plain
 from vjm.effects import catalogue
+from vjm.work import TooMuch
 
 TESTS = campaign((("modulus_error.scale", 0.95),), 3, 8)
 
@@ -28,3 +33,34 @@ def test_what_was_not_compared_with_all_is_not_named() -> None:
         assert it.verdict == "unknown" and len(it.cache.fits) <= len(whole.cache.fits)
         said = " ".join(answered(it).sentences)
         assert "The search ended" in said or "the search ended" in said
+
+
+KNOWN = {n: catalogue()[n] for n in ("bar_geometric_nonlinearity", "modulus_error", "axis_flexibility")}
+
+
+def test_nothing_is_named_where_the_table_was_not_looked_at_to_the_end(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    def too_long(_: FitCache) -> None:
+        raise TooMuch("it would take too long")
+
+    assert diagnose(plain(), Model(), KNOWN).verdict == "identified"
+    monkeypatch.setattr(diagnosis, "suspicions", too_long)
+    # With a knocked reading a second search follows, and the sentence is still there.
+    for table in (plain(), knocked(plain())):
+        it = answered(diagnose(table, Model(), KNOWN))
+        assert it.verdict == "unknown" and it.added
+        assert UNSURE_OF_TABLE in it.sentences[0]
+        assert any(
+            "the look for mistakes of the table could not be worked out" in said for said in it.not_done
+        )
+
+
+def test_no_second_search_is_begun_once_the_work_of_one_is_done(monkeypatch: pytest.MonkeyPatch) -> None:
+    known = {**KNOWN, "bar_initial_bow": catalogue()["bar_initial_bow"]}
+    monkeypatch.setattr(FitCache, "worn_out", True)
+    # As declared the knocked reading leaves what nothing explains; that is said, and no name is given.
+    it = answered(diagnose(knocked(plain()), Model(), known))
+    assert it.verdict == "unknown" and not it.set_aside
+    right = diagnose(plain(), Model(), known)
+    assert right.verdict == "identified" and ENDED not in right.decision.because
