@@ -86,7 +86,7 @@ def _layouts(path: Path, source: Source, complaints: Complaints) -> Iterator[Lay
         complaints.add("", f"cannot be read: {error.strerror}")
         return
     for grid in tables:
-        layout = laid_out(grid, source.declared.file, complaints)
+        layout = laid_out(grid, source.declared.file, complaints, source.declared.columns)
         if layout is not None:
             yield layout
 

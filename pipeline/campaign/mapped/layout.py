@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Collection
 from dataclasses import dataclass
 
 from pipeline.campaign.mapped.grid import Cell, Grid
@@ -15,6 +16,9 @@ _BRACKETS = re.compile(r"(.*?)\s*[(\[]\s*([^()\[\]]+?)\s*[)\]]\s*")
 _ENDING = re.compile(r"(.*?)\s*[,/]\s*([^\s,/_]+)")
 # As in the contract's own columns. What may as well be a word is no unit there: Fz_min, T_in, Probe_h.
 _SUFFIX = re.compile(r"(.+)_(mm|cm|um|µm|N|mN|kN|Nmm|Nm|rad|mrad|urad|deg|kgf|gf|lbf|degC|degF)")
+
+HEAD = 50
+"""Lines among which a header is looked for that is not where it was said to be."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -37,14 +41,19 @@ class Layout:
         return self.cells[self.names.index(name)]
 
 
-def laid_out(grid: Grid, how: FileTable, complaints: Complaints) -> Layout | None:
-    """The columns of a grid; None, with complaints, where there are none."""
+def laid_out(
+    grid: Grid, how: FileTable, complaints: Complaints, declared: Collection[str] = ()
+) -> Layout | None:
+    """The columns of a grid; None, with complaints, where there are none. declared: names that are expected."""
     at = dict(zip(grid.lines, grid.rows, strict=True))
     header = at.get(how.header_row) if how.header_row else None
     if how.header_row and (header is None or not any(word(cell) for cell in header)):
         complaints.add(
             "", "holds nothing, the header is expected here; write header_row under [file]", how.header_row
         )
+        return None
+    if header is not None and (said := _elsewhere(grid, header, declared)):
+        complaints.add("", said, how.header_row)
         return None
     below = max(how.header_row, how.units_row or 0)
     rows, lines, blocks = _rows(grid, how, below, header)
@@ -120,6 +129,26 @@ def _width(header: tuple[Cell, ...]) -> int:
 
 def _names(header: tuple[Cell, ...]) -> tuple[str, ...]:
     return tuple(" ".join(word(cell).split()) for cell in header)
+
+
+def _elsewhere(grid: Grid, header: tuple[Cell, ...], declared: Collection[str]) -> str:
+    """What is wrong where most of the names that are expected stand in another line than that of the header; empty
+    where they do not."""
+
+    def held(row: tuple[Cell, ...]) -> int:
+        return len(set(_names(row)).intersection(declared))
+
+    here = held(header)
+    most, line = max(
+        ((held(row), -line) for line, row in zip(grid.lines[:HEAD], grid.rows[:HEAD], strict=True)),
+        default=(0, 0),
+    )
+    if 2 * here >= len(declared) or 2 * most < len(declared):
+        return ""
+    return (
+        f"holds {here or 'none'} of the {len(declared)} columns that are declared, line {-line} holds {most}; write "
+        f"header_row = {-line} under [file]"
+    )
 
 
 def _fill(cells: list[Cell]) -> None:

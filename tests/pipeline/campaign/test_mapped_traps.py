@@ -313,3 +313,14 @@ def test_groups_of_typesetting_are_groups(tmp_path: Path) -> None:
     columns = SIMPLE.format(z="mm", fz="mN")
     found = campaign(tmp_path, '[file]\nthousands = " "\n' + columns, "Travel;Load\n2,5;1 234\n2,75;5\n")
     assert found.tests[0].data.displacement[0, 2] == 2.5 and forces(found) == [1.234, 0.005]
+
+
+@pytest.mark.parametrize("said", [1, 2, 4])
+def test_a_header_in_another_line_is_one_sentence_with_the_line_to_write(tmp_path: Path, said: int) -> None:
+    content = f"Board A,tested by M.\nroom,19 degC\n{table(['Travel', 'Load'], Z, FZ)}"
+    with pytest.raises(BadCampaign) as caught:
+        campaign(tmp_path, f"[file]\nheader_row = {said}\n{S}", content)
+    (sentence,) = str(caught.value).splitlines()
+    assert f"line {said}: holds none of the 2 columns that are declared, line 3 holds 2" in sentence
+    assert sentence.endswith("write header_row = 3 under [file]")
+    assert_agrees(campaign(tmp_path, f"[file]\nheader_row = 3\n{S}", content))
