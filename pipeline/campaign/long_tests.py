@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from dataclasses import fields, replace
 from itertools import pairwise
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -104,4 +105,7 @@ def _sigma(test: Test, noise: Noise, gauges: tuple[Gauge, ...]) -> Array:
 
 def _part(data: Data, rows: NDArray[np.int64]) -> Data:
     parts = {f.name: getattr(data, f.name) for f in fields(data)}
-    return replace(data, **{name: value[rows] for name, value in parts.items() if value is not None})
+    some: dict[str, Any] = {
+        name: value[rows] for name, value in parts.items() if isinstance(value, np.ndarray)
+    }
+    return replace(data, **some)

@@ -17,7 +17,8 @@ class Measured:
 
     tests: (N,) id of the test of each. steps: (N,) whole numbers, NaN where the cell is none; None where the rows are
     only in order. lines: (N,) of the file. values: (N,) by the column of the contract, NaN where nothing is read.
-    unread: (N,) by column, rows with a word that was declared to be no reading.
+    unread: (N,) by column, rows with a word that was declared to be no reading. from_first: columns that are less their
+    first reading in each test.
     """
 
     tests: tuple[str, ...]
@@ -25,6 +26,7 @@ class Measured:
     lines: NDArray[np.int64]
     values: Mapping[str, Array]
     unread: Mapping[str, NDArray[np.bool_]] = field(default_factory=dict)
+    from_first: frozenset[str] = frozenset()
 
     def of(self, column: str) -> Array:
         """A column (N,), NaN throughout where there is none."""

@@ -32,7 +32,7 @@ class Data:
 
     steps: (N,) rising numbers. displacement: (N, 6). wrench: (N, 6). gauges: (N, G). temperature: (N,), or None
     where it was never measured. lines: (N,) lines of measurements.csv, the header being line 1; zeros where the
-    data come from no file.
+    data come from no file. from_first: columns that are less their first reading.
     """
 
     steps: NDArray[np.int64]
@@ -41,6 +41,7 @@ class Data:
     gauges: Array
     temperature: Array | None
     lines: NDArray[np.int64]
+    from_first: frozenset[str] = frozenset()
 
     @property
     def readings(self) -> Array:

@@ -49,6 +49,7 @@ def data_by_test(measured: Measured, description: Description, complaints: Compl
             values[mine, 12:-1],
             None if np.isnan(temperature).all() else temperature,
             lines[mine],
+            measured.from_first,
         )
     return found
 

@@ -32,7 +32,7 @@ def beside(seen: Map) -> Beside:
     """Of a map's fit, with the function at its best site fitted as freely as its knots allow."""
     found = without_best(seen)
     # Of more laws, tails say nothing.
-    series = series_of(found, found.residual.flat(found.residual.left))
+    series = series_of(found, found.residual.flat(found.residual.level))
     if found.degrees >= CRITERIA.few_readings and without_order(series, CRITERIA.check_level):
         tails = tails_of(found, CRITERIA)
         if tails is not None:

@@ -139,12 +139,26 @@ class LoadCases:
         return there
 
     @cached_property
+    def from_first(self) -> np.ndarray:
+        """(T, C) channels that are less their first reading in a test: the noise of that one is in all others."""
+        columns = channel_columns(self.campaign.gauges)
+        return np.array(
+            [[name in test.data.from_first for name in columns] for test in self.campaign.tests]
+        ).reshape(len(self.campaign.tests), len(columns))
+
+    @cached_property
+    def loose(self) -> np.ndarray:
+        """(T, C) channels whose zero in a test is not known: no sensor was zeroed, or by no more than one reading."""
+        every = np.array([test.zero != "nominal" for test in self.campaign.tests])
+        return np.asarray(self.from_first | every[:, None])
+
+    @cached_property
     def unknown_zeros(self) -> int:
         """Zeros of predicted readings that the fitted tests leave unknown, each with a reading of its own."""
         return sum(
-            int(np.any(self.predicted[self.test == k], axis=0).sum())
+            int(np.sum(np.any(self.predicted[self.test == k], axis=0) & self.loose[k]))
             for k, test in enumerate(self.campaign.tests)
-            if test.zero == "fitted" and test.role == "fit"
+            if test.role == "fit"
         )
 
     @cached_property

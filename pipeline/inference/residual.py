@@ -18,6 +18,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from functools import cached_property
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -165,6 +166,21 @@ class Residual:
         return np.asarray(self.values - self.nominal @ (self.estimate - self.departure))
 
     @cached_property
+    def level(self) -> Array:
+        """(R, C) the same less what unknown zeros make of it, which are those of one test each."""
+        left = self.left
+        if not self.offsets.shape[-1]:
+            return left
+        left, first = left.copy(), self.load_cases.first
+        for rows in (slice(int(a), int(b)) for a, b in pairwise(first)):
+            own = self.offsets[rows]
+            own = own[..., np.any(own, axis=(0, 1))].reshape(left[rows].size, -1)
+            if own.shape[1]:
+                zeros, values = basis(own), left[rows].ravel()
+                left[rows] = (values - zeros @ (zeros.T @ values)).reshape(left[rows].shape)
+        return left
+
+    @cached_property
     def zeros(self) -> Array:
         """(N, r) orthonormal basis of what unknown zeros can make of the residuals of the tests that may be fitted.
 
@@ -210,8 +226,8 @@ def residual(load_cases: LoadCases, prediction: Prediction) -> Residual:
     it = Residual(
         load_cases, values, slopes, offsets, nominal, prediction.nominal, none, none, nothing, nothing > 0.0
     )
-    # True inputs are those that fit best with what was written as it fits best.
-    shift = load_cases.input_sigma**2 * np.einsum("rik,ri->rk", gain, it.left)
+    # True inputs are those that fit best with what was written, and with unknown zeros, as they fit best.
+    shift = load_cases.input_sigma**2 * np.einsum("rik,ri->rk", gain, it.level)
     sides = on_their_sides(prediction, shift, load_cases.input_sigma, gain)
     shift, across = (_near(each, load_cases.input_sigma) for each in (sides.shift, sides.across))
     return replace(it, shift=shift, across=across, charge=sides.charge, undecided=sides.undecided)
@@ -227,19 +243,24 @@ def _near(shift: Array, sigma: Array) -> Array:
 
 
 def _unknown_zeros(load_cases: LoadCases, prediction: Prediction) -> Array:
-    """(R, C, O) what an unknown zero of each sensor does in the tests that ask for it."""
+    """(R, C, O) what an unknown zero of each sensor does in the tests that leave it unknown.
+
+    Sensors that were zeroed at a first row have zeros that are known to the noise of one reading. A constant of each
+    is as well known by that reading itself, which is one of those compared. What is prescribed was zeroed as well then:
+    to first order that is a constant of what is read.
+    """
     columns = []
     channels = load_cases.measured.shape[1]
     for k, test in enumerate(load_cases.campaign.tests):
-        if test.zero != "fitted":
-            continue
         rows = slice(int(load_cases.first[k]), int(load_cases.first[k + 1]))
         control = load_cases.channels[rows.start]
-        for channel in range(channels):
+        through = load_cases.loose[k] if test.zero == "fitted" else load_cases.from_first[k]
+        for channel in np.flatnonzero(load_cases.loose[k]):
             column = np.zeros((len(load_cases.test), channels))
             if channel in control:
                 # A zero of a prescribed quantity acts through the mechanism.
-                if not np.any(load_cases.input_sigma[rows, :6][:, control == channel]):
+                known = not np.any(load_cases.input_sigma[rows, :6][:, control == channel])
+                if known or not through[channel]:
                     continue
                 column[rows] = -prediction.by_inputs[rows][..., np.flatnonzero(control == channel)[0]]
             elif np.any(load_cases.predicted[rows, channel]):

@@ -140,11 +140,11 @@ def _less_zeros(at: Tangent, measured: Array) -> Array:
     """(R, C) readings, those of tests with unknown zeros less the zeros that fit the test best: no model foretells
     them."""
     cases = at.cases
-    unknown = np.array([test.zero == "fitted" for test in cases.campaign.tests])[cases.test]
+    unknown = cases.loose[cases.test]
     if not unknown.any():
         return measured
     left = Discrepancy(cases, at.found).units
-    kept = unknown[:, None] & np.isfinite(measured) & cases.predicted
+    kept = unknown & np.isfinite(measured) & cases.predicted
     return np.where(kept, at.found.values + left, measured)
 
 

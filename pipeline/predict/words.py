@@ -21,11 +21,12 @@ def sentences(it: Predictions, remarks: tuple[str, ...] = (), nothing: str = "")
 def about(it: Predicted) -> tuple[str, ...]:
     """Remarks about what was asked that the record does not say: zeros, sensors, temperatures."""
     said = []
-    unknown = [test.id for test in it.asked.tests if it.asked.own and test.zero == "fitted"]
+    loose = it.tangent.cases.loose
+    unknown = [test.id for k, test in enumerate(it.asked.tests) if it.asked.own and loose[k].any()]
     if unknown:
         said.append(
-            f"Sensors were not zeroed in {len(unknown)} tests, the first is {unknown[0]}: their readings are compared "
-            "less the zero that fits each test best"
+            f"Zeros of sensors are not known, or by one reading, in {len(unknown)} tests, the first is {unknown[0]}: "
+            "their readings are compared less the zero that fits each test best"
         )
     if it.asked.own:
         return tuple(said)

@@ -26,11 +26,13 @@ class Beginning:
 def beginnings(found: Fit, criteria: Criteria) -> tuple[Beginning, ...]:
     """Of every channel that is predicted, about a fit of the model as it is; tests with zeros of their own aside."""
     whole, expected = found.residual.load_cases, found.prediction.as_measured
-    firsts = [(k, int(whole.first[k])) for k, it in enumerate(whole.campaign.tests) if it.zero == "nominal"]
+    firsts = [(k, int(whole.first[k])) for k in range(len(whole.campaign.tests))]
     out = []
     for channel in np.flatnonzero(whole.sigma > 0.0):
         sigma = float(whole.sigma[channel])
-        read = [(k, row) for k, row in firsts if whole.predicted[row, channel]]
+        read = [
+            (k, row) for k, row in firsts if whole.predicted[row, channel] and not whole.loose[k, channel]
+        ]
         far = []
         for k, row in read:
             value = float(whole.measured[row, channel])

@@ -135,11 +135,13 @@ def _zero(
 def _constants(whole: LoadCases) -> Iterator[tuple[int, tuple[int, ...]]]:
     """Channel and numbers of the tests of every constant: all tests in which the channel was read from its own zero,
     and each of several alone."""
-    fitted = [
-        k for k, test in enumerate(whole.campaign.tests) if test.role == "fit" and test.zero == "nominal"
-    ]
+    fitted = [k for k, test in enumerate(whole.campaign.tests) if test.role == "fit"]
     for channel in np.flatnonzero(np.isfinite(whole.measured).any(axis=0) & (whole.sigma > 0.0)):
-        mine = [k for k in fitted if np.isfinite(whole.measured[whole.test == k, channel]).any()]
+        mine = [
+            k
+            for k in fitted
+            if not whole.loose[k, channel] and np.isfinite(whole.measured[whole.test == k, channel]).any()
+        ]
         if mine:
             yield int(channel), tuple(mine)
         if len(mine) > 1:

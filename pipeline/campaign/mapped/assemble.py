@@ -123,8 +123,16 @@ def _converted(table: Read, known: dict[str, tuple[str, str]]) -> Measured:
     columns = {known[what][1]: column for what, column in values.items() if known[what][1]}
     blank = {known[w][1]: mask for w, mask in unread.items() if known[w][1] and mask.any()}
     mine = np.array([test != "" for test in table.tests])
-    whole = Measured(table.tests, table.steps, lines, columns, blank)
+    whole = Measured(table.tests, table.steps, lines, columns, blank, _from_first(table, known))
     return fewer(whole.only(np.flatnonzero(mine)), table.declared.file.every)
+
+
+def _from_first(table: Read, known: dict[str, tuple[str, str]]) -> frozenset[str]:
+    """Columns of the contract that are less their first readings; all of a cell that is elsewhere, where one is."""
+    of = {what for what, column in table.columns.items() if column.from_first}
+    if table.declared.cell is not None and of.intersection((*FORCES, *MOMENTS)):
+        of |= {*FORCES, *MOMENTS}
+    return frozenset(known[what][1] for what in of if known[what][1])
 
 
 def _words(table: Read) -> list[str]:
@@ -148,4 +156,5 @@ def _joined(parts: Sequence[Measured]) -> Measured:
         np.concatenate([part.lines for part in parts]),
         {column: np.concatenate([part.of(column) for part in parts]) for column in columns},
         {column: np.concatenate([part.blank(column) for part in parts]) for column in columns},
+        frozenset().union(*(part.from_first for part in parts)),
     )
