@@ -135,7 +135,8 @@ class TestTable(Table):
     or left free; an empty cell is no load), or the name of a gauge whose reading the load was set by."""
     zero: Zero = "nominal"
     """nominal: readings count from the nominal unloaded pose. first_row: sensors and cell were zeroed in the
-    first row. fitted: their offsets are not known and are fitted."""
+    first row, so that the noise of one reading is in all others: no constant is compared. fitted: their offsets are
+    not known and are fitted."""
     set_aside: dict[str, list[Step]] = Field(default_factory=dict)
     """Readings that do not count: the steps by the column, as { fy_N = [3, 7] }. Where one was prescribed, nothing of
     its step is compared."""

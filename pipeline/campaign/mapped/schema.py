@@ -72,7 +72,8 @@ class ColumnTable(Table):
     sign: Sign = 1
     """1, or -1 where the column grows against the axis; "?" where it is not decided yet."""
     zero: Number | str = 0.0
-    """Reading that is zero, in the unit of the file; "first_row": that of the first row of each test."""
+    """Reading that is zero, in the unit of the file; "first_row": that of the first row of each test. Its
+    noise is then in all others, and no constant of the column is compared."""
 
 
 class CellTable(Table):
