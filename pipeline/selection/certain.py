@@ -12,6 +12,8 @@ from collections.abc import Collection, Iterator
 import numpy as np
 
 from pipeline.inference.fit import Fit
+from pipeline.inference.model import at_bound
+from pipeline.inference.prior import implausibility
 from pipeline.selection.adequacy.patterns import Shape, left_of, shapes
 from pipeline.selection.cost import cost, misfit
 from pipeline.selection.criteria import Criteria
@@ -25,14 +27,16 @@ NEW = 0.1
 
 def certain(found: Found, sets: tuple[Names, ...], doubted: Collection[str] = ()) -> tuple[str, ...]:
     """Names of the effects with numbers that are in all sets of a verdict and that nothing else replaces. doubted:
-    those in whose place a fault of a sensor explains as much."""
+    those in whose place a fault of a sensor explains as much. None where a number of the first set is held back, at its
+    bound or by how plausible it is: what it may not explain others take up."""
     cache, criteria = found.cache, found.cache.criteria
     best = sets[0]
     common = frozenset.intersection(*sets)
-    names = [n for n in cache.order(common) if cache.candidates[n].parameters and n not in doubted]
-    if not names:
-        return ()
     fit = cache.fit(best)
+    names = [n for n in cache.order(common) if cache.candidates[n].parameters and n not in doubted]
+    far = implausibility(fit.model.free, fit.model.values, criteria.plausible)
+    if not names or at_bound(fit.model) or far > criteria.certain_sigmas**2:
+        return ()
     mine = falls(fit, criteria, criteria.certain_patterns)
     limit = fit.degrees + criteria.excess_deviations * (2.0 * max(fit.degrees, 1)) ** 0.5
     count = next((k for k, left in enumerate(mine) if left <= limit), len(mine) - 1)

@@ -17,6 +17,7 @@ from pipeline.selection.criteria import CRITERIA
 from pipeline.selection.diagnosis import diagnose
 from tests.pipeline.selection.bench import bench, creeping_gauge, growing_gain, with_fault
 from vjm.effects import catalogue
+from vjm.effects.modulus_error import ModulusError
 
 TILT = "mounting_tilt.rx_rad"
 NAMES = (
@@ -73,3 +74,15 @@ def test_each_pattern_more_leaves_less_and_the_right_one_leaves_noise() -> None:
     assert left[0] == pytest.approx(float(fit.whitened @ fit.whitened))
     assert np.all(np.diff(left) <= 1e-9)
     assert left[1] < fit.degrees + 4.0 * np.sqrt(2.0 * fit.degrees) < left[0]
+
+
+class Narrow(ModulusError):
+    parameters = (replace(ModulusError.parameters[0], low=0.98, high=1.02),)
+
+
+def test_nothing_is_certain_where_a_number_is_held_back() -> None:
+    """Bars softer by more than a bound allows: what the number may not explain a constant load takes up."""
+    campaign = rippled(bench("modulus_error.scale", 0.96))
+    found = diagnose(campaign, Model(), {**KNOWN, "modulus_error": Narrow()})
+    assert {"modulus_error", "load_offset"} <= set(found.sets[0])
+    assert "modulus_error.scale" in found.decision.at_bound and not found.certain
