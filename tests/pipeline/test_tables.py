@@ -11,6 +11,7 @@ from hypothesis import strategies as st
 from rich.cells import cell_len
 from rich.console import Console, RenderableType
 
+from pipeline.answer.evidence import Evidence, SensorInstead
 from pipeline.answer.record import Answer, Candidate, ModelError, TestChange, TestNoise
 from pipeline.answer.tables.added import show as show_added
 from pipeline.answer.tables.diagnosis import show as show_diagnosis
@@ -331,3 +332,27 @@ def test_blocks_have_every_column_once(widths: list[int], room: int) -> None:
     assert [k for part in parts for k in part] == list(range(len(widths)))
     assert all(len(part) == 1 or sum(widths[k] for k in part) <= room for part in parts)
     assert all(sum(widths[a.start : b.start + 1]) > room for a, b in pairwise(parts))
+
+
+def test_where_a_fault_of_a_sensor_would_do_the_headline_says_so() -> None:
+    """The set that needs the fault beside it is no set by itself."""
+    fault = SensorInstead(
+        effect="joint_friction", words="y has an offset", explains=9.0, of=9.0, beside=("modulus_error",)
+    )
+    left = ModelError(
+        effects=(), fit=2.0, holdout=None, chi_square=4.0, degrees=9, chi_square_p=None, lag_one_p=None
+    )
+    answer = Answer(
+        campaign="bench",
+        verdict="ambiguous",
+        effects=("joint_friction", "modulus_error"),
+        parameters={},
+        error=(left, left.model_copy(update={"effects": ("joint_friction", "modulus_error"), "fit": 1.0})),
+        tests=(),
+        candidates=(),
+        sentences=("",),
+        added=("joint_friction", "modulus_error"),
+        alternatives=(("modulus_error",), ()),
+        evidence=Evidence(sets=(("joint_friction", "modulus_error"),), sensors=(fault,)),
+    )
+    assert headline(answer) == "ambiguous: joint_friction + modulus_error or a fault of a sensor"

@@ -5,11 +5,10 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from fem.beam import uniform_stiffness
 from vjm import paper
 from vjm.effects import catalogue
 from vjm.effects.base import Effect, Parameter, Rig, Values
-from vjm.effects.sized import LENGTH, Scale, scale_of, scale_of_bar, scale_of_parallelogram, sized
+from vjm.effects.sized import LENGTH, Scale, scale_of, scale_of_bar, sized
 
 
 def test_on_the_bench_of_the_paper_nothing_changes() -> None:
@@ -62,38 +61,6 @@ def test_a_base_counts_by_what_a_single_bar_gives_in_the_same_direction() -> Non
         assert friction[0].typical == pytest.approx(
             factor * catalogue()["joint_friction"].parameters[0].typical
         )
-
-
-def test_a_base_counts_by_what_a_linkage_gives_where_its_bars_bend() -> None:
-    """Uniform bars: along y 24 EI_z / L³, about z 8 EI_z / L, about x 2 GJ / L and the couple of both bars."""
-    length, width, rigidity, torsion = 300.0, 80.0, 1.1e8, 9.7e7
-    stiffness = uniform_stiffness(length, 2.0e7, 2.4e8, rigidity, torsion)
-    scale = scale_of_parallelogram(length, width, stiffness)
-    base = {p.along: p for p in sized(catalogue()["base_compliance"], scale).parameters}
-    along = 2.0 * paper.BAR_STIFFNESS[0, 0]
-    about = along * (paper.WIDTH / 2.0) ** 2
-    side = 24.0 * rigidity / length**3
-    own = {"y": side, "rx": side * (width / 2.0) ** 2 + 2.0 * torsion / length, "rz": 8.0 * rigidity / length}
-    for name, resisted in own.items():
-        assert base[name].typical * resisted == pytest.approx(2e-6 * along if name == "y" else 1e-9 * about)
-        assert 0.05 < base[name].typical * resisted < 0.1
-    # Forces along the bars resist the others.
-    plain = scale_of(length, stiffness)
-    assert {name: scale.of(base[name].unit, name) for name in ("x", "z", "ry")} == {
-        name: plain.of(base[name].unit) for name in ("x", "z", "ry")
-    }
-
-
-def test_the_scale_of_a_linkage_is_of_no_unit() -> None:
-    """mm for m and N for kN: sizes of a base in units of the linkage's own compliance stay as they are."""
-    length, width, force, unit = 300.0, 80.0, 1e-3, 1e-3
-    load = np.array([force] * 3 + [force * unit] * 3)
-    size = np.array([unit] * 3 + [1.0] * 3)
-    stiffness = uniform_stiffness(length, 2.0e7, 2.4e8, 1.1e8, 9.7e7)
-    one = scale_of_parallelogram(length, width, stiffness)
-    other = scale_of_parallelogram(unit * length, unit * width, stiffness * load[:, None] / size)
-    for name, factor in (("y", unit / force), ("rx", 1.0 / (force * unit)), ("rz", 1.0 / (force * unit))):
-        assert other.give[name] == pytest.approx(factor * one.give[name])
 
 
 class Own(Effect):

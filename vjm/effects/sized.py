@@ -5,10 +5,9 @@ Under another rig a length scales with its length l, a compliance along the bars
 what is per angle with their bending stiffness, a weight with that over the length. By the units alone, so that another
 unit of force or length, or a model to scale, changes no verdict. Angles, ratios, strains and 1/K are pure numbers.
 
-A base that gives counts by what it carries. Where a linkage of bars on hinges resists it by forces along them, what is
-typical is a tenth of what these give. Across the bars and about x and z a linkage resists by bending and torsion of its
-bars, and a single bar does in most directions, a thousand times softer: there a tenth of what the rig gives in the same
-direction is as typical.
+A base that gives counts by what it carries. A linkage of bars on hinges resists it by forces along them, and what is
+typical is a tenth of what these give. A single bar resists by bending, a thousand times softer: there a tenth of what
+the bar gives in the same direction is as typical.
 """
 
 from __future__ import annotations
@@ -73,41 +72,12 @@ def scale_of(length: float, stiffness: Array) -> Scale:
     return Scale(length, axial, bending)
 
 
-def scale_of_parallelogram(length: float, width: float, stiffness: Array) -> Scale:
-    """Of a parallelogram of two bars of this length, mm, with hinges about y at both ends, this width between them
-    along z, mm, and K_b (6, 6), N, mm, rad. It resists along y and about x and z, its bars along x, by
-
-        K = sum over bars of T^T K_h T,
-
-    with K_h = K_b, the turn about the free hinge y eliminated, and T from the platform's twist to the bar's end at
-    ±width/2."""
-    held = [0, 1, 2, 3, 5]
-    hinged = np.zeros((6, 6))
-    free = stiffness[np.ix_(held, [4])]
-    hinged[np.ix_(held, held)] = stiffness[np.ix_(held, held)] - free @ free.T / stiffness[4, 4]
-    whole = np.zeros((6, 6))
-    for arm in (-width / 2.0, width / 2.0):
-        twist = np.eye(6)
-        twist[0, 4], twist[1, 3] = arm, -arm
-        whole += twist.T @ hinged @ twist
-    along, about = _of_the_paper()
-    give = {
-        name: full / whole[k, k] for k, name, full in ((1, "y", along), (3, "rx", about), (5, "rz", about))
-    }
-    return replace(scale_of(length, stiffness), give={name: float(value) for name, value in give.items()})
-
-
 def scale_of_bar(length: float, stiffness: Array) -> Scale:
     """Of a single bar of this length, mm, and K_b (6, 6), N, mm, rad."""
-    along, about = _of_the_paper()
+    along = 2.0 * paper.BAR_STIFFNESS[0, 0]
+    about = along * (paper.WIDTH / 2.0) ** 2
     resisted = np.array([along] * 3 + [about] * 3) / np.diag(stiffness)
     return replace(scale_of(length, stiffness), give=dict(zip(COORDINATES, resisted.tolist(), strict=True)))
-
-
-def _of_the_paper() -> tuple[float, float]:
-    """N/mm and N·mm/rad by which the bars of the paper's linkage resist along them."""
-    along = 2.0 * float(paper.BAR_STIFFNESS[0, 0])
-    return along, along * (paper.WIDTH / 2.0) ** 2
 
 
 def _sizes(stiffness: Array) -> tuple[float, float]:

@@ -59,7 +59,8 @@ def _tries(answer: Answer) -> Iterator[str]:
 def _said(answer: Answer) -> Iterator[str]:
     """The effects, of `unknown` those that help; of many sets ever fewer."""
     if answer.verdict == "ambiguous":
-        sets = [" + ".join(names) or "no further effect" for names in sets_of(answer)]
+        sets = [" + ".join(names) or "no further effect" for names in _without_faults(answer)]
+        sets += ["a fault of a sensor"] if answer.evidence is not None and answer.evidence.sensors else []
         sets += [_law_at(answer)] if answer.laws else []
         yield " or ".join(sets)
         for count in range(len(sets) - 1, 0, -1):
@@ -74,6 +75,11 @@ def _said(answer: Answer) -> Iterator[str]:
         yield f"{names} {'helps' if len(answer.added) == 1 else 'help'}"
     elif names:
         yield names
+
+
+def _without_faults(answer: Answer) -> tuple[tuple[str, ...], ...]:
+    """The sets that need no fault of a sensor beside them."""
+    return sets_of(answer) if answer.evidence is None else answer.evidence.sets
 
 
 def _law_at(answer: Answer) -> str:

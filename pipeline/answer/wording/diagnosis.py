@@ -64,7 +64,7 @@ def _verdict(it: Answer, evidence: Evidence) -> Iterator[str]:
         yield f"unknown: {asked}{_and(best)} would explain the misfit, {fall}, but {evidence.because}."
     elif best:
         rest = "what is left is no noise and nothing known explains it"
-        yield f"unknown: {asked}{_and(best)} help, {fall}, but {rest}."
+        yield f"unknown: {asked}{_and(best)} {'helps' if len(best) == 1 else 'help'}, {fall}, but {rest}."
     elif evidence.zero:
         yield f"unknown: {asked}Nothing is named before that is settled; the misfit is {sigma(rms)} sigma."
     else:

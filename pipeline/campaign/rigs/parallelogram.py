@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cached_property
 from typing import Any, Literal
 
 import numpy as np
@@ -14,7 +13,6 @@ from pipeline.campaign.rig import Array, Mistakes
 from pipeline.campaign.rigs.bars import RigOfBars, TableOfBars
 from pipeline.campaign.usual_tests import UsualTest
 from pipeline.toml.fields import Length
-from vjm.effects.sized import Scale, scale_of_parallelogram
 from vjm.mechanisms.parallelogram import Parallelogram
 
 _D, _F = DISPLACEMENT, FORCE
@@ -48,10 +46,6 @@ class ParallelogramRig(RigOfBars):
     @property
     def spread(self) -> float:
         return self.width
-
-    @cached_property
-    def scale(self) -> Scale:
-        return scale_of_parallelogram(self.length, self.width, self.stiffness)
 
     def mechanism(self, gauges: tuple[Gauge, ...]) -> Parallelogram:
         return self.equipped(Parallelogram(self.length, self.width, self.stiffness), gauges)
