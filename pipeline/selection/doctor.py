@@ -43,9 +43,9 @@ from vjm.work import at_most
 Array = NDArray[np.float64]
 
 
-PART = 0.5
-"""Of the work of a search that the look for mistakes may take. The tables of the tests take 0.34 of it and less, four
-slow benches of the challenge 0.11 and less."""
+PART = 3.0
+"""Times the work of a search that the look for mistakes may take. Tables with a mistake take up to 2.4 (angles in
+radians), right ones of the tests 0.34 and less, four slow benches of the challenge 0.11 and less."""
 
 
 @dataclass(frozen=True)
@@ -61,7 +61,7 @@ class Suspicion:
 
 def suspicions(cache: FitCache) -> tuple[Suspicion, ...]:
     """The mistake of the table that explains most, with those that explain as much; none where none does. TooMuch where
-    that takes more work than half a search may."""
+    that takes more work than a few searches may."""
     with at_most(PART * cache.work):
         return _suspicions(cache)
 
