@@ -49,7 +49,7 @@ class Discrepancy:
     def _whole(self) -> _Whole:
         weights = whitening(self.load_cases, self.prediction)
         found = residual(self.load_cases, self.prediction)
-        whitened, rank = _without_zeros(self.load_cases, found.left, found.offsets)
+        whitened = np.where(self.load_cases.predicted, found.level, 0.0)
         if found.marginal is not None:
             whitened = whitened.copy()
             # What departures from what was written cost is in the residuals of the tests that show them.
@@ -57,7 +57,7 @@ class Discrepancy:
         factors = np.linalg.inv(weights.factors)
         units = np.einsum("rij,rj->ri", factors, whitened)
         sigma = np.sqrt(np.sum(factors**2, axis=2))
-        return _Whole(whitened, units, sigma, rank, found.charged)
+        return _Whole(whitened, units, sigma, found.zeros.shape[1], found.charged)
 
     @property
     def whitened(self) -> Array:
@@ -168,15 +168,3 @@ class Discrepancy:
                 Lost(test=test.id, rows=gone.size, of=rows.size, step=step, reason=reason, sentence=sentence)
             )
         return tuple(found)
-
-
-def _without_zeros(load_cases: LoadCases, values: Array, offsets: Array) -> tuple[Array, int]:
-    """Residuals (R, C) less their part along the unknown zeros (R, C, O), and the rank of those that are fitted."""
-    if not offsets.shape[-1]:
-        return values, 0
-    flat = offsets.reshape(-1, offsets.shape[-1])
-    scale = np.maximum(np.linalg.norm(flat, axis=0), np.finfo(float).tiny)
-    found = np.linalg.lstsq(flat / scale, values.ravel(), rcond=1e-9)[0]
-    left = values - (offsets / scale) @ found
-    left = np.where(load_cases.predicted, left, 0.0)
-    return left, int(np.linalg.matrix_rank(offsets[load_cases.fitted].reshape(-1, offsets.shape[-1]) / scale))
