@@ -17,7 +17,7 @@ from pipeline.inference.load_cases import LoadCases
 from pipeline.selection.adequacy.bad_readings import bad_readings
 from pipeline.selection.adequacy.judgement import judge
 from pipeline.selection.adequacy.untested import untested
-from pipeline.selection.cost import cost, misfit, price
+from pipeline.selection.cost import cost, is_noise, misfit, price
 from pipeline.selection.faulty_sensor import has_one_fault, with_promising_faults
 from pipeline.selection.fit_cache import FitCache, Names
 from pipeline.selection.reading_noise import AS_DECLARED, Readings
@@ -52,7 +52,7 @@ def settled(cache: FitCache, again: Again, attempts: Attempts) -> Settled:
     if not untested(beginning(cache)) and not plain_zero(beginning(cache), cache.criteria):
         begun = singles_first(cache)
         if begun:
-            new = attempts.get(what, partial(_at_first, cache, begun), AS_DECLARED)
+            new = attempts.get(what, partial(_at_first, cache, begun, again), AS_DECLARED)
     alone = not new.plain
     it = chosen(cache, attempts, alone, begun)
     with_all, readings = it.decision.verdict, AS_DECLARED
@@ -99,13 +99,46 @@ def with_faults(before: Settled, known: Iterable[Effect], again: Again) -> Settl
     return replace(new, with_all=before.with_all, alone=before.alone)
 
 
-def _at_first(cache: FitCache, begun: list[Names]) -> Readings:
-    """What the readings are beside the best of single effects, where nothing but single bad ones is left then."""
-    found = cache.fit(min(begun, key=lambda names: cost(cache, names)))
-    if not bad_readings(found, cache.criteria):
-        return AS_DECLARED
-    new = AS_DECLARED.again(found, cache.whole, cache.criteria)
-    return new if new.bad and new.leaves_noise(found, cache.whole, cache.criteria) else AS_DECLARED
+def _at_first(cache: FitCache, begun: list[Names], again: Again) -> Readings:
+    """What the readings are beside a single effect, where nothing but single bad ones is left then. A bad one may be
+    more than all that an effect explains: then the effects are looked at again without those that are seen first."""
+    given = cache.whole
+    new = _beside_one(cache, begun, AS_DECLARED, given)
+    if new.settled or not new.it.bad:
+        return new.it
+    without = Readings(new.it.bad)
+    cache = again(without.applied(given.campaign), cache)
+    new = _beside_one(cache, singles_first(cache), without, given)
+    return new.it if new.settled else AS_DECLARED
+
+
+@dataclass(frozen=True)
+class _Beside:
+    """What the readings are beside an effect. settled: whether nothing else is left."""
+
+    it: Readings
+    settled: bool
+
+
+def _beside_one(cache: FitCache, begun: list[Names], before: Readings, given: LoadCases) -> _Beside:
+    """Beside that of some sets which leaves noise, the one that explains most of all but single bad ones first; beside
+    this where none does."""
+    if not begun:
+        return _Beside(before, False)
+    criteria = cache.criteria
+    best = min(begun, key=lambda names: cost(cache, names))
+    asked = [best] if is_noise(cache, best) else begun
+    bad = {names: sum(b.sigmas**2 for b in bad_readings(cache.fit(names), criteria)) for names in asked}
+    left = {names: cost(cache, names) - bad[names] for names in asked if bad[names] or before.bad}
+    first = before
+    for names in sorted(left, key=lambda names: left[names]):
+        if left[names] > min(left.values()) + criteria.competing:
+            break
+        new = before.again(cache.fit(names), given, criteria)
+        if new.bad and new.leaves_noise(cache.fit(names), given, criteria):
+            return _Beside(new, True)
+        first = new if first is before else first
+    return _Beside(first, False)
 
 
 def _readings(it: Chosen, before: Readings, given: LoadCases) -> Readings:

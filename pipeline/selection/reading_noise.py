@@ -57,12 +57,20 @@ class Readings:
         if not self.may_be_asked(found, criteria):
             return self
         whole = found if self.plain else _of(given, found)
-        tails = tails_of(whole, criteria)
-        if tails is not None:
-            return Readings(tails=tails, normal=without_tails(whole, tails))
         bad = (*bad_readings(whole, criteria), *_held_out(whole, criteria))
-        rest = whole if not bad else _of(load_cases(set_aside(given.campaign, bad)), found)
+        # A bad reading pulls a fit to itself, and what that leaves of its neighbours looks like long tails.
+        rest = whole if not bad else self._beside(bad, found, given, criteria)
+        about = whole if not bad else _of(given, rest)
+        tails = tails_of(about, criteria, rest if bad else None)
+        if tails is not None:
+            return Readings(tails=tails, normal=without_tails(about, tails))
         return Readings(bad, tuple(_other(rest, criteria)))
+
+    def _beside(self, bad: tuple[BadReading, ...], found: Fit, given: LoadCases, criteria: Criteria) -> Fit:
+        """A model fitted without these readings; found: fitted to the readings as they are here."""
+        cases = load_cases(set_aside(given.campaign, bad))
+        same = Readings(bad, self.scatter, self.tails).same(self)
+        return _of(cases, found) if same else _refitted(cases, found, criteria)
 
     def leaves_noise(self, found: Fit, given: LoadCases, criteria: Criteria) -> bool:
         """Whether a model explains all but what they set aside."""

@@ -70,9 +70,15 @@ def give(force: float, rigidity: float, a: float, clamp: float) -> float:
 
 
 def measured(
-    folder: Path, clamp: float, thinner: float = 1.0, offset: float = 0.0, middle: bool = True
+    folder: Path,
+    clamp: float,
+    thinner: float = 1.0,
+    offset: float = 0.0,
+    middle: bool = True,
+    knock: tuple[str, int, float] = ("", 0, 0.0),
 ) -> Path:
-    """The folder of such a bench. thinner: share of the thickness. offset: mm that the dial along y began with."""
+    """The folder of such a bench. thinner: share of the thickness. offset: mm that the dial along y began with. knock:
+    direction and step at which the dial at the tip was knocked, and by how many mm."""
     rng = np.random.default_rng(7)
     rows = ["test,step,y_mm,z_mm,my_mm,mz_mm,fy_N,fz_N"]
     for way, loads in LOADS.items():
@@ -83,6 +89,7 @@ def measured(
                 give(force, rigidity, a, clamp) + rng.normal(0.0, SIGMA) for a in (LENGTH, LENGTH / 2.0)
             )
             tip += offset if way == "y" else 0.0
+            tip += knock[2] if (way, step) == knock[:2] else 0.0
             half_said = f"{half:.6f}" if middle else ""
             cells = (f"{tip:.6f}", "", half_said, "") if way == "y" else ("", f"{tip:.6f}", "", half_said)
             forces = (f"{load}", "") if way == "y" else ("", f"{load}")
@@ -105,6 +112,25 @@ def test_a_clamp_that_turns_is_named(tmp_path: Path) -> None:
     turns = {name.rpartition(".")[2]: it.value for name, it in found.parameters.items()}
     assert turns["ry_rad_per_Nmm"] == pytest.approx(CLAMP, rel=0.1)
     assert turns["rz_rad_per_Nmm"] == pytest.approx(CLAMP, rel=0.1)
+
+
+@pytest.mark.parametrize(
+    "knock",
+    [
+        ("y", 5, 0.1),
+        pytest.param(("y", 2, -0.15), marks=pytest.mark.long),
+        pytest.param(("z", 2, -0.15), marks=pytest.mark.long),
+        pytest.param(("z", 4, 0.3), marks=pytest.mark.long),
+    ],
+)
+def test_one_knocked_reading_of_some_thirty_rows_changes_nothing(
+    tmp_path: Path, knock: tuple[str, int, float]
+) -> None:
+    """It pulls the fit to itself, so that its neighbours are off too: that is neither long tails nor another sigma."""
+    found = said(measured(tmp_path / "a", CLAMP, knock=knock))
+    assert (found.verdict, found.added) == ("identified", ("base_compliance",))
+    cells = [(it.test, it.step, it.column) for it in found.set_aside]
+    assert cells == [(f"along_{knock[0]}", knock[1], f"{knock[0]}_mm")] and not found.noise
 
 
 @pytest.mark.long

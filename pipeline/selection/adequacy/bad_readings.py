@@ -7,10 +7,10 @@ c. What the fit can move taken out of the column, c', the mean shift is d = c'·
 
 is standard normal where nothing is wrong (R. D. Cook, S. Weisberg, Residuals and Influence in Regression, Chapman and
 Hall 1982, section 2.2.2). The largest t is looked at first, in units of the median of its sensor's (1.4826 MAD) where
-that is more than was declared, and beyond
-Bonferroni's bound over all readings it is a bad one if its neighbours in the same channel are not off as well: a play
-or a step of a sensor comes in runs; and if nothing else of its row is: a state that is another one moves several
-sensors. Its column joins what the fit can move, and the next one is looked at.
+that is more than was declared: the median of what they are once this shift is taken out. Beyond Bonferroni's bound over
+all readings it is a bad one if its neighbours in the same channel are not off as well: a play or a step of a sensor
+comes in runs; and if nothing else of its row is: a state that is another one moves several sensors. Its column joins
+what the fit can move, and the next one is looked at.
 """
 
 from __future__ import annotations
@@ -109,7 +109,6 @@ def bad_readings(found: Fit, criteria: Criteria) -> tuple[BadReading, ...]:
     residual = found.whitened - taken @ (taken.T @ found.whitened)
     shifts = _Shifts(it, ReadingErrors.of(found), residual, taken)
     there = shifts.of.there.copy()
-    scale = _scales(shifts)
     count = int(there.sum())
     if count < criteria.few_readings:
         return ()
@@ -119,22 +118,50 @@ def bad_readings(found: Fit, criteria: Criteria) -> tuple[BadReading, ...]:
     out: list[BadReading] = []
     while len(out) < max(1.0, criteria.bad_share * count):
         sizes = np.where(there, np.abs(shifts.scores), 0.0)
-        row = int(np.argmax((sizes / scale).max(axis=1)))
-        if not (sizes[row] / scale[row]).max() > limit:
+        looks = [_look(shifts, sizes, row, channels) for row in _farthest(shifts, sizes, limit)]
+        if not looks:
             break
-        number = _likeliest(sizes[row], shifts.lengths[row], channels)
+        look = max(looks, key=lambda it: it.size)
+        if not look.size > limit:
+            break
+        row, number, scale = look.row, look.number, look.scale
         # One of a row: what was off twice was another state.
         there[row] = False
-        less = shifts.without(row, number)
-        beside = _beside(shifts, row, number, less.scores / scale)
-        rest = np.abs(less.scores[row]) / np.maximum(
+        beside = _beside(shifts, row, number, look.less.scores / scale)
+        rest = np.abs(look.less.scores[row]) / np.maximum(
             criteria.bad_neighbours * scale[row], criteria.bad_rest * sizes[row].max()
         )
         if np.all(np.abs(beside) < criteria.bad_neighbours) and rest.max() < 1.0:
             off = float(shifts.scores[row, number] / shifts.lengths[row, number])
             out.append(_named(found, row, int(shifts.of.channels[row, number]), off))
-            shifts = less
+            shifts = look.less
     return tuple(out)
+
+
+@dataclass(frozen=True, eq=False)
+class _Look:
+    """The likeliest bad reading of a row. less: the shifts with its own taken out, and scale: (R, M) what scores are
+    like then; size: its score in those. One bad reading of few moves all others, and with them their median."""
+
+    row: int
+    number: int
+    less: _Shifts
+    scale: Array
+    size: float
+
+
+def _farthest(shifts: _Shifts, sizes: Array, limit: float) -> list[int]:
+    """The row of the largest score of each sensor, where that is beyond the limit."""
+    of = shifts.of
+    largest = (np.where(of.channels == k, sizes, 0.0).max(axis=1) for k in np.unique(of.channels))
+    return sorted({int(np.argmax(it)) for it in largest if it.max() > limit})
+
+
+def _look(shifts: _Shifts, sizes: Array, row: int, channels: int) -> _Look:
+    number = _likeliest(sizes[row], shifts.lengths[row], channels)
+    less = shifts.without(row, number)
+    scale = _scales(less)
+    return _Look(row, number, less, scale, float(sizes[row, number] / scale[row, number]))
 
 
 def _kept(shifts: _Shifts) -> Mask:

@@ -65,20 +65,33 @@ class Tails:
         return self.scale / quad(integrand, -STUDENTS_LAW.farthest, STUDENTS_LAW.farthest)[0]
 
 
-def tails_of(found: Fit, criteria: Criteria) -> Tails | None:
-    """Long tails of what a fit leaves, none where there are no more than noise has."""
-    used = found.residual.load_cases.predicted & found.residual.load_cases.fitted[:, None]
-    used &= ~found.prediction.lost[:, None]
-    residual = found.residual.left[used]
+def tails_of(found: Fit, criteria: Criteria, beside: Fit | None = None) -> Tails | None:
+    """Long tails of what a fit leaves, none where there are no more than noise has. beside: the same model fitted to
+    what is left where single bad readings are set aside; found is as that one is then."""
+    residual = _left(found)
     largest = float(np.abs(residual).max(initial=0.0))
     if residual.size < criteria.few_readings or largest == 0.0:
         return None
     (log_degrees, log_scale), student = _student(residual)
     growth = 2.0 * (student - _normal(residual))
     beyond = 2.0 * (student - _with_bad_readings(residual, largest))
-    if growth < criteria.tails or beyond < criteria.tails_no_less or not _without_few(residual, criteria):
+    if growth < criteria.tails or beyond < criteria.tails_no_less:
+        return None
+    few = max(1, int(np.ceil(criteria.bad_share * residual.size)))
+    if beside is not None:
+        # A bad one is off in all that its row leaves: both are gone there.
+        bad, residual = residual, _left(beside)
+        few = max(0, few - (bad.size - residual.size))
+    if not _still_there(residual, few, criteria):
         return None
     return Tails(float(np.exp(log_degrees)), float(np.exp(log_scale)), growth)
+
+
+def _left(found: Fit) -> Array:
+    """Whitened residuals of all that is compared."""
+    used = found.residual.load_cases.predicted & found.residual.load_cases.fitted[:, None]
+    used &= ~found.prediction.lost[:, None]
+    return np.asarray(found.residual.left[used])
 
 
 def _normal(residual: Array) -> float:
@@ -86,10 +99,9 @@ def _normal(residual: Array) -> float:
     return float(norm.logpdf(residual, scale=np.sqrt(np.mean(residual**2))).sum())
 
 
-def _without_few(residual: Array, criteria: Criteria) -> bool:
+def _still_there(residual: Array, few: int, criteria: Criteria) -> bool:
     """Whether tails are there without the few largest: single bad readings are gone then."""
-    few = max(1, int(np.ceil(criteria.bad_share * residual.size)))
-    rest = residual[np.argsort(np.abs(residual))[:-few]]
+    rest = residual[np.argsort(np.abs(residual))[: residual.size - few]]
     return 2.0 * (_student(rest)[1] - _normal(rest)) > criteria.tails_without_few
 
 
