@@ -1,8 +1,9 @@
 """What the readings are about a model: single bad ones, sigmas as they are, tails.
 
 Asked of the best set only, and only where what it leaves has no order along the load paths: then a shape is missing
-and nothing of it is noise. What is found is asked again about all readings once the search was made with it, so that
-what is no longer outlying comes back.
+and nothing of it is noise. Readings that are off by turns are an order too, but one that a single bad reading leaves
+around it: tails and other sigmas are asked about once that is set aside. What is found is asked again about all
+readings once the search was made with it, so that what is no longer outlying comes back.
 """
 
 from __future__ import annotations
@@ -20,6 +21,7 @@ from pipeline.selection.adequacy.bad_readings import BadReading, bad_readings, s
 from pipeline.selection.adequacy.judgement import HELD_OUT, ORDER, SIZE, judge
 from pipeline.selection.adequacy.scatter import Scatter, scatters
 from pipeline.selection.adequacy.tails import Tails, tails_of, without_tails
+from pipeline.selection.adequacy.whiteness import white
 from pipeline.selection.criteria import Criteria
 
 
@@ -61,6 +63,8 @@ class Readings:
         # A bad reading pulls a fit to itself, and what that leaves of its neighbours looks like long tails.
         rest = whole if not bad else self._beside(bad, found, given, criteria)
         about = whole if not bad else _of(given, rest)
+        if not white(rest, criteria):
+            return Readings(bad)
         tails = tails_of(about, criteria, rest if bad else None)
         if tails is not None:
             return Readings(tails=tails, normal=without_tails(about, tails))

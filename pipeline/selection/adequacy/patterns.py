@@ -120,12 +120,18 @@ def acting(found: Fit, channel: int, errors: Array) -> Array:
 
 def _expected(found: Fit, chosen_side: float) -> Array:
     """(R, C) readings as they would be without noise: with it, a pattern would follow the noise of its own sensor. So
-    would small ones, up to so many sigmas, of a row that chose its side of a play by that noise: they are zero."""
+    would small ones, up to so many sigmas, of a row that chose its side of a play by that noise, and of a coordinate
+    that is held where it is in every row: the inputs that fit best follow the residual. They are zero."""
     whole = found.residual.load_cases
     readings = found.prediction.values.copy()
     given = np.take_along_axis(np.nan_to_num(whole.measured), whole.channels, axis=1)
     np.put_along_axis(readings, whole.channels, given + found.residual.shift[:, :6], axis=1)
     readings[found.prediction.lost] = 0.0
+    for channel in np.unique(whole.channels):
+        rows = np.any(whole.channels == channel, axis=1)
+        there = np.abs(np.nan_to_num(whole.measured[rows, channel])).max(initial=0.0)
+        if there < chosen_side * whole.sigma[channel]:
+            readings[rows, channel] = 0.0
     chosen = found.residual.undecided[:, None] & (np.abs(readings) < chosen_side * whole.spread)
     return np.where(chosen, 0.0, readings)
 
@@ -134,17 +140,19 @@ def _errors(whole: LoadCases, readings: Array, channel: int) -> Iterator[tuple[s
     """(R,) errors of a channel's readings, largest about 1, with words for each."""
     mine = readings[:, channel]
     span = float(np.abs(mine).max(initial=0.0))
-    if span == 0.0:
+    if span == 0.0 and not np.any(whole.input_sigma[:, :6][whole.channels == channel]):
         return
-    m = mine / span
-    yield "reads too much or too little in proportion", m
-    yield "has a gain that grows with its reading", m * np.abs(m)
-    yield "has a gain that grows one way", m * m
+    m = mine / max(span, TINY)
+    if span > 0.0:
+        yield "reads too much or too little in proportion", m
+        yield "has a gain that grows with its reading", m * np.abs(m)
+        yield "has a gain that grows one way", m * m
     yield "has an offset", np.ones_like(m)
     yield "has a zero that moves during a test", _within(whole)
     yield "has a zero that moves during the campaign", np.linspace(0.0, 1.0, m.size)
-    yield "follows slowly", _lagged(whole, m)
-    yield "depends on the direction of travel", _direction(whole, m)
+    if span > 0.0:
+        yield "follows slowly", _lagged(whole, m)
+        yield "depends on the direction of travel", _direction(whole, m)
     for other in _neighbours(channel):
         there = np.abs(readings[:, other]).max(initial=0.0)
         if there > 0.0:

@@ -36,7 +36,7 @@ def rippled(campaign: Campaign) -> Campaign:
     tests = []
     for test in campaign.tests:
         moved = test.data.displacement.copy()
-        moved[:, 1] += 0.004 * np.sin(2.5 * np.arange(len(moved)))
+        moved[:, 1] += 0.006 * np.sin(2.5 * np.arange(len(moved)))
         tests.append(replace(test, data=replace(test.data, displacement=moved)))
     return replace(campaign, tests=tuple(tests))
 
