@@ -14,6 +14,8 @@ import numpy as np
 from pipeline.inference.fit import Fit
 from pipeline.inference.model import at_bound
 from pipeline.inference.prior import implausibility
+from pipeline.parameter_names import parted
+from pipeline.selection.adequacy.constancy import departures
 from pipeline.selection.adequacy.patterns import Shape, left_of, shapes
 from pipeline.selection.cost import cost, misfit
 from pipeline.selection.criteria import Criteria
@@ -28,11 +30,13 @@ NEW = 0.1
 def certain(found: Found, sets: tuple[Names, ...], doubted: Collection[str] = ()) -> tuple[str, ...]:
     """Names of the effects with numbers that are in all sets of a verdict and that nothing else replaces. doubted:
     those in whose place a fault of a sensor explains as much. None where a number of the first set is held back, at its
-    bound or by how plausible it is: what it may not explain others take up."""
+    bound or by how plausible it is: what it may not explain others take up. None of an effect of which some tests would
+    have twice as much, or nothing: there it is another."""
     cache, criteria = found.cache, found.cache.criteria
     best = sets[0]
     common = frozenset.intersection(*sets)
     fit = cache.fit(best)
+    doubted = {*doubted, *_inconstant(fit, criteria)}
     names = [n for n in cache.order(common) if cache.candidates[n].parameters and n not in doubted]
     far = implausibility(fit.model.free, fit.model.values, criteria.plausible)
     if not names or at_bound(fit.model) or far > criteria.certain_sigmas**2:
@@ -44,6 +48,18 @@ def certain(found: Found, sets: tuple[Names, ...], doubted: Collection[str] = ()
     needed = (criteria.certain_sigmas * max(1.0, fit.rms)) ** 2
     least = mine[count] + beside + needed
     return tuple(name for name in names if _beaten(cache, best, name, count + criteria.certain_more, least))
+
+
+def _inconstant(fit: Fit, criteria: Criteria) -> Iterator[str]:
+    """Effects with a number that is not one: where it is fitted to some tests alone it differs by more than half."""
+    sizes = {
+        free.name: abs(v - free.parameter.null)
+        for free, v in zip(fit.model.free, fit.model.values, strict=True)
+    }
+    least = criteria.certain_sigmas * max(1.0, fit.rms)
+    for it in departures(fit):
+        if abs(it.score) > least and abs(it.change) > 0.5 * sizes[it.name]:
+            yield parted(it.name)[0]
 
 
 def _beaten(cache: FitCache, best: Names, name: str, patterns: int, least: float) -> bool:

@@ -13,6 +13,8 @@ from pipeline.answer.wording.doctor import doctor_sentence, mends
 from pipeline.parameter_names import parted
 from reports.quantities import estimate, p_is, percent, phrase, short, sigma
 
+SIZE = "size"
+"""Name of the check that looks at the sum of squares alone."""
 CARRIES = 0.7
 """Part of the misfit that may be left of a test, for the others to foretell it."""
 
@@ -156,6 +158,12 @@ def _left(it: Answer, evidence: Evidence) -> Iterator[str]:
         yield f"By its order along the load paths the rest is noise, but {evidence.larger_scatter}."
     if it.verdict != "unknown":
         return
+    if [check.name for check in evidence.failed_checks] == [SIZE]:
+        yield (
+            "It has no order along the load paths, no pattern, and no sensor or test of its own: sigmas that are "
+            f"{percent(it.error[-1].fit - 1.0)} larger would explain it. Repeat one step some times, and declare "
+            "how much the repeats scatter."
+        )
     if evidence.ended_after is not None and not evidence.because:
         yield (
             f"The search ended after {evidence.ended_after} fits, as it takes long: what was not looked at may "

@@ -30,23 +30,22 @@ class Departure:
 
 def largest_departure(found: Fit) -> Departure | None:
     """The plainest of all numbers at each angle and in each test, to first order; None where none can be seen."""
+    return max(departures(found), key=lambda it: abs(it.score), default=None)
+
+
+def departures(found: Fit) -> list[Departure]:
+    """Of all numbers at each angle and in each test, to first order, those that can be seen."""
     it = found.residual
     taken = basis(np.hstack([found.jacobian, it.flat(it.offsets)]))
-    best: tuple[float, float, str, str] | None = None
-    looks = 0
+    seen: list[tuple[str, str, float, float]] = []
     for where, rows in _parts(found):
         columns = it.weakened(np.where(rows[:, None], it.without_zeros(it.slopes), 0.0))
         left = columns - taken @ (taken.T @ columns)
         sizes, whole = np.linalg.norm(left, axis=0), np.linalg.norm(columns, axis=0)
         for k in np.flatnonzero(sizes > FLAT * np.maximum(whole, TINY)):
-            looks += 1
             score = steady(left[:, k], found.whitened)
-            if best is None or abs(score) > abs(best[0]):
-                best = score, score / float(sizes[k]), found.model.free[k].name, where
-    if best is None:
-        return None
-    score, change, name, where = best
-    return Departure(name, where, change, score, looks)
+            seen.append((found.model.free[k].name, where, score / float(sizes[k]), score))
+    return [Departure(*one, looks=len(seen)) for one in seen]
 
 
 def _parts(found: Fit) -> Iterator[tuple[str, NDArray[np.bool_]]]:

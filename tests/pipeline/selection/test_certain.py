@@ -76,6 +76,19 @@ def test_each_pattern_more_leaves_less_and_the_right_one_leaves_noise() -> None:
     assert left[1] < fit.degrees + 4.0 * np.sqrt(2.0 * fit.degrees) < left[0]
 
 
+def test_friction_at_one_angle_alone_is_not_certain_to_be_the_friction_of_a_hinge() -> None:
+    """Far more is left without it, and half of the tests would have none of it."""
+    ids = ("axial_held_q+0", "swing_q+0", "swing_q+30", "axial_held_q+30")
+    stuck, free = bench("joint_friction.torque_Nmm", 1000.0, ids), bench(ids=ids)
+    pairs = zip(stuck.tests, free.tests, strict=True)
+    tests = tuple(one if one.q > 0.3 else other for one, other in pairs)
+    known = {name: catalogue()[name] for name in ("bar_geometric_nonlinearity", "joint_friction")}
+    found = diagnose(replace(stuck, tests=tests), Model(), known)
+    assert found.verdict == "unknown" and "joint_friction" in found.sets[0] and not found.certain
+    # With the same friction in all of them a rest that is not explained leaves it certain.
+    assert diagnose(rippled(stuck), Model(), known).certain == ("joint_friction",)
+
+
 class Narrow(ModulusError):
     parameters = (replace(ModulusError.parameters[0], low=0.98, high=1.02),)
 

@@ -81,6 +81,16 @@ def test_a_sigma_that_is_wrong_by_two_does_not_decide() -> None:
     assert any("scatters by" in said for said in found.sentences)
 
 
+def test_sigmas_that_are_all_somewhat_too_small_are_told_as_what_they_may_be() -> None:
+    """By a quarter: too little to count the scatter in their place, and more than noise leaves."""
+    it = bench(ids=IDS, seed=3)
+    found = answer(replace(it, noise=it.noise.times(np.full(12 + len(it.gauges), 0.8))))
+    assert found.verdict == "unknown" and not found.noise
+    (said,) = [said for said in found.sentences if "would explain it" in said]
+    assert f"sigmas that are {100.0 * (found.error[-1].fit - 1.0):.0f} % larger" in said and "Repeat one step" in said
+    assert not any("would explain it. Repeat" in said for said in plain_answer().sentences)
+
+
 def test_a_search_without_a_reading_begins_where_the_one_with_it_ended() -> None:
     """A controlled reading at that, in whose row nothing is compared any more."""
     it, base, nothing = plain(), frozenset({"bar_geometric_nonlinearity"}), Model()
