@@ -83,7 +83,8 @@ def answer_of(it: Diagnosis, found: Fit | None = None) -> Answer:
         at_bound=it.decision.at_bound,
         out_by_plausibility=tuple((*cache.base.names, *cache.order(n)) for n in it.decision.out),
         set_aside=tuple(
-            SetAside(test=b.test, step=b.step, column=b.column, sigma=b.sigmas) for b in it.readings.bad
+            SetAside(test=b.test, step=b.step, column=b.column, sigma=b.sigmas, instead=b.instead)
+            for b in it.readings.bad
         ),
         noise=(*_other_noise(it), *_correlated(it)),
         as_declared=None if it.readings.plain else it.with_all,

@@ -44,6 +44,8 @@ class SetAside(Record):
     """Its column."""
     sigma: float
     """By how many of its sigmas it is off."""
+    instead: tuple[str, ...] = ()
+    """Columns of the same step of which one may be off in its place: what the row says of both is the same."""
 
 
 class FoundNoise(Record):

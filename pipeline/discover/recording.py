@@ -53,7 +53,8 @@ def recorded(found: Discovery, whole: LoadCases, seconds: float) -> Discovered:
         next_site=None if top is None else top.site.name,
         next_evidence=found.last.best,
         set_aside=tuple(
-            SetAside(test=it.test, step=it.step, column=it.column, sigma=it.sigmas) for it in found.bad
+            SetAside(test=it.test, step=it.step, column=it.column, sigma=it.sigmas, instead=it.instead)
+            for it in found.bad
         ),
         not_done=tuple(attempts.failed),
         seconds=round(seconds, 3),

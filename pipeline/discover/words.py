@@ -91,7 +91,8 @@ def said_of(it: LawFound) -> Iterator[str]:
 def _last(it: Discovered) -> Iterator[str]:
     if it.set_aside:
         some = ", ".join(
-            f"{e.column} in {e.test} step {e.step} ({sigma(e.sigma)})" for e in it.set_aside[:MANY]
+            f"{' or '.join([e.column, *e.instead])} in {e.test} step {e.step} ({sigma(e.sigma)})"
+            for e in it.set_aside[:MANY]
         )
         more = f" and {len(it.set_aside) - MANY} more" if len(it.set_aside) > MANY else ""
         yield f"Set aside as single bad readings, off by so many of their sigmas: {some}{more}."

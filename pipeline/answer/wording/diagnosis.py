@@ -7,7 +7,7 @@ from math import sqrt
 from typing import Any
 
 from pipeline.answer.evidence import Evidence, Explained
-from pipeline.answer.record import Answer
+from pipeline.answer.record import Answer, SetAside
 from pipeline.answer.wording.added import limits, written
 from pipeline.answer.wording.doctor import doctor_sentence, mends
 from pipeline.parameter_names import parted
@@ -124,7 +124,8 @@ def _aside(it: Answer, evidence: Evidence) -> Iterator[str]:
     """What was found of the readings themselves, and the verdict with all of them as they were declared."""
     if it.set_aside:
         told = ", ".join(
-            f"{b.column} at step {b.step} of {b.test} ({sigma(b.sigma)} sigma)" for b in it.set_aside
+            f"{b.column} at step {b.step} of {b.test} ({sigma(b.sigma)} sigma{_or_else(b)})"
+            for b in it.set_aside
         )
         each = "they are" if len(it.set_aside) > 1 else "it is"
         yield f"Set aside, for {each} off alone and what is beside is not: {told}."
@@ -143,6 +144,10 @@ def _aside(it: Answer, evidence: Evidence) -> Iterator[str]:
     if it.as_declared is not None:
         by = ", by the best single effect" if evidence.as_declared_of_one else ""
         yield f"With all readings and sigmas as they are declared the verdict would be {it.as_declared}{by}."
+
+
+def _or_else(bad: SetAside) -> str:
+    return f", or {' or '.join(bad.instead)} of that step in its place" if bad.instead else ""
 
 
 def _limits(it: Answer, _: Evidence) -> Iterator[str]:

@@ -40,16 +40,20 @@ FLAT = 0.1
 wherever it is."""
 FOR_NEITHER = 2.0 * float(np.log(2.0))
 """Twice the logarithm by which one explanation of a row has to be likelier than another."""
+TOLD_APART = 2.0 * float(np.log(20.0))
+"""The same from which the other one is out of the question."""
 
 
 @dataclass(frozen=True)
 class BadReading:
-    """One reading by the id of its test, its step and its column. sigmas: by how many of its own it is off."""
+    """One reading by the id of its test, its step and its column. sigmas: by how many of its own it is off. instead:
+    columns of the same row of which one may be off in its place."""
 
     test: str
     step: int
     column: str
     sigmas: float
+    instead: tuple[str, ...] = ()
 
     @property
     def cell(self) -> tuple[str, int, str]:
@@ -133,7 +137,8 @@ def bad_readings(found: Fit, criteria: Criteria) -> tuple[BadReading, ...]:
         )
         if np.all(np.abs(beside) < criteria.bad_neighbours) and rest.max() < 1.0:
             off = float(shifts.scores[row, number] / shifts.lengths[row, number])
-            out.append(_named(found, row, int(shifts.of.channels[row, number]), off))
+            instead = _not_told_apart(look, shifts, sizes[row])
+            out.append(_named(found, row, int(shifts.of.channels[row, number]), off, instead))
             shifts = look.less
     return tuple(out)
 
@@ -185,18 +190,31 @@ def _scales(shifts: _Shifts) -> Array:
     return out
 
 
+def _likely(sizes: Array, lengths: Array) -> Array:
+    """Twice the logarithm of what is likely, of the readings of a row (M,) by their t; minus infinity where there is
+    none. With a shift of d = t / |c'| sigmas as rare as 1 / d², and known to 1 / |c'|, it is t² - 2 ln d, but for what
+    is nearly the same for all."""
+    off = np.where(sizes > 0.0, sizes / lengths, 1.0)
+    return np.where(sizes > 0.0, sizes**2 - 2.0 * np.log(off), -np.inf)
+
+
 def _likeliest(sizes: Array, lengths: Array, channels: int) -> int:
     """Of the readings of a row (M,), by their t; the first so many are read only, the others were prescribed.
 
     What is prescribed and what answers to it may say the same of a row: then it is the one that is off by fewer of its
-    own sigmas. With a shift of d = t / |c'| sigmas as rare as 1 / d², and known to 1 / |c'|, twice the logarithm of
-    what is likely is t² - 2 ln d, but for what is nearly the same for all. Where that speaks for neither it is what was
-    read only: then the row stays.
+    own sigmas. Where that speaks for neither it is what was read only: then the row stays.
     """
-    off = np.where(sizes > 0.0, sizes / lengths, 1.0)
-    likely = np.where(sizes > 0.0, sizes**2 - 2.0 * np.log(off), -np.inf)
+    likely = _likely(sizes, lengths)
     likely[channels:] -= FOR_NEITHER
     return int(np.argmax(likely))
+
+
+def _not_told_apart(look: _Look, shifts: _Shifts, sizes: Array) -> list[int]:
+    """Channels of the readings of its row that explain it as well."""
+    likely = _likely(sizes, shifts.lengths[look.row])
+    near = np.flatnonzero(likely > likely[look.number] - TOLD_APART)
+    of = shifts.of.channels[look.row]
+    return sorted({int(of[k]) for k in near} - {int(of[look.number])})
 
 
 def _beside(shifts: _Shifts, row: int, number: int, scores: Array) -> Array:
@@ -207,11 +225,12 @@ def _beside(shifts: _Shifts, row: int, number: int, scores: Array) -> Array:
     return np.concatenate([scores[k][shifts.of.channels[k] == channel] for k in rows] or [np.zeros(0)])
 
 
-def _named(found: Fit, row: int, channel: int, off: float) -> BadReading:
+def _named(found: Fit, row: int, channel: int, off: float, instead: list[int]) -> BadReading:
     whole = found.residual.load_cases
     test = whole.campaign.tests[whole.test[row]]
     step = int(test.data.steps[row - whole.first[whole.test[row]]])
-    return BadReading(test.id, step, channel_columns(whole.campaign.gauges)[channel], off)
+    names = channel_columns(whole.campaign.gauges)
+    return BadReading(test.id, step, names[channel], off, tuple(names[k] for k in instead))
 
 
 def set_aside(campaign: Campaign, bad: tuple[BadReading, ...]) -> Campaign:

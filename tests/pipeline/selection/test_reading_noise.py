@@ -87,7 +87,10 @@ def test_sigmas_that_are_all_somewhat_too_small_are_told_as_what_they_may_be() -
     found = answer(replace(it, noise=it.noise.times(np.full(12 + len(it.gauges), 0.8))))
     assert found.verdict == "unknown" and not found.noise
     (said,) = [said for said in found.sentences if "would explain it" in said]
-    assert f"sigmas that are {100.0 * (found.error[-1].fit - 1.0):.0f} % larger" in said and "Repeat one step" in said
+    assert (
+        f"sigmas that are {100.0 * (found.error[-1].fit - 1.0):.0f} % larger" in said
+        and "Repeat one step" in said
+    )
     assert not any("would explain it. Repeat" in said for said in plain_answer().sentences)
 
 

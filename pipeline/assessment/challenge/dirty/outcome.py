@@ -102,7 +102,11 @@ def _of_readings(it: DirtyCase, answer: Diagnosis, knocks: tuple[Knock, ...]) ->
     record = answer_of(answer)
     tests = {test.id: k for k, test in enumerate(it.bench.plan)}
     columns = answer.cache.whole.rows.columns
-    aside = {(tests[a.test], int(a.step), columns.index(a.column)) for a in record.set_aside}
+    # One that may be another of its step is found where either was knocked.
+    aside = {
+        frozenset((tests[a.test], int(a.step), columns.index(name)) for name in (a.column, *a.instead))
+        for a in record.set_aside
+    }
     # Of those that a model predicts or that control it, in tests that may be fitted.
     made = {(k.test, k.row, k.channel) for k in knocks if not it.bench.plan[k.test].holdout}
     off = np.flatnonzero(it.dirt.declared != 1.0)
@@ -112,8 +116,8 @@ def _of_readings(it: DirtyCase, answer: Diagnosis, knocks: tuple[Knock, ...]) ->
         "knocked": len(made),
         "readings": int(np.isfinite(answer.cache.whole.measured[answer.cache.whole.fitted]).sum())
         + len(aside),
-        "knocked_found": len(aside & made),
-        "good_aside": len(aside - {(k.test, k.row, k.channel) for k in knocks}),
+        "knocked_found": sum(bool(cells & made) for cells in aside),
+        "good_aside": sum(not cells & {(k.test, k.row, k.channel) for k in knocks} for cells in aside),
         "declared_found": bool(ratios) and all(1 / 1.5 < r < 1.5 for r in ratios) if off.size else None,
     }
 

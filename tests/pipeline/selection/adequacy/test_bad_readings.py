@@ -107,6 +107,16 @@ def test_what_was_prescribed_may_be_misread_as_well() -> None:
     assert bad.cell in (cell, (IDS[0], 4, "x_mm"))
 
 
+def test_two_readings_that_say_the_same_of_their_step_are_both_told() -> None:
+    """A platform on parallel bars goes along a circle: where z was prescribed, x tells of z alone."""
+    for column in ("x_mm", "z_mm"):
+        (bad,) = bad_readings(fitted(knocked(campaign(), {(IDS[2], 4, column): 60.0})), CRITERIA)
+        assert {bad.column, *bad.instead} == {"x_mm", "z_mm"}
+    # A force that is read only stands alone.
+    (bad,) = bad_readings(fitted(knocked(campaign(), {(IDS[1], 5, "mz_Nmm"): 40.0})), CRITERIA)
+    assert bad.column == "mz_Nmm" and not bad.instead
+
+
 def test_a_run_is_none() -> None:
     """Three steps in a row: a shape, not a single reading."""
     it = knocked(campaign(), {(IDS[1], step, "mz_Nmm"): 20.0 for step in (4, 5, 6)})
