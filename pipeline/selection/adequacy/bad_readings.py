@@ -40,8 +40,6 @@ FLAT = 0.1
 wherever it is."""
 FOR_NEITHER = 2.0 * float(np.log(2.0))
 """Twice the logarithm by which one explanation of a row has to be likelier than another."""
-TOLD_APART = 2.0 * float(np.log(20.0))
-"""The same from which the other one is out of the question."""
 
 
 @dataclass(frozen=True)
@@ -137,7 +135,7 @@ def bad_readings(found: Fit, criteria: Criteria) -> tuple[BadReading, ...]:
         )
         if np.all(np.abs(beside) < criteria.bad_neighbours) and rest.max() < 1.0:
             off = float(shifts.scores[row, number] / shifts.lengths[row, number])
-            instead = _not_told_apart(look, shifts, sizes[row])
+            instead = _not_told_apart(look, shifts, sizes[row], criteria)
             out.append(_named(found, row, int(shifts.of.channels[row, number]), off, instead))
             shifts = look.less
     return tuple(out)
@@ -209,10 +207,10 @@ def _likeliest(sizes: Array, lengths: Array, channels: int) -> int:
     return int(np.argmax(likely))
 
 
-def _not_told_apart(look: _Look, shifts: _Shifts, sizes: Array) -> list[int]:
-    """Channels of the readings of its row that explain it as well."""
+def _not_told_apart(look: _Look, shifts: _Shifts, sizes: Array, criteria: Criteria) -> list[int]:
+    """Channels of the readings of its row that explain it as well, as a rival of an effect would."""
     likely = _likely(sizes, shifts.lengths[look.row])
-    near = np.flatnonzero(likely > likely[look.number] - TOLD_APART)
+    near = np.flatnonzero(likely > likely[look.number] - criteria.exclusion)
     of = shifts.of.channels[look.row]
     return sorted({int(of[k]) for k in near} - {int(of[look.number])})
 
