@@ -104,8 +104,10 @@ def _at_first(cache: FitCache, begun: list[Names], again: Again) -> Readings:
     more than all that an effect explains: then the effects are looked at again without those that are seen first."""
     given = cache.whole
     new = _beside_one(cache, begun, AS_DECLARED, given)
-    if new.settled or not new.it.bad:
+    if new.settled:
         return new.it
+    if not new.it.bad:
+        return AS_DECLARED
     without = Readings(new.it.bad)
     cache = again(without.applied(given.campaign), cache)
     new = _beside_one(cache, singles_first(cache), without, given)

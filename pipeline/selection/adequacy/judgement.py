@@ -15,6 +15,7 @@ from pipeline.inference.noise import lag_one
 from pipeline.inference.rounding import EQUAL
 from pipeline.selection.adequacy.constancy import largest_departure
 from pipeline.selection.adequacy.patterns import scores
+from pipeline.selection.adequacy.whiteness import paths
 from pipeline.selection.criteria import CRITERIA, Criteria
 from reports.quantities import percent, short, sigma
 
@@ -107,25 +108,20 @@ def _order(found: Fit, criteria: Criteria) -> Check:
 
 def _paths(found: Fit) -> dict[tuple[int, int], Array]:
     """Whitened residual of every fitted test and channel, by numbers of both."""
-    rows = found.residual.rows
-    tests = found.residual.load_cases.test[rows[:, 0]]
-    out: dict[tuple[int, int], Array] = {}
-    for test, channel in np.unique(np.stack([tests, rows[:, 1]], axis=1), axis=0):
-        out[(int(test), int(channel))] = found.whitened[(tests == test) & (rows[:, 1] == channel)]
-    return out
+    return {key: found.whitened[rows] for key, rows in paths(found).items()}
 
 
 def _series(found: Fit, scatter: float, level: float) -> Check:
     """The worst of all tests and channels."""
-    paths = _paths(found)
+    every = _paths(found)
     worst, p = max(
-        ((key, chi2.sf(np.sum(r**2) / scatter**2, r.size)) for key, r in paths.items()), key=lambda it: -it[1]
+        ((key, chi2.sf(np.sum(r**2) / scatter**2, r.size)) for key, r in every.items()), key=lambda it: -it[1]
     )
     whole = found.residual.load_cases
-    rms = float(np.sqrt(np.mean(paths[worst] ** 2)))
+    rms = float(np.sqrt(np.mean(every[worst] ** 2)))
     name = column_name(worst[1], whole.campaign.gauges)
     words = f"{name} in test {whole.campaign.tests[worst[0]].id} is off by {sigma(rms)} sigma"
-    return Check("series", float(min(1.0, p * len(paths))), words, level)
+    return Check("series", float(min(1.0, p * len(every))), words, level)
 
 
 def _patterns(found: Fit, scatter: float, criteria: Criteria) -> Check:

@@ -30,18 +30,21 @@ FEWEST = 3
 
 def white(found: Fit, criteria: Criteria) -> bool:
     """Whether noise may have left it, of the fitted tests; true where too few rows are left to say."""
-    series = paths(found)
+    series = list(paths(found).values())
     taken = basis(found.jacobian)[np.concatenate(series)] if series else np.zeros((0, 0))
     scores = departures([found.whitened[rows] for rows in series], taken)
     return all(2.0 * norm.sf(abs(score)) * len(LAGS) >= criteria.check_level for score in scores)
 
 
-def paths(found: Fit) -> list[NDArray[np.int64]]:
-    """Places in the whitened residual of every fitted test and channel, in the order of the steps."""
+def paths(found: Fit) -> dict[tuple[int, int], NDArray[np.int64]]:
+    """Places in the whitened residual of every fitted test and channel, by numbers of both, in the order of steps."""
     rows = found.residual.rows
     tests = found.residual.load_cases.test[rows[:, 0]]
     keys, place = np.unique(np.stack([tests, rows[:, 1]], axis=1), axis=0, return_inverse=True)
-    return [np.flatnonzero(place.ravel() == k) for k in range(len(keys))]
+    return {
+        (int(test), int(channel)): np.flatnonzero(place.ravel() == k)
+        for k, (test, channel) in enumerate(keys)
+    }
 
 
 def departures(series: Sequence[Array], taken: Array) -> list[float]:
