@@ -2,7 +2,7 @@
 
 A fault adds e(y) to a reading y. Of a column that is predicted, the prediction becomes y + e(y). Of one that controls
 a coordinate, what was really done is the y that makes y + e(y) the reading, which acts through the mechanism. Faults
-are small: how they change the derivatives by everything else is left out.
+are small: how they change the derivatives by everything else is left out, but where a reading stands still.
 """
 
 from __future__ import annotations
@@ -53,21 +53,25 @@ def faulted(model: Model, load_cases: LoadCases, found: Prediction) -> Predictio
     if not terms:
         return found
     read = _as_read(load_cases, found)
-    values, by_free = found.values.copy(), found.by_free.copy()
+    values, by_free, by_inputs = found.values.copy(), found.by_free.copy(), found.by_inputs.copy()
     for term in terms:
         channel = _channel(load_cases, term)
         rows, coordinates = _controlled(load_cases, term)
         free = np.ones(len(values), dtype=bool)
         free[rows] = False
         values[free, channel] += _error(term, read, load_cases)[free]
+        still, last = _still(term, read, load_cases, free)
+        by_inputs[still, channel] = 0.0
+        by_free[still, channel] = by_free[last, channel]
         for number, column, done in _slopes(term, read, load_cases, model) if by_free.shape[-1] else ():
             by_free[..., number] = 0.0
             by_free[free, channel, number] = column[free]
             through = found.by_inputs[rows, :, coordinates] * done[rows][:, None]
             by_free[rows, :, number] -= through
     lost = found.lost
-    values[lost], by_free[lost] = found.values[lost], found.by_free[lost]
-    return replace(found, values=values, by_free=by_free)
+    for part, before in ((values, found.values), (by_free, found.by_free), (by_inputs, found.by_inputs)):
+        part[lost] = before[lost]
+    return replace(found, values=values, by_free=by_free, by_inputs=by_inputs)
 
 
 def _channel(load_cases: LoadCases, term: Term) -> int:
@@ -95,6 +99,18 @@ def _as_read(load_cases: LoadCases, found: Prediction) -> Array:
 def _error(term: Term, read: Array, load_cases: LoadCases) -> Array:
     assert isinstance(term.effect, SensorFault)
     return term.effect.error(read, load_cases.rows, term.values)
+
+
+def _still(
+    term: Term, read: Array, load_cases: LoadCases, free: NDArray[np.bool_]
+) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+    """Rows that are free to be read and in which the sensor of a fault stands still, and the rows that moved it last.
+
+    Such a reading answers to nothing of its own step, and to the model as in the step that moved it."""
+    assert isinstance(term.effect, SensorFault)
+    last = term.effect.follows(read, load_cases.rows, term.values)
+    still = np.flatnonzero((last != np.arange(len(last))) & free)
+    return still, last[still]
 
 
 def _error_of_input(term: Term, read: Array, load_cases: LoadCases) -> Array:

@@ -68,7 +68,9 @@ def least_with_a_fault(cache: FitCache, names: Names, known: Iterable[Effect]) -
     there = cache.with_candidates({**beside, **every}).first_order(names)
     falls = [0.0]
     for name in every:
-        if name in there.signatures:
+        if name in there.signatures and not every[name].smooth:
+            falls.append(there.gain([name]).value)
+        elif name in there.signatures:
             fall, sizes = there.alone(name)
             most = [max(-p.low, p.high) / p.typical for p in every[name].parameters]
             within = np.abs(sizes) <= np.minimum(most, cache.criteria.plausible)

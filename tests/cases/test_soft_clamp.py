@@ -77,22 +77,24 @@ def measured(
     middle: bool = True,
     knock: tuple[str, int, float] = ("", 0, 0.0),
     lost: float = 0.0,
+    play: float = 0.0,
     loads: dict[str, tuple[int, ...]] = LOADS,
 ) -> Path:
     """The folder of such a bench. thinner: share of the thickness. offset: mm that the dial along y began with. knock:
     direction and step at which the dial at the tip was knocked, and by how many mm. lost: rad by which the clamp gives
-    way to any load."""
+    way to any load. play: mm by which the dial at the tip along y is late where the motion turns."""
     rng = np.random.default_rng(7)
     rows = ["test,step,y_mm,z_mm,my_mm,mz_mm,fy_N,fz_N"]
     for way, steps in loads.items():
         rigidity = RIGIDITY[way] * thinner ** (3 if way == "y" else 1)
+        late = np.where(np.diff(steps, prepend=0) < 0, play, 0.0)
         for step, load in enumerate(steps):
             force = load + rng.normal(0.0, 0.1)
             tip, half = (
                 give(force, rigidity, a, clamp) + lost * np.sign(load) * a + rng.normal(0.0, SIGMA)
                 for a in (LENGTH, LENGTH / 2.0)
             )
-            tip += offset if way == "y" else 0.0
+            tip += late[step] + offset if way == "y" else 0.0
             tip += knock[2] if (way, step) == knock[:2] else 0.0
             half_said = f"{half:.6f}" if middle else ""
             cells = (f"{tip:.6f}", "", half_said, "") if way == "y" else ("", f"{tip:.6f}", "", half_said)
@@ -135,6 +137,13 @@ def test_one_knocked_reading_of_some_thirty_rows_changes_nothing(
     assert (found.verdict, found.added) == ("identified", ("base_compliance",))
     cells = [(it.test, it.step, it.column) for it in found.set_aside]
     assert cells == [(f"along_{knock[0]}", knock[1], f"{knock[0]}_mm")] and not found.noise
+
+
+def test_a_dial_with_backlash_is_not_one_that_follows_late(tmp_path: Path) -> None:
+    """It was set against the first motion, so that all of the backlash shows on the way back, and as much at any load."""
+    twice = {"y": (0, 20, 40, 50, 30, 0, 30, 50, 10, 0), "z": LOADS["z"]}
+    found = said(measured(tmp_path / "a", 0.0, play=0.04, loads=twice))
+    assert (found.verdict, found.added) == ("identified", ("sensor_backlash@y_mm",))
 
 
 def test_lost_motion_of_a_clamp_is_no_noise(tmp_path: Path) -> None:

@@ -50,18 +50,26 @@ class SensorFault(Effect):
     def error(self, readings: Array, rows: Rows, values: Values) -> Array:
         """(R,) what its column reads too much, of readings (R, C) as they would be without the fault."""
 
+    def follows(self, readings: Array, rows: Rows, values: Values) -> NDArray[np.int64]:
+        """(R,) the row whose motion each reading follows: its own, or the last that moved it where it stands still.
+
+        readings: (R, C) as they would be without the fault."""
+        return np.arange(len(readings))
+
     def at(self, column: str) -> Self:
         """The fault of the sensor of a column. ValueError for a name that is none."""
         unit = column.rpartition("_")[2]
         if unit not in RESOLVED:
             raise ValueError(f"{column!r} is no column of readings")
         other = copy.copy(self)
+        scale = self.factor(unit) * RESOLVED[unit]
         # A class has the kind of fault, an object that of one sensor.
         vars(other).update(
+            probes=tuple(value * scale for value in type(self).probes),
             column=column,
             name=f"{type(self).name}@{column}",
             title=f"{type(self).title}: {column}",
-            parameters=tuple(_of_unit(p, unit, self.factor(unit)) for p in type(self).parameters),
+            parameters=tuple(_of_unit(p, unit, scale) for p in type(self).parameters),
         )
         return other
 
@@ -125,10 +133,10 @@ SIZE = Parameter("size", "of the column", 0.0, 10.0, -1e5, 1e5, "error of the re
 """A size in the unit of the column: its typical value and bounds are in what a good sensor tells apart."""
 
 
-def _of_unit(parameter: Parameter, unit: str, factor: float) -> Parameter:
+def _of_unit(parameter: Parameter, unit: str, scale: float) -> Parameter:
     if parameter.unit != SIZE.unit:
         return parameter
-    return replace(parameter, unit=UNITS.get(unit, unit)).times(factor * RESOLVED[unit])
+    return replace(parameter, unit=UNITS.get(unit, unit)).times(scale)
 
 
 def lagged(values: Array, rows: Rows, keeps: float) -> Array:

@@ -71,6 +71,8 @@ def _errors(
         ]
     if kind == "sensor_lag":
         return [_late(one[:, 0], values["keeps"]) - one[:, 0] for one in readings]
+    if kind == "sensor_backlash":
+        return [_dragged(one[:, 0], values["gap"], values["start"]) - one[:, 0] for one in readings]
     raise InputError(f"{kind} is no fault of a sensor that the bench has")
 
 
@@ -79,3 +81,14 @@ def _late(values: Array, keeps: float) -> Array:
     count = len(values)
     weights = (1.0 - keeps) * keeps ** np.arange(count)
     return np.asarray(np.convolve(values, weights)[:count])
+
+
+def _dragged(values: Array, gap: float, start: float) -> Array:
+    """The greatest that the near side of the gap has reached at any step, at most the least of its far side since."""
+    near, far = values - gap * (1.0 - start) / 2.0, values + gap * (1.0 + start) / 2.0
+    near[0] = far[0] = values[0]
+    out = np.empty_like(values)
+    for n in range(len(values)):
+        least = np.minimum.accumulate(far[n::-1])[::-1]
+        out[n] = np.minimum(near[: n + 1], least).max()
+    return out

@@ -30,6 +30,8 @@ HIDDEN = {
     "sensor_settling@fy_N": {"size": 8.0, "steps": 2.5},
     "sensor_lag@x_mm": {"keeps": 0.1},
     "sensor_cross_talk@mz_Nmm<fx_N": {"share": 0.02},
+    "sensor_backlash@fz_N": {"gap": 9.0, "start": 0.5},
+    "sensor_backlash@x_mm": {"gap": 0.02, "start": -0.6},
 }
 """Two of them of columns that control a coordinate in all or in some tests."""
 PLAIN = Model().with_effects(named_effects([ALWAYS], catalogue()))

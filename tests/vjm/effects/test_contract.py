@@ -79,7 +79,7 @@ def test_an_effect_explains_itself(name: str) -> None:
 
 def test_the_catalogue_has_the_names_of_the_contract() -> None:
     found = catalogue()
-    assert len(found) == 26
+    assert len(found) == 27
     for name, parameters in CANONICAL.items():
         assert set(parameters) <= {p.name for p in found[name].parameters}
 

@@ -9,6 +9,7 @@ import pytest
 
 from tests.vjm.effects.bench import BAR, PARALLELOGRAM
 from vjm.effects import catalogue, effect_named, effect_of, for_kind
+from vjm.effects.sensor_backlash import SensorBacklash
 from vjm.effects.sensor_cross_talk import SensorCrossTalk
 from vjm.effects.sensor_drift import SensorDrift
 from vjm.effects.sensor_fault import RESOLVED, Rows, SensorFault
@@ -29,7 +30,9 @@ READINGS = np.random.default_rng(3).normal(size=(7, 5)) * (1.0, 1e-3, 50.0, 900.
 
 
 def test_they_are_found_and_are_no_effects_of_a_mechanism() -> None:
-    assert set(KINDS) == {f"sensor_{it}" for it in ("gain", "drift", "settling", "cross_talk", "lag")}
+    assert set(KINDS) == {
+        f"sensor_{it}" for it in ("gain", "drift", "settling", "cross_talk", "lag", "backlash")
+    }
     for kind in ("parallelogram", "bar", "manipulator"):
         assert not set(KINDS) & set(for_kind(kind))
 
@@ -88,6 +91,30 @@ def test_lag_keeps_a_part_of_the_last_reading() -> None:
     steps[:, 4] = 1.0
     error = SensorLag().at("mid_mm").error(steps, ROWS, {"keeps": 0.5})
     np.testing.assert_allclose(error, [-0.5, -0.25, -0.125, -0.5, -0.25, -0.125, -0.0625], rtol=1e-14)
+
+
+@pytest.mark.parametrize(
+    ("start", "expected"),
+    [(0.0, [-1, -1, 1, 1, -1, 1]), (1.0, [0, 0, 2, 2, 0, 2]), (-0.5, [-1.5, -1.5, 0.5, 0.5, -1.5, 0.5])],
+)
+def test_backlash_is_a_loop_of_one_width(start: float, expected: list[float]) -> None:
+    steps = np.zeros((7, 5))
+    steps[:, 4] = 7.0, 10.0, 20.0, 10.0, -10.0, 10.0, -20.0
+    rows = Rows(np.zeros(7, dtype=int), np.arange(7.0), np.linspace(0.0, 1.0, 7), COLUMNS)
+    values = {"gap": 2.0, "start": start}
+    it = SensorBacklash().at("mid_mm")
+    np.testing.assert_allclose(it.error(steps, rows, values), [0.0, *expected], rtol=1e-14)
+    np.testing.assert_array_equal(it.follows(steps, rows, values), np.arange(7))
+
+
+def test_a_motion_within_the_backlash_is_not_read_and_each_test_begins_at_its_first_row() -> None:
+    steps = np.zeros((7, 5))
+    steps[:, 0] = 5.0, 5.9, 4.1, -5.0, -3.5, -4.4, -6.6
+    values = {"gap": 2.0, "start": 0.0}
+    it = SensorBacklash().at("x_mm")
+    read = it.error(steps, ROWS, values) + steps[:, 0]
+    np.testing.assert_allclose(read, [5.0, 5.0, 5.0, -5.0, -4.5, -4.5, -5.6], rtol=1e-14)
+    np.testing.assert_array_equal(it.follows(steps, ROWS, values), [0, 0, 0, 3, 4, 4, 6])
 
 
 def test_cross_talk_is_in_what_good_sensors_tell_apart() -> None:

@@ -60,7 +60,7 @@ def test_a_number_is_always_the_same_case_and_kinds_come_in_turn() -> None:
     assert [it.kind for it in every[:20]] == list(ROUND)
     assert {len(it.effects) for it in every if it.kind == "triple"} == {3}
     assert {next(iter(it.effects)).partition("@")[0] for it in every if it.kind == "sensor"} == {
-        f"sensor_{kind}" for kind in ("gain", "drift", "settling", "cross_talk", "lag")
+        f"sensor_{kind}" for kind in ("gain", "drift", "settling", "cross_talk", "lag", "backlash")
     }
     # Nobody's bar is as drawn, and none is farther off than 3 %.
     off = np.array([it.dirt.bar - 1.0 for it in every])

@@ -23,6 +23,8 @@ VALUES = {
     "sensor_drift@mid_mm": {"size": 0.03},
     "sensor_settling@rz_rad": {"size": 1e-4, "steps": 2.3},
     "sensor_lag@x_mm": {"keeps": 0.15},
+    "sensor_backlash@y_mm": {"gap": 0.02, "start": 0.4},
+    "sensor_backlash@fy_N": {"gap": 9.0, "start": -1.0},
     "sensor_cross_talk@mx_Nmm<fx_N": {"share": 0.04},
 }
 
