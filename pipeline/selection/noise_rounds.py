@@ -72,11 +72,12 @@ def settled(cache: FitCache, again: Again, attempts: Attempts) -> Settled:
 
 
 def with_faults(before: Settled, known: Iterable[Effect], again: Again) -> Settled:
-    """With faults of sensors among the effects, where that leaves noise and nothing else does; none of sensors that
-    are vouched for. known: effects, kinds of such faults among them."""
+    """With faults of sensors among the effects, where that leaves noise and nothing else does, or where only with one
+    of them the readings are near to an explanation; none of sensors that are vouched for. Where no work is left, one
+    fault beside what is there or not is all that is looked at. known: effects, kinds of such faults among them."""
     it = before.it
     cache, best = it.found.cache, it.found.best
-    if it.untested or it.decision.verdict != "unknown" or cache.whole.campaign.vouched or cache.worn_out:
+    if it.untested or it.decision.verdict != "unknown" or cache.whole.campaign.vouched:
         return before
     if judge(cache.fit(best), cache.criteria).noise:
         return before
@@ -88,15 +89,25 @@ def with_faults(before: Settled, known: Iterable[Effect], again: Again) -> Settl
     def with_these(campaign: Campaign, near: FitCache) -> FitCache:
         return again(campaign, near).with_candidates(more.candidates)
 
-    first = more if before.readings.plain else with_these(before.given.campaign, more)
-    new = settled(first, with_these, Attempts())
-    named = new.it.found
-    if (
-        not has_one_fault(named.cache, named.best)
-        or not judge(named.cache.fit(named.best), cache.criteria).noise
-    ):
+    if cache.worn_out:
+        attempts = Attempts()
+        new = replace(before, it=chosen(more, attempts, alone=True), attempts=attempts)
+    else:
+        first = more if before.readings.plain else with_these(before.given.campaign, more)
+        new = settled(first, with_these, Attempts())
+    if not _explains_more(new.it, it):
         return before
     return replace(new, with_all=before.with_all, alone=before.alone)
+
+
+def _explains_more(new: Chosen, old: Chosen) -> bool:
+    """Whether a choice with the fault of one sensor leaves noise, or is near to it where the other one is far."""
+    found, criteria = new.found, new.found.cache.criteria
+    if not has_one_fault(found.cache, found.best):
+        return False
+    left = found.cache.fit(found.best)
+    far = old.found.cache.fit(old.found.best).rms > criteria.far
+    return judge(left, criteria).noise or (far and left.rms <= criteria.far)
 
 
 def _at_first(cache: FitCache, begun: list[Names], again: Again) -> Readings:
