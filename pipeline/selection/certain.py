@@ -2,7 +2,8 @@
 
 For an effect of the best set the rival is the best set without it, other effects allowed. Both may have patterns of
 sensors (`falls`): the best set as many as its rest needs to look like noise, the rival two
-more. The effect is certain where the rival is still worse by far.
+more. The effect is certain where the rival is still worse by far. The rival of a sensor's fault has no pattern that is
+that fault.
 """
 
 from __future__ import annotations
@@ -10,6 +11,7 @@ from __future__ import annotations
 from collections.abc import Collection, Iterator
 
 import numpy as np
+from numpy.typing import NDArray
 
 from pipeline.inference.fit import Fit
 from pipeline.inference.model import at_bound
@@ -22,9 +24,11 @@ from pipeline.selection.criteria import Criteria
 from pipeline.selection.first_order_costs import estimates
 from pipeline.selection.fit_cache import FitCache, Names
 from pipeline.selection.rivals import Found
+from vjm.effects.sensor_fault import SensorFault
 
+Array = NDArray[np.float64]
 NEW = 0.1
-"""Part of a pattern that must be left when those that were chosen are taken out of it."""
+"""Part of a pattern that must be left when those that were chosen are taken out of it, and a fault that it is not."""
 
 
 def certain(found: Found, sets: tuple[Names, ...], doubted: Collection[str] = ()) -> tuple[str, ...]:
@@ -65,7 +69,8 @@ def _inconstant(fit: Fit, criteria: Criteria) -> Iterator[str]:
 def _beaten(cache: FitCache, best: Names, name: str, patterns: int, least: float) -> bool:
     """Whether every rival without an effect leaves more than this with so many patterns."""
     for rival in _rivals(cache, best, name):
-        left = falls(cache.fit(rival), cache.criteria, patterns)
+        found = cache.fit(rival)
+        left = falls(found, cache.criteria, patterns, _own(found, cache.fit(best), name))
         if misfit(cache, rival) - left[0] + left[-1] < least:
             return False
     return True
@@ -84,13 +89,29 @@ def _rivals(cache: FitCache, best: Names, name: str) -> list[Names]:
     return list(dict.fromkeys([start, *(e.names for e in near[:wanted]), *known[:wanted]]))
 
 
-def falls(found: Fit, criteria: Criteria, most: int) -> list[float]:
+def _own(found: Fit, best: Fit, name: str) -> Array | None:
+    """(N,) of length 1: what the fault of a sensor, as in the best fit, does to what a fit without it leaves; None for
+    an effect that is none, and where the fit takes it up."""
+    term = next(it for it in best.model.terms if it.effect.name == name)
+    if not isinstance(term.effect, SensorFault):
+        return None
+    whole = best.residual.load_cases
+    readings = np.where(np.isfinite(best.prediction.values), best.prediction.values, 0.0)
+    error = term.effect.error(readings, whole.rows, term.values)
+    channel = whole.rows.columns.index(term.effect.column)
+    return next((it.column / it.size for it in left_of(found, channel, [name], error[:, None])), None)
+
+
+def falls(found: Fit, criteria: Criteria, most: int, but: Array | None = None) -> list[float]:
     """Chi-square that is left of the fitted tests with none, one, ... `most` patterns; shorter where no more differ.
+    but: (N,) of length 1, which no pattern may be.
 
     A gain, a drift or a cross-talk of each sensor, and each test's own zero, each the largest that is left (forward
     selection): S. Weisberg, Applied Linear Regression, 4th ed., Wiley 2014, section 10.2.
     """
     every = [it.column / it.size for it in (*shapes(found, criteria), *_zeros(found))]
+    if but is not None:
+        every = [it for it in every if 1.0 - float(it @ but) ** 2 > NEW**2]
     left = float(found.whitened @ found.whitened)
     out = [left]
     if not every:

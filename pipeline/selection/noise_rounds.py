@@ -72,9 +72,9 @@ def settled(cache: FitCache, again: Again, attempts: Attempts) -> Settled:
 
 
 def with_faults(before: Settled, known: Iterable[Effect], again: Again) -> Settled:
-    """With faults of sensors among the effects, where that leaves noise and nothing else does, or where only with one
-    of them the readings are near to an explanation; none of sensors that are vouched for. Where no work is left, one
-    fault beside what is there or not is all that is looked at. known: effects, kinds of such faults among them."""
+    """With faults of sensors among the effects, where that leaves noise and nothing else does, or far less than anything
+    else; none of sensors that are vouched for. Where no work is left, one fault beside what is there or not is all that
+    is looked at. known: effects, kinds of such faults among them."""
     it = before.it
     cache, best = it.found.cache, it.found.best
     if it.untested or it.decision.verdict != "unknown" or cache.whole.campaign.vouched:
@@ -95,19 +95,22 @@ def with_faults(before: Settled, known: Iterable[Effect], again: Again) -> Settl
     else:
         first = more if before.readings.plain else with_these(before.given.campaign, more)
         new = settled(first, with_these, Attempts())
-    if not _explains_more(new.it, it):
+    if not _explains_more(new.it, best):
         return before
     return replace(new, with_all=before.with_all, alone=before.alone)
 
 
-def _explains_more(new: Chosen, old: Chosen) -> bool:
-    """Whether a choice with the fault of one sensor leaves noise, or is near to it where the other one is far."""
-    found, criteria = new.found, new.found.cache.criteria
-    if not has_one_fault(found.cache, found.best):
+def _explains_more(new: Chosen, best: Names) -> bool:
+    """Whether a choice with the fault of one sensor leaves noise, or far less than the best set without."""
+    found = new.found
+    cache = found.cache
+    if not has_one_fault(cache, found.best):
         return False
-    left = found.cache.fit(found.best)
-    far = old.found.cache.fit(old.found.best).rms > criteria.far
-    return judge(left, criteria).noise or (far and left.rms <= criteria.far)
+    left = cache.fit(found.best)
+    return (
+        judge(left, cache.criteria).noise
+        or left.chi_square < cache.criteria.slow * cache.fit(best).chi_square
+    )
 
 
 def _at_first(cache: FitCache, begun: list[Names], again: Again) -> Readings:

@@ -62,6 +62,25 @@ def test_the_sensor_is_named_beside_the_effect(name: str, among: tuple[str, ...]
     assert all(name in each for each in found.decision.sets)
 
 
+@pytest.mark.parametrize("work", [20.0, pytest.param(300.0, marks=pytest.mark.long)])
+def test_the_sensor_is_named_where_no_work_is_left_for_a_search(work: float) -> None:
+    few = replace(CRITERIA, search_work=work)
+    found = diagnose(
+        read({f"{QUICK}.size": 15.0}), Model(), some((ALWAYS, "load_misalignment")), criteria=few
+    )
+    assert found.cache.worn_out
+    assert found.verdict == "identified" and found.sets == ((ALWAYS, QUICK),)
+
+
+@pytest.mark.long
+def test_a_fault_beside_what_is_not_explained_is_certain() -> None:
+    """The other sensor's error has a form of its own and is far smaller."""
+    campaign = doubted(with_fault(read({f"{QUICK}.size": 100.0}), creeping_gauge))  # type: ignore[arg-type]
+    found = diagnose(campaign, Model(), some())
+    assert found.verdict == "unknown" and QUICK in found.sets[0]
+    assert found.certain == (QUICK,)
+
+
 @pytest.mark.long
 @pytest.mark.parametrize("fault", [growing_gain, creeping_gauge])
 def test_a_fault_of_another_form_is_not_named_as_one_of_these(fault: object) -> None:
