@@ -35,7 +35,10 @@ def certain(found: Found, sets: tuple[Names, ...], doubted: Collection[str] = ()
     """Names of the effects with numbers that are in all sets of a verdict and that nothing else replaces. doubted:
     those in whose place a fault of a sensor explains as much. None where a number of the first set is held back, at its
     bound or by how plausible it is: what it may not explain others take up. None of an effect of which some tests would
-    have twice as much, or nothing: there it is another."""
+    have twice as much, or nothing: there it is another. None where the search ended before its rivals and what the
+    readings are were looked at."""
+    if found.ended:
+        return ()
     cache, criteria = found.cache, found.cache.criteria
     best = sets[0]
     common = frozenset.intersection(*sets)

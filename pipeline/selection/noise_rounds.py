@@ -72,7 +72,7 @@ def settled(cache: FitCache, again: Again, attempts: Attempts) -> Settled:
 
 
 def with_faults(before: Settled, known: Iterable[Effect], again: Again) -> Settled:
-    """With faults of sensors among the effects, where that leaves noise and nothing else does, or far less than anything
+    """With faults of sensors among the effects, where that leaves noise and nothing else does, or far less than all
     else; none of sensors that are vouched for. Where no work is left, one fault beside what is there or not is all that
     is looked at. known: effects, kinds of such faults among them."""
     it = before.it

@@ -140,7 +140,7 @@ def test_one_knocked_reading_of_some_thirty_rows_changes_nothing(
 
 
 def test_a_dial_with_backlash_is_not_one_that_follows_late(tmp_path: Path) -> None:
-    """It was set against the first motion, so that all of the backlash shows on the way back, and as much at any load."""
+    """It was set against the first motion, so that all of the backlash shows on the way back, alike at any load."""
     twice = {"y": (0, 20, 40, 50, 30, 0, 30, 50, 10, 0), "z": LOADS["z"]}
     found = said(measured(tmp_path / "a", 0.0, play=0.04, loads=twice))
     assert (found.verdict, found.added) == ("identified", ("sensor_backlash@y_mm",))
