@@ -18,7 +18,7 @@ from pipeline.inference.model import at_bound
 from pipeline.inference.prior import implausibility
 from pipeline.parameter_names import parted
 from pipeline.selection.adequacy.constancy import departures
-from pipeline.selection.adequacy.patterns import Shape, left_of, shapes
+from pipeline.selection.adequacy.patterns import Shape, expected, left_of, shapes
 from pipeline.selection.cost import cost, misfit
 from pipeline.selection.criteria import Criteria
 from pipeline.selection.first_order_costs import estimates
@@ -73,7 +73,7 @@ def _beaten(cache: FitCache, best: Names, name: str, patterns: int, least: float
     """Whether every rival without an effect leaves more than this with so many patterns."""
     for rival in _rivals(cache, best, name):
         found = cache.fit(rival)
-        left = falls(found, cache.criteria, patterns, _own(found, cache.fit(best), name))
+        left = falls(found, cache.criteria, patterns, _own(found, cache.fit(best), name, cache.criteria))
         if misfit(cache, rival) - left[0] + left[-1] < least:
             return False
     return True
@@ -92,15 +92,14 @@ def _rivals(cache: FitCache, best: Names, name: str) -> list[Names]:
     return list(dict.fromkeys([start, *(e.names for e in near[:wanted]), *known[:wanted]]))
 
 
-def _own(found: Fit, best: Fit, name: str) -> Array | None:
+def _own(found: Fit, best: Fit, name: str, criteria: Criteria) -> Array | None:
     """(N,) of length 1: what the fault of a sensor, as in the best fit, does to what a fit without it leaves; None for
     an effect that is none, and where the fit takes it up."""
     term = next(it for it in best.model.terms if it.effect.name == name)
     if not isinstance(term.effect, SensorFault):
         return None
     whole = best.residual.load_cases
-    readings = np.where(np.isfinite(best.prediction.values), best.prediction.values, 0.0)
-    error = term.effect.error(readings, whole.rows, term.values)
+    error = term.effect.error(expected(best, criteria.chosen_side), whole.rows, term.values)
     channel = whole.rows.columns.index(term.effect.column)
     return next((it.column / it.size for it in left_of(found, channel, [name], error[:, None])), None)
 

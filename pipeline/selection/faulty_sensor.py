@@ -8,12 +8,15 @@ the first one: a fault that explains a part is no better than an effect that doe
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
+from itertools import islice
 
 import numpy as np
 
 from pipeline.campaign import Campaign
 from pipeline.campaign.names import channel_columns
+from pipeline.inference.fit import Fit
 from pipeline.inference.suitable import columns_read
+from pipeline.selection.adequacy.patterns import expected, left_of, steady
 from pipeline.selection.cost import entry_for
 from pipeline.selection.criteria import Criteria
 from pipeline.selection.fit_cache import FitCache, Names
@@ -48,12 +51,15 @@ def with_promising_faults(cache: FitCache, known: Iterable[Effect], best: Names)
     """The same with the faults that promise most beside the effects; None where none promises anything."""
     every = faults_of(known, cache.whole.campaign, cache.criteria)
     every = {name: it for name, it in every.items() if name not in cache.candidates}
-    criteria, chosen = cache.criteria, []
+    criteria, chosen = cache.criteria, list[str]()
     for names in dict.fromkeys([best, frozenset[str]()]):
         beside = {name: cache.candidates[name] for name in cache.order(names)}
         gains = _gains(cache.with_candidates({**beside, **every}), names, every)
-        worth = [name for name in gains if gains[name] > entry_for(cache, 1, len(every))]
-        chosen += sorted(worth, key=lambda name: -gains[name])[: criteria.faults_looked_at]
+        enough = entry_for(cache, 1, len(every))
+        worth = sorted((name for name in gains if gains[name] > enough), key=lambda name: -gains[name])
+        found = cache.fit(names)
+        some = (it for it in worth if _in_many_readings(found, every[it], criteria) > enough)
+        chosen += islice(some, criteria.faults_looked_at)
     if not chosen:
         return None
     return cache.with_candidates(
@@ -82,6 +88,20 @@ def least_with_a_fault(cache: FitCache, names: Names, known: Iterable[Effect]) -
 def has_one_fault(cache: FitCache, names: Names) -> bool:
     """Whether a set has the fault of one sensor: two at once explain nearly anything, and are no name."""
     return sum(isinstance(cache.candidates[name], SensorFault) for name in names) == 1
+
+
+def _in_many_readings(found: Fit, fault: SensorFault, criteria: Criteria) -> float:
+    """By how much a fault of its typical size, or of one at which it is looked at, lowers chi-square of a fit, without
+    the row that says most for it: a single bad reading looks like many faults."""
+    whole, first = found.residual.load_cases, fault.parameters[0]
+    readings = expected(found, criteria.chosen_side)
+    sizes = fault.probes or (first.null + first.typical,)
+    values = [{**fault.nulls, first.name: size} for size in sizes]
+    errors = np.stack([fault.error(readings, whole.rows, it) for it in values], axis=-1)
+    channel = whole.rows.columns.index(fault.column)
+    every = left_of(found, channel, [fault.name] * len(sizes), errors)
+    rows = found.residual.rows[:, 0]
+    return max((steady(it.column, found.whitened, rows) ** 2 for it in every), default=0.0)
 
 
 def _gains(cache: FitCache, names: Names, every: Mapping[str, Effect]) -> dict[str, float]:

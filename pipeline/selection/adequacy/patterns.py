@@ -57,7 +57,7 @@ class Shape:
 def shapes(found: Fit, criteria: Criteria) -> Iterator[Shape]:
     """Every pattern of every sensor that the fit does not take up."""
     whole = found.residual.load_cases
-    readings = _expected(found, criteria.chosen_side)
+    readings = expected(found, criteria.chosen_side)
     for channel in range(whole.measured.shape[1]):
         named = list(_errors(whole, readings, channel))
         if not named:
@@ -91,15 +91,18 @@ def scores(found: Fit, criteria: Criteria) -> list[Pattern]:
     return sorted(out, key=lambda it: -abs(it.score))
 
 
-def steady(column: Array, residual: Array) -> float:
-    """Sigmas by which a residual (N,) follows a column (N,), without the one reading that says most for it.
+def steady(column: Array, residual: Array, rows: NDArray[np.int64] | None = None) -> float:
+    """Sigmas by which a residual (N,) follows a column (N,), without the one reading that says most for it; rows (N,):
+    without the one row, in all of whose readings a bad one may show.
 
     A faulty sensor shows in many readings; near a kink of the model a single one may be off by far.
     """
-    parts, size = column * residual, float(column @ column)
-    total = float(parts.sum())
+    of = np.arange(len(column)) if rows is None else rows
+    parts: Array = np.bincount(of, column * residual)
+    squares: Array = np.bincount(of, column**2)
+    total, size = float(parts.sum()), float(squares.sum())
     best = int(np.argmax(parts * np.sign(total)))
-    rest = size - float(column[best]) ** 2
+    rest = size - float(squares[best])
     whole = total / np.sqrt(size)
     without = (total - float(parts[best])) / np.sqrt(rest) if rest > FLAT**2 * size else 0.0
     return float(np.sign(total) * max(0.0, min(abs(whole), without * np.sign(total))))
@@ -118,7 +121,7 @@ def acting(found: Fit, channel: int, errors: Array) -> Array:
     return out
 
 
-def _expected(found: Fit, chosen_side: float) -> Array:
+def expected(found: Fit, chosen_side: float) -> Array:
     """(R, C) readings as they would be without noise: with it, a pattern would follow the noise of its own sensor. So
     would small ones, up to so many sigmas, of a row that chose its side of a play by that noise, and of a coordinate
     that is held where it is in every row: the inputs that fit best follow the residual. They are zero."""

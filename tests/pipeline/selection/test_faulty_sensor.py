@@ -12,7 +12,7 @@ from pipeline.campaign import Campaign
 from pipeline.inference.model import Model
 from pipeline.selection.criteria import CRITERIA
 from pipeline.selection.diagnosis import cached_fits, diagnose
-from pipeline.selection.faulty_sensor import faults_of, has_one_fault
+from pipeline.selection.faulty_sensor import faults_of, has_one_fault, with_promising_faults
 from pipeline.simulate import bench_rig
 from tests.pipeline.selection.bench import MIXED, bench, creeping_gauge, growing_gain, with_fault
 from vjm.effects import catalogue
@@ -43,6 +43,15 @@ def doubted(campaign: Campaign) -> Campaign:
 def read(hidden: dict[str, float]) -> Campaign:
     plan = [test for test in bench_plan(12) if test.id in MIXED]
     return doubted(measure("faulty", bench_rig(), plan, SENSORS, hidden, 5, GAUGES))
+
+
+def knocked(it: Campaign, sigmas: float = 40.0) -> Campaign:
+    """With one reading of a moment off by so many of its sigmas."""
+    test = it.tests[1]
+    wrench = test.data.wrench.copy()
+    wrench[3, 5] += sigmas * it.noise.wrench[5]
+    tests = (it.tests[0], replace(test, data=replace(test.data, wrench=wrench)), *it.tests[2:])
+    return replace(it, tests=tests)
 
 
 def measured(name: str) -> Campaign:
@@ -95,6 +104,16 @@ def test_two_sensors_at_fault_at_once_are_no_name() -> None:
     assert found.verdict == "unknown"
 
 
+@pytest.mark.parametrize("sigmas", [15.0, 40.0, -60.0])
+def test_one_bad_reading_promises_no_fault(sigmas: float) -> None:
+    known, base = some(), Model().with_effects([catalogue()[ALWAYS]])
+    cache = cached_fits(knocked(read({}), sigmas), base, known)
+    assert with_promising_faults(cache, known.values(), frozenset()) is None
+    faulty = cached_fits(knocked(read({f"{QUICK}.size": 15.0}), sigmas), base, known)
+    there = with_promising_faults(faulty, known.values(), frozenset())
+    assert there is not None and QUICK in there.candidates
+
+
 def test_only_one_fault_of_a_sensor_may_be_named() -> None:
     cache = cached_fits(bench(), Model(), catalogue())
     drift, gain = (catalogue()[kind].at("fz_N") for kind in ("sensor_drift", "sensor_gain"))  # type: ignore[attr-defined]
@@ -124,12 +143,9 @@ def test_cross_talk_is_no_turn_of_the_cell(column: str, named: str) -> None:
 
 @pytest.mark.long
 def test_a_faulty_sensor_is_named_though_a_reading_was_knocked() -> None:
-    it = read({"sensor_lag@fx_N.keeps": 0.1})
+    it = knocked(read({"sensor_lag@fx_N.keeps": 0.1}))
     test = it.tests[1]
-    wrench = test.data.wrench.copy()
-    wrench[3, 5] += 40.0 * it.noise.wrench[5]
-    tests = (it.tests[0], replace(test, data=replace(test.data, wrench=wrench)), *it.tests[2:])
-    found = diagnose(replace(it, tests=tests), Model(), some())
+    found = diagnose(it, Model(), some())
     assert found.verdict == "identified" and found.sets == ((ALWAYS, "sensor_lag@fx_N"),)
     assert [bad.cell for bad in found.readings.bad] == [(test.id, 3, "mz_Nmm")]
     assert found.with_all == "unknown"
