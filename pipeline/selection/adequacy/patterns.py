@@ -98,8 +98,9 @@ def steady(column: Array, residual: Array, rows: NDArray[np.int64] | None = None
     A faulty sensor shows in many readings; near a kink of the model a single one may be off by far.
     """
     of = np.arange(len(column)) if rows is None else rows
-    parts: Array = np.bincount(of, column * residual)
-    squares: Array = np.bincount(of, column**2)
+    parts, squares = (
+        np.asarray(np.bincount(of, weights=it), dtype=float) for it in (column * residual, column**2)
+    )
     total, size = float(parts.sum()), float(squares.sum())
     best = int(np.argmax(parts * np.sign(total)))
     rest = size - float(squares[best])
