@@ -28,6 +28,8 @@ ROUND = (
 """Kinds of the cases of a round."""
 SENSOR_SIZES = (0.3, 5.0)
 """Of faults of sensors, in typical ones."""
+SHAPES: Mapping[str, tuple[float, float]] = {"steps": (1.0, 5.0), "start": (-1.0, 1.0)}
+"""Numbers of faults that are no sizes: how fast one settles, and where in its gap a sensor stands."""
 LARGEST_SHARE: Mapping[str, float] = {"sensor_gain": 0.05, "sensor_lag": 0.4, "sensor_cross_talk": 0.2}
 """Beyond what certificates allow: a gain within them is dirt, and no fault."""
 
@@ -76,8 +78,8 @@ def _of_sensor(generator: np.random.Generator) -> dict[str, float]:
     for p in effect_of(name, catalogue()).parameters:
         sign = 1.0 if p.one_sided else float(generator.choice((-1.0, 1.0)))
         value = p.null + sign * size * p.typical
-        if p.name == "steps":
-            value = float(generator.uniform(1.0, 5.0))
+        if p.name in SHAPES:
+            value = float(generator.uniform(*SHAPES[p.name]))
         if kind in LARGEST_SHARE:
             value = float(np.clip(value, -LARGEST_SHARE[kind], LARGEST_SHARE[kind]))
             value = sign * max(abs(value), 0.02) if kind == "sensor_gain" else value
