@@ -15,7 +15,7 @@ from pipeline.attempt import Attempts
 from pipeline.campaign import Campaign
 from pipeline.inference.load_cases import LoadCases
 from pipeline.selection.adequacy.bad_readings import bad_readings
-from pipeline.selection.adequacy.judgement import judge
+from pipeline.selection.adequacy.judgement import HELD_OUT, SERIES, judge
 from pipeline.selection.adequacy.untested import untested
 from pipeline.selection.cost import cost, is_noise, misfit, price
 from pipeline.selection.faulty_sensor import has_one_fault, with_promising_faults
@@ -29,6 +29,8 @@ from vjm.effects.base import Effect
 
 Again = Callable[[Campaign, FitCache], FitCache]
 """The empty fit cache of a campaign that is another's with other readings; that of the other one."""
+IN_PLACES = frozenset({SERIES, HELD_OUT})
+"""Checks that a single bad reading fails."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -72,9 +74,9 @@ def settled(cache: FitCache, again: Again, attempts: Attempts) -> Settled:
 
 
 def with_faults(before: Settled, known: Iterable[Effect], again: Again) -> Settled:
-    """With faults of sensors among the effects, where that leaves noise and nothing else does, or far less than all
-    else; none of sensors that are vouched for. Where no work is left, one fault beside what is there or not is all that
-    is looked at. known: effects, kinds of such faults among them."""
+    """With faults of sensors among the effects, where that leaves noise and nothing else does, or all but that; none of
+    sensors that are vouched for. Where no work is left, one fault beside what is there or not is all that is looked at.
+    known: effects, kinds of such faults among them."""
     it = before.it
     cache, best = it.found.cache, it.found.best
     if it.untested or it.decision.verdict != "unknown" or cache.whole.campaign.vouched:
@@ -101,16 +103,15 @@ def with_faults(before: Settled, known: Iterable[Effect], again: Again) -> Settl
 
 
 def _explains_more(new: Chosen, best: Names) -> bool:
-    """Whether a choice with the fault of one sensor leaves noise, or far less than the best set without."""
+    """Whether a choice with the fault of one sensor leaves noise, or nothing but what is off in some places and far
+    less than the best set without: single bad readings that are not set aside."""
     found = new.found
     cache = found.cache
     if not has_one_fault(cache, found.best):
         return False
     left = cache.fit(found.best)
-    return (
-        judge(left, cache.criteria).noise
-        or left.chi_square < cache.criteria.slow * cache.fit(best).chi_square
-    )
+    far = left.chi_square < cache.criteria.slow * cache.fit(best).chi_square
+    return judge(left, cache.criteria).failed <= (IN_PLACES if far else frozenset())
 
 
 def _at_first(cache: FitCache, begun: list[Names], again: Again) -> Readings:

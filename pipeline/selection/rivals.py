@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 from pipeline.selection.cost import cost, excess, misfit, taken
@@ -10,6 +11,7 @@ from pipeline.selection.few_rows import few, fit_together
 from pipeline.selection.first_order_costs import estimates, raw
 from pipeline.selection.fit_cache import FitCache, Names
 from pipeline.selection.pruning import fit_from
+from vjm.effects.sensor_fault import SensorFault
 
 
 @dataclass(frozen=True, eq=False)
@@ -44,6 +46,7 @@ def with_rivals(cache: FitCache, best: Names) -> Found:
             e for e in estimates(cache, start, (1,)) if e.names not in (start, best) and raw(cache, e) < limit
         ]
         wanted |= {e.names: e.probes for e in near[: None if small else criteria.rivals_fitted]}
+    wanted |= {names: {} for names in _same_sensor(cache, best) if names not in wanted}
     cache.fit_all(wanted)
     if small:
         fit_together(cache, best)
@@ -52,3 +55,13 @@ def with_rivals(cache: FitCache, best: Names) -> Found:
         return with_rivals(cache, winner)
     simple = [n for n in cache.fits if len(n) <= len(best) or taken(cache, n) <= taken(cache, best)]
     return Found(cache, best, tuple(sorted(possible(cache, simple, best), key=lambda n: misfit(cache, n))))
+
+
+def _same_sensor(cache: FitCache, best: Names) -> Iterator[Names]:
+    """The set with another fault of the same sensor in the place of one: to first order a late sensor and one with
+    backlash are far from what they are."""
+    faults = {name: it.column for name, it in cache.candidates.items() if isinstance(it, SensorFault)}
+    for name in best & faults.keys():
+        for other in faults.keys() - best:
+            if faults[other] == faults[name]:
+                yield best - {name} | {other}

@@ -20,7 +20,7 @@ from pipeline.selection.criteria import CRITERIA, Criteria
 from reports.quantities import percent, short, sigma
 
 Array = NDArray[np.float64]
-HELD_OUT, SIZE, ORDER = "held out", "size", "order"
+HELD_OUT, SIZE, ORDER, SERIES = "held out", "size", "order", "series"
 
 
 @dataclass(frozen=True)
@@ -49,7 +49,12 @@ class Judgement:
     @property
     def noise(self) -> bool:
         """Whether what is left is noise."""
-        return all(check.passed for check in self.checks)
+        return not self.failed
+
+    @property
+    def failed(self) -> frozenset[str]:
+        """Names of the checks by which it is none."""
+        return frozenset(check.name for check in self.checks if not check.passed)
 
 
 def judge(found: Fit, criteria: Criteria = CRITERIA) -> Judgement:
@@ -121,7 +126,7 @@ def _series(found: Fit, scatter: float, level: float) -> Check:
     rms = float(np.sqrt(np.mean(every[worst] ** 2)))
     name = column_name(worst[1], whole.campaign.gauges)
     words = f"{name} in test {whole.campaign.tests[worst[0]].id} is off by {sigma(rms)} sigma"
-    return Check("series", float(min(1.0, p * len(every))), words, level)
+    return Check(SERIES, float(min(1.0, p * len(every))), words, level)
 
 
 def _patterns(found: Fit, scatter: float, criteria: Criteria) -> Check:
