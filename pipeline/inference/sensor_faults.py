@@ -41,9 +41,10 @@ def inputs_off(model: Model, load_cases: LoadCases) -> Array:
     for term in faults(model):
         rows, coordinates = _controlled(load_cases, term)
         if rows.size:
-            out[rows, coordinates] -= _error_of_input(term, np.nan_to_num(load_cases.measured), load_cases)[
-                rows
-            ]
+            noise = np.zeros(len(out))
+            noise[rows] = load_cases.input_sigma[rows, coordinates]
+            read = _moved(term, np.nan_to_num(load_cases.measured), load_cases, noise)
+            out[rows, coordinates] -= _error_of_input(term, read, load_cases)[rows]
     return out
 
 
@@ -52,10 +53,12 @@ def faulted(model: Model, load_cases: LoadCases, found: Prediction) -> Predictio
     terms = faults(model)
     if not terms:
         return found
-    read = _as_read(load_cases, found)
+    every = _as_read(load_cases, found)
     values, by_free, by_inputs = found.values.copy(), found.by_free.copy(), found.by_inputs.copy()
     for term in terms:
         channel = _channel(load_cases, term)
+        noise = np.linalg.norm(found.by_inputs[:, channel] * load_cases.input_sigma, axis=-1)
+        read = _moved(term, every, load_cases, noise)
         rows, coordinates = _controlled(load_cases, term)
         free = np.ones(len(values), dtype=bool)
         free[rows] = False
@@ -93,6 +96,20 @@ def _as_read(load_cases: LoadCases, found: Prediction) -> Array:
     out = found.values.copy()
     given = np.take_along_axis(np.nan_to_num(load_cases.measured), load_cases.channels, axis=1)
     np.put_along_axis(out, load_cases.channels, given + found.shift[:, :6], axis=1)
+    return out
+
+
+def _moved(term: Term, read: Array, load_cases: LoadCases, noise: Array) -> Array:
+    """Readings (R, C) of which the column of a fault with a history stands still in each test until it has moved beyond
+    its noise (R,): which way it goes is not told by that."""
+    if not term.effect.history:
+        return read
+    out, channel = read.copy(), _channel(load_cases, term)
+    column = out[:, channel]
+    for row in range(1, len(column)):
+        same = load_cases.test[row] == load_cases.test[row - 1]
+        if same and abs(column[row] - column[row - 1]) < DIFFERENCES.fault_motion * noise[row]:
+            column[row] = column[row - 1]
     return out
 
 

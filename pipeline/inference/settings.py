@@ -111,6 +111,8 @@ class Differences:
     """Of its typical size, over which a number with kinks is differentiated."""
     fault_step: float = 1e-4
     """Of a typical size, over which an error of a sensor is differenced: it is a smooth formula."""
+    fault_motion: float = 3.0
+    """Of what the noise of the inputs does to a reading, within which it has not moved."""
     fault_turns: int = 6
     """Of the iteration for what was really done: each takes an error's share of what is left."""
 
