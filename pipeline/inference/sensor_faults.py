@@ -121,12 +121,14 @@ def _error(term: Term, read: Array, load_cases: LoadCases) -> Array:
 def _still(
     term: Term, read: Array, load_cases: LoadCases, free: NDArray[np.bool_]
 ) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
-    """Rows that are free to be read and in which the sensor of a fault stands still, and the rows that moved it last.
+    """Rows that are free to be read and in which the sensor of a fault stands still though there is a motion, and the
+    rows that moved it last.
 
     Such a reading answers to nothing of its own step, and to the model as in the step that moved it."""
     assert isinstance(term.effect, SensorFault)
     last = term.effect.follows(read, load_cases.rows, term.values)
-    still = np.flatnonzero((last != np.arange(len(last))) & free)
+    moves = np.diff(read[:, _channel(load_cases, term)], prepend=np.nan) != 0.0
+    still = np.flatnonzero((last != np.arange(len(last))) & moves & free)
     return still, last[still]
 
 
