@@ -74,9 +74,9 @@ def settled(cache: FitCache, again: Again, attempts: Attempts) -> Settled:
 
 
 def with_faults(before: Settled, known: Iterable[Effect], again: Again) -> Settled:
-    """With faults of sensors among the effects, where that leaves noise and nothing else does, or all but that; none of
-    sensors that are vouched for. Where no work is left, one fault beside what is there or not is all that is looked at.
-    known: effects, kinds of such faults among them."""
+    """With faults of sensors among the effects, where that leaves noise, or no more than what is off in single places,
+    and nothing else does; none of sensors that are vouched for. Where no work is left, one fault beside what is there
+    or not is all that is looked at. known: effects, kinds of such faults among them."""
     it = before.it
     cache, best = it.found.cache, it.found.best
     if it.untested or it.decision.verdict != "unknown" or cache.whole.campaign.vouched:

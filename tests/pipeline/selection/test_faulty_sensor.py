@@ -13,6 +13,7 @@ from pipeline.inference.model import Model
 from pipeline.selection.criteria import CRITERIA
 from pipeline.selection.diagnosis import cached_fits, diagnose
 from pipeline.selection.faulty_sensor import faults_of, has_one_fault, with_promising_faults
+from pipeline.selection.rivals import with_rivals
 from pipeline.simulate import bench_rig
 from tests.pipeline.selection.bench import MIXED, bench, creeping_gauge, growing_gain, with_fault
 from vjm.effects import catalogue
@@ -112,6 +113,19 @@ def test_one_bad_reading_promises_no_fault(sigmas: float) -> None:
     faulty = cached_fits(knocked(read({f"{QUICK}.size": 15.0}), sigmas), base, known)
     there = with_promising_faults(faulty, known.values(), frozenset())
     assert there is not None and QUICK in there.candidates
+
+
+def test_faults_of_one_sensor_are_rivals_whatever_they_promise() -> None:
+    faults = {
+        name: catalogue()[name].at("fz_N") for name in ("sensor_drift", "sensor_settling", "sensor_lag")
+    }  # type: ignore[attr-defined]
+    base = Model().with_effects([catalogue()[ALWAYS]])
+    cache = cached_fits(read({f"{QUICK}.size": 100.0}), base, {}).with_candidates(
+        {it.name: it for it in faults.values()}
+    )
+    found = with_rivals(cache, frozenset({QUICK}))
+    assert found.best == {QUICK} and not found.rivals
+    assert all(frozenset({it.name}) in cache.fits for it in faults.values())
 
 
 def test_only_one_fault_of_a_sensor_may_be_named() -> None:
