@@ -43,7 +43,7 @@ def inputs_off(model: Model, load_cases: LoadCases) -> Array:
         if rows.size:
             noise = np.zeros(len(out))
             noise[rows] = load_cases.input_sigma[rows, coordinates]
-            read = _moved(term, np.nan_to_num(load_cases.measured), load_cases, noise)
+            read = moved(_fault(term), np.nan_to_num(load_cases.measured), load_cases, noise)
             out[rows, coordinates] -= _error_of_input(term, read, load_cases)[rows]
     return out
 
@@ -57,8 +57,7 @@ def faulted(model: Model, load_cases: LoadCases, found: Prediction) -> Predictio
     values, by_free, by_inputs = found.values.copy(), found.by_free.copy(), found.by_inputs.copy()
     for term in terms:
         channel = _channel(load_cases, term)
-        noise = np.linalg.norm(found.by_inputs[:, channel] * load_cases.input_sigma, axis=-1)
-        read = _moved(term, every, load_cases, noise)
+        read = moved(_fault(term), every, load_cases, noise_of(found, channel, load_cases))
         rows, coordinates = _controlled(load_cases, term)
         free = np.ones(len(values), dtype=bool)
         free[rows] = False
@@ -77,9 +76,13 @@ def faulted(model: Model, load_cases: LoadCases, found: Prediction) -> Predictio
     return replace(found, values=values, by_free=by_free, by_inputs=by_inputs)
 
 
-def _channel(load_cases: LoadCases, term: Term) -> int:
+def _fault(term: Term) -> SensorFault:
     assert isinstance(term.effect, SensorFault)
-    return load_cases.rows.columns.index(term.effect.column)
+    return term.effect
+
+
+def _channel(load_cases: LoadCases, term: Term) -> int:
+    return load_cases.rows.columns.index(_fault(term).column)
 
 
 def _controlled(load_cases: LoadCases, term: Term) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
@@ -99,13 +102,18 @@ def _as_read(load_cases: LoadCases, found: Prediction) -> Array:
     return out
 
 
-def _moved(term: Term, read: Array, load_cases: LoadCases, noise: Array) -> Array:
+def noise_of(found: Prediction, channel: int, load_cases: LoadCases) -> Array:
+    """(R,) what the noise of the inputs does to a predicted channel."""
+    return np.asarray(np.linalg.norm(found.by_inputs[:, channel] * load_cases.input_sigma, axis=-1))
+
+
+def moved(fault: SensorFault, read: Array, load_cases: LoadCases, noise: Array) -> Array:
     """Readings (R, C) of which the column of a fault with a history stands still in each test until it has moved beyond
     its noise (R,): which way it goes is not told by that."""
-    if not term.effect.history:
+    if not fault.history:
         return read
-    out, channel = read.copy(), _channel(load_cases, term)
-    column = out[:, channel]
+    out = read.copy()
+    column = out[:, load_cases.rows.columns.index(fault.column)]
     for row in range(1, len(column)):
         same = load_cases.test[row] == load_cases.test[row - 1]
         if same and abs(column[row] - column[row - 1]) < DIFFERENCES.fault_motion * noise[row]:
@@ -114,8 +122,7 @@ def _moved(term: Term, read: Array, load_cases: LoadCases, noise: Array) -> Arra
 
 
 def _error(term: Term, read: Array, load_cases: LoadCases) -> Array:
-    assert isinstance(term.effect, SensorFault)
-    return term.effect.error(read, load_cases.rows, term.values)
+    return _fault(term).error(read, load_cases.rows, term.values)
 
 
 def _still(
@@ -125,8 +132,7 @@ def _still(
     rows that moved it last.
 
     Such a reading answers to nothing of its own step, and to the model as in the step that moved it."""
-    assert isinstance(term.effect, SensorFault)
-    last = term.effect.follows(read, load_cases.rows, term.values)
+    last = _fault(term).follows(read, load_cases.rows, term.values)
     moves = np.diff(read[:, _channel(load_cases, term)], prepend=np.nan) != 0.0
     still = np.flatnonzero((last != np.arange(len(last))) & moves & free)
     return still, last[still]

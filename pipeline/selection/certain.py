@@ -18,9 +18,10 @@ from pipeline.inference.model import at_bound
 from pipeline.inference.prior import implausibility
 from pipeline.parameter_names import parted
 from pipeline.selection.adequacy.constancy import departures
-from pipeline.selection.adequacy.patterns import Shape, expected, left_of, shapes
+from pipeline.selection.adequacy.patterns import Shape, left_of, shapes
 from pipeline.selection.cost import cost, misfit
 from pipeline.selection.criteria import Criteria
+from pipeline.selection.faulty_sensor import shapes_of
 from pipeline.selection.first_order_costs import estimates
 from pipeline.selection.fit_cache import FitCache, Names
 from pipeline.selection.rivals import Found
@@ -98,10 +99,8 @@ def _own(found: Fit, best: Fit, name: str, criteria: Criteria) -> Array | None:
     term = next(it for it in best.model.terms if it.effect.name == name)
     if not isinstance(term.effect, SensorFault):
         return None
-    whole = best.residual.load_cases
-    error = term.effect.error(expected(best, criteria.chosen_side), whole.rows, term.values)
-    channel = whole.rows.columns.index(term.effect.column)
-    return next((it.column / it.size for it in left_of(found, channel, [name], error[:, None])), None)
+    every = shapes_of(found, best, term.effect, [term.values], criteria)
+    return next((it.column / it.size for it in every), None)
 
 
 def falls(found: Fit, criteria: Criteria, most: int, but: Array | None = None) -> list[float]:

@@ -7,7 +7,7 @@ the first one: a fault that explains a part is no better than an effect that doe
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from itertools import islice
 
 import numpy as np
@@ -15,12 +15,13 @@ import numpy as np
 from pipeline.campaign import Campaign
 from pipeline.campaign.names import channel_columns
 from pipeline.inference.fit import Fit
+from pipeline.inference.sensor_faults import moved, noise_of
 from pipeline.inference.suitable import columns_read
-from pipeline.selection.adequacy.patterns import expected, left_of, steady
+from pipeline.selection.adequacy.patterns import Shape, expected, left_of, steady
 from pipeline.selection.cost import entry_for
 from pipeline.selection.criteria import Criteria
 from pipeline.selection.fit_cache import FitCache, Names
-from vjm.effects.base import Effect
+from vjm.effects.base import Effect, Values
 from vjm.effects.sensor_fault import SensorFault
 
 
@@ -90,16 +91,24 @@ def has_one_fault(cache: FitCache, names: Names) -> bool:
     return sum(isinstance(cache.candidates[name], SensorFault) for name in names) == 1
 
 
+def shapes_of(
+    found: Fit, about: Fit, fault: SensorFault, values: Sequence[Values], criteria: Criteria
+) -> Iterator[Shape]:
+    """What a fault with some values, of the readings of the fit `about`, does to what another fit leaves."""
+    whole = about.residual.load_cases
+    channel = whole.rows.columns.index(fault.column)
+    noise = noise_of(about.prediction, channel, whole)
+    readings = moved(fault, expected(about, criteria.chosen_side), whole, noise)
+    errors = np.stack([fault.error(readings, whole.rows, it) for it in values], axis=-1)
+    return left_of(found, channel, [fault.name] * len(values), errors)
+
+
 def _in_many_readings(found: Fit, fault: SensorFault, criteria: Criteria) -> float:
     """By how much a fault of its typical size, or of one at which it is looked at, lowers chi-square of a fit, without
     the row that says most for it: a single bad reading looks like many faults."""
-    whole, first = found.residual.load_cases, fault.parameters[0]
-    readings = expected(found, criteria.chosen_side)
+    first = fault.parameters[0]
     sizes = fault.probes or (first.null + first.typical,)
-    values = [{**fault.nulls, first.name: size} for size in sizes]
-    errors = np.stack([fault.error(readings, whole.rows, it) for it in values], axis=-1)
-    channel = whole.rows.columns.index(fault.column)
-    every = left_of(found, channel, [fault.name] * len(sizes), errors)
+    every = shapes_of(found, found, fault, [{**fault.nulls, first.name: size} for size in sizes], criteria)
     rows = found.residual.rows[:, 0]
     return max((steady(it.column, found.whitened, rows) ** 2 for it in every), default=0.0)
 
