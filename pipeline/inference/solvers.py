@@ -13,7 +13,7 @@ from scipy.optimize import least_squares
 from pipeline.inference.load_cases import LoadCases
 from pipeline.inference.objective import Evaluation, Objective
 from pipeline.inference.predicted import Prediction
-from pipeline.inference.prior import weight
+from pipeline.inference.prior import away, residual, slope
 from vjm.work import spent
 
 Array = NDArray[np.float64]
@@ -38,28 +38,32 @@ LARGEST = 1e9
 class Pulled:
     """An objective with a pull towards null, and its derivatives by typical sizes.
 
-    scale, null: (P,). pull: (P, P), by typical sizes from null.
+    scale, null: (P,). plausible: typical sizes that are one sigma of the pull.
     """
 
     aim: Objective
     scale: Array
     null: Array
-    pull: Array
+    plausible: float
 
     @classmethod
     def of(cls, aim: Objective, plausible: float) -> Pulled:
         free = aim.model.free
         scale = np.array([abs(each.parameter.typical) for each in free])
         null = np.array([each.parameter.null for each in free])
-        return cls(aim, scale, null, np.eye(len(free)) * weight(plausible))
+        return cls(aim, scale, null, plausible)
 
     def residuals(self, there: Evaluation) -> Array:
         """(N + 1 + P,)"""
-        return np.concatenate([there.residuals, self.pull @ ((there.values - self.null) / self.scale)])
+        return np.concatenate([there.residuals, residual(self._away(there))])
 
     def jacobian(self, there: Evaluation) -> Array:
         """(N + 1 + P, P)"""
-        return np.vstack([there.jacobian * self.scale, self.pull])
+        pull = np.diag(slope(self._away(there)) / self.plausible)
+        return np.vstack([there.jacobian * self.scale, pull])
+
+    def _away(self, there: Evaluation) -> Array:
+        return away(self.aim.model.free, there.values, self.plausible)
 
 
 @dataclass(frozen=True, eq=False)

@@ -25,7 +25,7 @@ from numpy.typing import NDArray
 from pipeline.inference.fit import Fit
 from pipeline.inference.model import Model
 from pipeline.inference.nuisances import Nominal, departed, nominals
-from pipeline.inference.prior import weight
+from pipeline.inference.prior import away, slope
 from pipeline.inference.settings import WRITTEN
 from pipeline.selection.criteria import CRITERIA
 
@@ -74,7 +74,8 @@ class Posterior:
     @cached_property
     def precision(self) -> Array:
         """(P + K, P + K)"""
-        weak = np.full(self.count, weight(CRITERIA.plausible) ** 2)
+        far = away(self.model.free, self.model.values, CRITERIA.plausible)
+        weak = (slope(far) / CRITERIA.plausible) ** 2
         widened = self.data / self.factor**2
         return np.asarray(widened + np.diag(np.concatenate([weak, np.ones(len(self.numbers))])))
 

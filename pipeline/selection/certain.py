@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from pipeline.inference.fit import Fit
 from pipeline.inference.model import at_bound
-from pipeline.inference.prior import implausibility
+from pipeline.inference.prior import held_back
 from pipeline.parameter_names import parted
 from pipeline.selection.adequacy.constancy import departures
 from pipeline.selection.adequacy.patterns import Shape, left_of, shapes
@@ -46,8 +46,8 @@ def certain(found: Found, sets: tuple[Names, ...], doubted: Collection[str] = ()
     fit = cache.fit(best)
     doubted = {*doubted, *_inconstant(fit, criteria)}
     names = [n for n in cache.order(common) if cache.candidates[n].parameters and n not in doubted]
-    far = implausibility(fit.model.free, fit.model.values, criteria.plausible)
-    if not names or at_bound(fit.model) or far > criteria.certain_sigmas**2:
+    held = held_back(fit.model.free, fit.model.values, criteria.plausible, fit.jacobian)
+    if not names or at_bound(fit.model) or held > criteria.exclusion_least:
         return ()
     mine = falls(fit, criteria, criteria.certain_patterns)
     limit = fit.degrees + criteria.excess_deviations * (2.0 * max(fit.degrees, 1)) ** 0.5

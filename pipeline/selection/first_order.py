@@ -18,7 +18,7 @@ from scipy.optimize import lsq_linear
 from pipeline.inference.eliminated import Marginal
 from pipeline.inference.fit import Fit
 from pipeline.inference.orthonormal_basis import basis
-from pipeline.inference.prior import away, weight
+from pipeline.inference.prior import away, residual, slope
 from pipeline.inference.rounding import RANK, ROUNDING, TINY
 from pipeline.selection.signatures import Look, Signature
 
@@ -90,19 +90,17 @@ class FirstOrder:
     def _weighed(self) -> tuple[Array, dict[str, list[Array]]]:
         """The same, with how plausible the numbers are: of the fit and of what is added, each a reading more."""
         free = self.fit.model.free
-        scale = np.array([abs(f.parameter.typical) for f in free]) / weight(self.plausible)
+        scale = np.array([abs(f.parameter.typical) for f in free]) * self.plausible
         far = away(free, self.fit.model.values, self.plausible)
         own = [size for s in self.signatures.values() for size in s.sizes]
         zeros = self.base.shape[1] - len(free)
         # What is looked at stands for more readings than it has; numbers do not.
-        fitted = np.sqrt(self.share) * np.hstack([np.diag(1.0 / scale), np.zeros((len(free), zeros))])
-        added = np.sqrt(self.share) * np.diag(np.array(own) * weight(self.plausible))
-        residual, base, flat = self._marginal
+        fitted = np.sqrt(self.share) * np.hstack([np.diag(slope(far) / scale), np.zeros((len(free), zeros))])
+        added = np.sqrt(self.share) * np.diag(np.array(own) / self.plausible)
+        misfit, base, flat = self._marginal
         base = np.vstack([base, fitted, np.zeros((len(own), base.shape[1]))])
-        residual = np.concatenate([residual, -np.sqrt(self.share) * far, np.zeros(len(own))])
-        return self._split(
-            *_free_of(base, residual, np.vstack([flat, np.zeros((len(free), len(own))), added]))
-        )
+        misfit = np.concatenate([misfit, -np.sqrt(self.share) * residual(far), np.zeros(len(own))])
+        return self._split(*_free_of(base, misfit, np.vstack([flat, np.zeros((len(free), len(own))), added])))
 
     @property
     def _flat(self) -> Array:
