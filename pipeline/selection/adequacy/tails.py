@@ -3,8 +3,8 @@
 Whitened residuals r of a fit that leaves no order are draws of one law. Student's t with nu degrees of freedom and
 scale s is fitted by its likelihood, a normal law likewise, and a normal law with a part of the readings anywhere in
 the range (J. Hampel et al., Robust Statistics, Wiley 1986, section 1.2c, the gross-error model). Long tails are there
-where the t is far more likely than the normal law and no less than that with bad readings. Each channel is counted in
-its own median magnitude for that: normal laws of several sizes together have long tails too.
+where the t is far more likely than the normal law and no less than that with bad readings. Normal laws of several sizes
+together have long tails too: a part of these has to be there where each channel is counted in its own size.
 
 Least squares are then done on normal scores z = Phi^-1(T_nu(r / s)), standard normal where the law holds. A small
 shift d of a reading moves its score by d / s_eff on average,
@@ -69,23 +69,22 @@ class Tails:
 def tails_of(found: Fit, criteria: Criteria, beside: Fit | None = None) -> Tails | None:
     """Long tails of what a fit leaves, none where there are no more than noise has. beside: the same model fitted to
     what is left where single bad readings are set aside; found is as that one is then."""
-    as_left, residual = _left(found), _evened(found)
+    residual, even = _left(found), _evened(found)
     largest = float(np.abs(residual).max(initial=0.0))
     if residual.size < criteria.few_readings or largest == 0.0:
         return None
-    student = _student(residual)[1]
+    (log_degrees, log_scale), student = _student(residual)
     growth = 2.0 * (student - _normal(residual))
-    beyond = 2.0 * (student - _with_bad_readings(residual, largest))
-    if growth < criteria.tails or beyond < criteria.tails_no_less:
+    if growth < criteria.tails or any(_beyond(it) < criteria.tails_no_less for it in (residual, even)):
         return None
     few = max(1, int(np.ceil(criteria.bad_share * residual.size)))
     if beside is not None:
         # A bad one is off in all that its row leaves: both are gone there.
-        bad, residual = residual, _evened(beside)
-        few = max(0, few - (bad.size - residual.size))
-    if not _still_there(residual, few, criteria):
+        count, residual, even = residual.size, _left(beside), _evened(beside)
+        few = max(0, few - (count - residual.size))
+    there = _without_largest(residual, few)
+    if not there > criteria.tails_without_few or _without_largest(even, few) < STUDENTS_LAW.kept * there:
         return None
-    log_degrees, log_scale = _student(as_left)[0]
     return Tails(float(np.exp(log_degrees)), float(np.exp(log_scale)), growth)
 
 
@@ -101,12 +100,13 @@ def _used(found: Fit) -> NDArray[np.bool_]:
 
 
 def _evened(found: Fit) -> Array:
-    """The same, those of each channel in units of their median magnitude; as they are where most are none."""
+    """The same, those of each channel in units of their own root mean square without what is far out; as they are where
+    most are none."""
     used, out = _used(found), found.residual.left.copy()
-    for channel in range(used.shape[1]):
-        own = used[:, channel]
-        spread = np.median(np.abs(out[own, channel])) if own.any() else 0.0
-        out[own, channel] /= spread or 1.0
+    for channel in np.flatnonzero(used.any(axis=0)):
+        own = out[used[:, channel], channel]
+        ends = STUDENTS_LAW.cut * np.median(np.abs(own)) / MEDIAN
+        out[:, channel] /= np.sqrt(np.mean(np.clip(own, -ends, ends) ** 2)) or 1.0
     return np.asarray(out[used])
 
 
@@ -115,10 +115,16 @@ def _normal(residual: Array) -> float:
     return float(norm.logpdf(residual, scale=np.sqrt(np.mean(residual**2))).sum())
 
 
-def _still_there(residual: Array, few: int, criteria: Criteria) -> bool:
-    """Whether tails are there without the few largest: single bad readings are gone then."""
+def _beyond(residual: Array) -> float:
+    """Twice the log likelihood of Student's law over that of a normal law with single bad readings."""
+    largest = float(np.abs(residual).max())
+    return 2.0 * (_student(residual)[1] - _with_bad_readings(residual, largest))
+
+
+def _without_largest(residual: Array, few: int) -> float:
+    """The same over that of the normal law, without the few largest: single bad readings are gone then."""
     rest = residual[np.argsort(np.abs(residual))[: residual.size - few]]
-    return 2.0 * (_student(rest)[1] - _normal(rest)) > criteria.tails_without_few
+    return 2.0 * (_student(rest)[1] - _normal(rest))
 
 
 def _student(residual: Array) -> tuple[Array, float]:
