@@ -48,7 +48,7 @@ class Settled:
 
 def settled(cache: FitCache, again: Again, attempts: Attempts, single: bool = False) -> Settled:
     """Of a fit cache of the campaign as it was declared. single: whether no more than the best single effect is looked
-    for. Where no work is left the best set is looked for again only where it is the fault of one sensor."""
+    for. Where no work is left the best set is looked for again once, where it is the fault of one sensor."""
     given, what = cache.whole, "what the readings are"
     begun: list[Names] = []
     new = AS_DECLARED
@@ -59,13 +59,13 @@ def settled(cache: FitCache, again: Again, attempts: Attempts, single: bool = Fa
     alone = not new.plain
     it = chosen(cache, attempts, alone or single, begun)
     with_all, readings = it.decision.verdict, AS_DECLARED
-    for _ in range(0 if it.untested else cache.criteria.reading_rounds):
+    for turn in range(0 if it.untested else cache.criteria.reading_rounds):
         if new.same(readings):
             new = attempts.get(what, partial(_readings, it, readings, given), readings)
         if new.same(readings):
             break
         single = single or (it.found.cache.worn_out and _of_a_fault(it))
-        if it.found.cache.worn_out and not single:
+        if it.found.cache.worn_out and (turn or not single):
             # Beside it the readings are not as they were declared, and no work is left to choose again.
             it = replace(it, decision=it.decision.withheld(ENDED))
             break

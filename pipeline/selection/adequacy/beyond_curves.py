@@ -6,20 +6,17 @@ of its readings that vary little from row to row,
 
     d = sum over steps i of w_i r_i ~ N(0, sum over sensors s of  lambda_s² v_s v_s^T),  v_s = sum of w_i² v_si,
 
-so that the factors are found as those of `scatter` are. A misfit that is not so smooth, a kink or a jump leaves its
-trace in some tests or in the smoothest combination. So sensors count as scattering more than declared only where thirds
-of the tests, and the smoothest combinations and the others, say the same of each of them. What scatters less needs no
-such proof, for nothing makes a scatter smaller.
+so that the factors are found as those of `scatter` are. A misfit that is not so smooth, a kink or a jump adds to a
+scatter, in a campaign of few steps like noise that is larger than declared; nothing makes one smaller. So only sensors
+that scatter less than declared are told of.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from collections.abc import Iterator
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.stats import chi2
 
 from pipeline.inference.fit import Fit
 from pipeline.selection.adequacy.reading_errors import ReadingErrors
@@ -31,62 +28,29 @@ WINDOW = 6
 """Steps whose combinations are taken, where a run of them can be parted so."""
 CURVE = 3
 """Numbers of the smooth curve: a parabola."""
-GROUPS = 3
-"""Groups of tests that have to say the same."""
 
 
 def scatters_beyond_curves(found: Fit, criteria: Criteria) -> tuple[Scatter, ...]:
-    """Sensors of the fitted tests whose scatter is another one than declared whatever the model leaves."""
+    """Sensors of the fitted tests that scatter less than was declared, whatever the model leaves."""
     it = _combined(found)
-    if it is None:
-        return ()
-    halves = [it.smoothest, ~it.smoothest]
-    thirds = [it.test % GROUPS == k for k in range(GROUPS)]
-    parts = [[it.mixed.some(rows).scatters for rows in split if rows.any()] for split in (halves, thirds)]
-    other = [
-        (each, all(_alike([part[k] for part in split], criteria) for split in parts))
-        for k, each in enumerate(it.mixed.scatters)
-        if each.differs(criteria, unexplained=True)
-    ]
-    smooth = all(alike for each, alike in other if each.factor > 1.0)
-    return tuple(each for each, _ in other if each.factor < 1.0 or smooth)
+    every = () if it is None else it.scatters
+    return tuple(each for each in every if each.factor < 1.0 and each.differs(criteria, unexplained=True))
 
 
-def _alike(parts: Sequence[Scatter], criteria: Criteria) -> bool:
-    """Whether a sensor scatters as much in all parts."""
-    logs = np.log([each.factor for each in parts])
-    weight = np.array([each.error for each in parts]) ** -2.0
-    spread = float(np.sum(weight * (logs - np.sum(weight * logs) / np.sum(weight)) ** 2))
-    return bool(chi2.sf(spread, max(len(parts) - 1, 1)) >= criteria.check_level)
-
-
-@dataclass(frozen=True, eq=False)
-class _Combined:
-    """mixed: a row for each combination of steps. smoothest: (K,) which is the smoothest of its steps. test: (K,)"""
-
-    mixed: Mixed
-    smoothest: NDArray[np.bool_]
-    test: NDArray[np.int64]
-
-
-def _combined(found: Fit) -> _Combined | None:
+def _combined(found: Fit) -> Mixed | None:
+    """A row for each combination of steps; None where there is none."""
     of, left = ReadingErrors.of(found), residuals(found)
-    tests = found.residual.load_cases.test
-    every = list(_windows(of.there, tests))
+    every = list(_windows(of.there, found.residual.load_cases.test))
     if not every:
         return None
-    combinations = [_blind(rows.size) for rows in every]
-    pairs = list(zip(every, combinations, strict=True))
-    one = [np.repeat(rows[:1], len(w)) for rows, w in pairs]
-    first = np.concatenate(one)
-    mixed = Mixed.of(
+    pairs = [(rows, _blind(rows.size)) for rows in every]
+    first = np.concatenate([np.repeat(rows[:1], len(w)) for rows, w in pairs])
+    return Mixed.of(
         np.concatenate([w @ left[rows] for rows, w in pairs]),
         np.concatenate([np.einsum("kr,rcm->kcm", w**2, of.columns[rows]) for rows, w in pairs]),
         of.channels[first],
         of.there[first],
     )
-    smoothest = np.concatenate([np.arange(len(w)) == 0 for w in combinations])
-    return _Combined(mixed, smoothest, tests[first])
 
 
 def _windows(there: NDArray[np.bool_], tests: NDArray[np.int64]) -> Iterator[NDArray[np.int64]]:

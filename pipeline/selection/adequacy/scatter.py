@@ -67,10 +67,6 @@ class Mixed:
         owner = ((channels[..., None] == sensors) & there[..., None]).astype(float)
         return cls(left, np.where(there[:, None, :], columns, 0.0), owner, sensors)
 
-    def some(self, rows: NDArray[np.bool_]) -> Mixed:
-        """Some of the rows, of the same sensors."""
-        return Mixed(self.left[rows], self.columns[rows], self.owner[rows], self.sensors)
-
     @property
     def scatters(self) -> tuple[Scatter, ...]:
         """Of every sensor, those of largest likelihood."""

@@ -62,11 +62,10 @@ def test_a_right_sigma_is_left_alone(hidden: tuple[str, float], seed: int) -> No
 @pytest.mark.parametrize("fault", [growing_gain, cross_talk])
 def test_a_wrong_one_is_found_beside_a_misfit(fault: object, seed: int) -> None:
     it = with_fault(bench("base_compliance.ry_rad_per_Nmm", 2e-9, ids=IDS, seed=seed), fault)  # type: ignore[arg-type]
-    wrong = {"mz_Nmm": 2.5, "mx_Nmm": 0.4}
-    found = told(declared(it, wrong))
-    for column, factor in wrong.items():
-        assert abs(np.log(found[column].factor * factor)) < 3.5 * found[column].error
-    assert set(found) == set(wrong)
+    found = told(declared(it, {"mz_Nmm": 2.5, "mx_Nmm": 0.4}))
+    # A sigma that is too small is not told from kinks.
+    assert set(found) == {"mz_Nmm"}
+    assert abs(np.log(found["mz_Nmm"].factor * 2.5)) < 3.5 * found["mz_Nmm"].error
 
 
 def test_what_a_model_leaves_is_no_scatter() -> None:
@@ -84,7 +83,7 @@ def test_kinks_of_a_few_tests_are_no_scatter() -> None:
     moved = first.data.displacement.copy()
     moved[:, 1] += 20.0 * it.noise.displacement[1] * np.sign(np.sin(2.1 * np.arange(len(moved))))
     jumping = replace(it, tests=(replace(first, data=replace(first.data, displacement=moved)), *rest))
-    assert all(each.factor < 1.0 for each in told(jumping).values())
+    assert not told(jumping)
 
 
 def test_it_is_asked_where_what_is_left_has_an_order() -> None:
