@@ -1,10 +1,9 @@
 """What the readings are about a model: single bad ones, sigmas as they are, tails.
 
-Asked of the best set only, and only where what it leaves has no order along the load paths: else a shape is missing
-and nothing of it is noise, and all that can be said is how much sensors scatter beyond smooth curves. Readings that are
-off by turns are an order too, but one that a single bad reading leaves around it: tails and other sigmas are asked
-about once that is set aside. What is found is asked again about all readings once the search was made with it, so that
-what is no longer outlying comes back.
+Asked of the best set only, and only where what it leaves has no order along the load paths: then a shape is missing
+and nothing of it is noise. Readings that are off by turns are an order too, but one that a single bad reading leaves
+around it: tails and other sigmas are asked about once that is set aside. What is found is asked again about all
+readings once the search was made with it, so that what is no longer outlying comes back.
 """
 
 from __future__ import annotations
@@ -19,7 +18,6 @@ from pipeline.inference.fit import Fit, fit, unfitted
 from pipeline.inference.load_cases import LoadCases, load_cases
 from pipeline.inference.subsets import carried
 from pipeline.selection.adequacy.bad_readings import BadReading, bad_readings, set_aside
-from pipeline.selection.adequacy.beyond_curves import scatters_beyond_curves
 from pipeline.selection.adequacy.judgement import HELD_OUT, ORDER, SIZE, judge
 from pipeline.selection.adequacy.scatter import Scatter, scatters
 from pipeline.selection.adequacy.tails import Tails, tails_of, without_tails
@@ -58,10 +56,8 @@ class Readings:
 
     def again(self, found: Fit, given: LoadCases, criteria: Criteria) -> Readings:
         """What the readings are about another fit. given: all of them as they were declared."""
-        if found.degrees < criteria.few_readings:
+        if not self.may_be_asked(found, criteria):
             return self
-        if not _ordered(found, criteria):
-            return Readings(scatter=scatters_beyond_curves(found, criteria)) if self.plain else self
         whole = found if self.plain else _of(given, found)
         bad = (*bad_readings(whole, criteria), *_held_out(whole, criteria))
         # A bad reading pulls a fit to itself, and what that leaves of its neighbours looks like long tails.

@@ -47,49 +47,29 @@ class Scatter:
         return bool(known and off > np.log(criteria.sigma_factor) and off > errors * self.error)
 
 
-@dataclass(frozen=True, eq=False)
-class Mixed:
-    """Whitened residuals in which the errors of several sensors mix.
-
-    left: (R, C) residuals. columns: (R, C, M) what an error of one declared standard deviation of each of M readings
-    does to them; zeros where there is none. owner: (R, M, S) which sensor each reading is of. sensors: (S,) channels.
-    """
-
-    left: Array
-    columns: Array
-    owner: Array
-    sensors: NDArray[np.int64]
-
-    @classmethod
-    def of(cls, left: Array, columns: Array, channels: NDArray[np.int64], there: NDArray[np.bool_]) -> Mixed:
-        """channels, there: (R, M) of which sensor each reading is, and whether it is one."""
-        sensors = np.unique(channels[there])
-        owner = ((channels[..., None] == sensors) & there[..., None]).astype(float)
-        return cls(left, np.where(there[:, None, :], columns, 0.0), owner, sensors)
-
-    @property
-    def scatters(self) -> tuple[Scatter, ...]:
-        """Of every sensor, those of largest likelihood."""
-        prior, logs = np.eye(self.sensors.size) / (2.0 * SCATTERING.wide) ** 2, np.zeros(self.sensors.size)
-        for _ in range(SCATTERING.rounds):
-            gradient, information = _scored(self.columns, self.owner, self.left, logs)
-            step = np.linalg.solve(information + prior, gradient - prior @ logs)
-            logs = logs + np.clip(step, -1.0, 1.0)
-            if np.abs(step).max(initial=0.0) < SCATTERING.settled:
-                break
-        information = _scored(self.columns, self.owner, self.left, logs)[1]
-        errors = np.sqrt(np.diag(np.linalg.inv(information + prior)))
-        return tuple(
-            Scatter(int(k), float(np.exp(0.5 * log)), 0.5 * float(error))
-            for k, log, error in zip(self.sensors, logs, errors, strict=True)
-        )
-
-
 def scatters(found: Fit) -> tuple[Scatter, ...]:
     """Of every sensor that the fitted tests read."""
-    of, left = ReadingErrors.of(found), residuals(found)
+    of, residual = ReadingErrors.of(found), _residual(found)
     rows = of.there.any(axis=1)
-    return Mixed.of(left[rows], of.columns[rows], of.channels[rows], of.there[rows]).scatters
+    columns = np.where(of.there[:, None, :], of.columns, 0.0)[rows]
+    channels, left = of.channels[rows], residual[rows]
+    sensors = np.unique(channels[of.there[rows]])
+    if not sensors.size:
+        return ()
+    # (R, M, S) which sensor each reading is of.
+    owner = (channels[..., None] == sensors).astype(float)
+    prior, logs = np.eye(sensors.size) / (2.0 * SCATTERING.wide) ** 2, np.zeros(sensors.size)
+    for _ in range(SCATTERING.rounds):
+        gradient, information = _scored(columns, owner, left, logs)
+        step = np.linalg.solve(information + prior, gradient - prior @ logs)
+        logs = logs + np.clip(step, -1.0, 1.0)
+        if np.abs(step).max() < SCATTERING.settled:
+            break
+    errors = np.sqrt(np.diag(np.linalg.inv(_scored(columns, owner, left, logs)[1] + prior)))
+    return tuple(
+        Scatter(int(k), float(np.exp(0.5 * log)), 0.5 * float(error))
+        for k, log, error in zip(sensors, logs, errors, strict=True)
+    )
 
 
 def _scored(columns: Array, owner: Array, left: Array, logs: Array) -> tuple[Array, Array]:
@@ -115,7 +95,7 @@ def _scored(columns: Array, owner: Array, left: Array, logs: Array) -> tuple[Arr
     return gradient, information
 
 
-def residuals(found: Fit) -> Array:
+def _residual(found: Fit) -> Array:
     """(R, C) whitened residuals of the fitted tests, zeros and what was written where they fit best."""
     it = found.residual
     out = np.zeros(it.values.shape)
