@@ -30,6 +30,8 @@ POWER = 0.9
 
 def shown(whole: Campaign, knocks: Sequence[Knock]) -> frozenset[Knock]:
     """Those of the bad readings that such a method sees in nine of ten noises. whole: the campaign with them."""
+    if not knocks:
+        return frozenset()
     found = unfitted(Model().with_effects([catalogue()[ALWAYS]]), load_cases(whole))
     of = ReadingErrors.of(found)
     count = max(int(of.there.sum()), 1)
