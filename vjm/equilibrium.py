@@ -233,7 +233,7 @@ def equilibrium(
     drives: inputs by name, (...) each, default as built. memory: (..., M) of the laws before the step, default
     what the start leaves.
     start: state to begin from, broadcast over the batch; default the unloaded mechanism. Laws with memory
-    continue from it.
+    continue from it. Where it is no stable equilibrium itself, a short step on the way from it is tried and no more.
     follow: stay on the branch of the start even where it is unstable.
     Quadratic near a solution and able to stay on an unstable branch, which Eq. 6 (`picard`) is not. Load cases
     that fail at once, or end unstable, are approached in increments. What is unstable all the same, past a
@@ -241,7 +241,10 @@ def equilibrium(
     ValueError for targets whose last axis is not 6 or that are not finite.
     """
     problem, first, before, batch = _posed(mechanism, targets, held, start, drives, memory)
-    return record(problem, solve(problem, first, before, tolerance, limit, follow), batch)
+    astray = np.zeros(batch, dtype=bool)
+    if start is not None:
+        astray |= ~start.converged | ((start.unstable > 0) & (not follow))
+    return record(problem, solve(problem, first, before, tolerance, limit, follow, astray.ravel()), batch)
 
 
 def nearby(

@@ -24,7 +24,13 @@ UNSURE = "unstable, or found after wandering"
 
 
 def solve(
-    problem: Problem, start: Array, before: Array, tolerance: float, limit: int, follow: bool
+    problem: Problem,
+    start: Array,
+    before: Array,
+    tolerance: float,
+    limit: int,
+    follow: bool,
+    astray: np.ndarray,
 ) -> Iterate:
     """Equilibria of all load cases, begun at `start` (B, N), an equilibrium at the inputs `before` (B, D).
 
@@ -34,6 +40,8 @@ def solve(
     equilibrium, or one found after wandering, is approached in increments as well, through stable ones only,
     and a stable one that this leads to takes its place: Newton's method may jump over to a solution that no
     loading reaches.
+    astray: (B,) load cases whose start is one that was looked for in this way and not found, or unstable: one short
+    step on the way tells whether it goes on now.
     """
     # What wanders is approached in increments even if it gets there: it goes on only where they do not.
     end = _newton(problem, start, tolerance, limit if follow else min(limit, _SOON))
@@ -42,9 +50,11 @@ def solve(
     if failed.size:
         end.put(
             failed,
-            _in_increments(problem.take(failed), start[failed], before[failed], tolerance, limit, follow),
+            _in_increments(
+                problem.take(failed), start[failed], before[failed], tolerance, limit, follow, astray[failed]
+            ),
         )
-    lost = np.flatnonzero(end.reason != CONVERGED)
+    lost = np.flatnonzero((end.reason != CONVERGED) & ~astray)
     if lost.size and not follow and limit > _SOON:
         again = _newton(problem.take(lost), start[lost], tolerance, limit)
         found = again.reason == CONVERGED
@@ -53,7 +63,13 @@ def solve(
     doubtful = np.flatnonzero((direct > 0) & unsure)
     if doubtful.size and not follow:
         again = _in_increments(
-            problem.take(doubtful), start[doubtful], before[doubtful], tolerance, limit, follow
+            problem.take(doubtful),
+            start[doubtful],
+            before[doubtful],
+            tolerance,
+            limit,
+            follow,
+            astray[doubtful],
         )
         better = again.unstable == 0
         end.put(doubtful[better], _members(again, better))
@@ -91,15 +107,21 @@ def _in_chunks(problem: Problem, start: Array, tolerance: float, limit: int) -> 
 
 
 def _in_increments(
-    problem: Problem, start: Array, before: Array, tolerance: float, limit: int, follow: bool
+    problem: Problem,
+    start: Array,
+    before: Array,
+    tolerance: float,
+    limit: int,
+    follow: bool,
+    astray: np.ndarray,
 ) -> Iterate:
     """Targets and inputs approached from those at the start; a load case that fails stays where it got to.
 
-    before: (B, D) inputs at the start.
+    before: (B, D) inputs at the start. astray: (B,) as in `solve`; the first step of these is the least one.
     """
     origin = replace(problem, drives=before).readings(start)
     end = unsolved(start)
-    reached, step = np.zeros(len(start)), np.full(len(start), FIRST_STEP)
+    reached, step = np.zeros(len(start)), np.where(astray, LEAST_STEP, FIRST_STEP)
     active = np.arange(len(start))
     for _ in range(_TRIES):
         if not active.size:
@@ -108,7 +130,7 @@ def _in_increments(
         aim = origin[active] + share * (problem.targets[active] - origin[active])
         drives = before[active] + share * (problem.drives[active] - before[active])
         # Many iterations are of use to the least step alone.
-        most = limit if np.any(step[active] < 2.0 * LEAST_STEP) else min(limit, _SOON)
+        most = limit if np.any((step < 2.0 * LEAST_STEP)[active] & ~astray[active]) else min(limit, _SOON)
         part = _newton(problem.take(active).aim(aim, drives), end.unknowns[active], tolerance, most)
         good = (part.reason == CONVERGED) & (follow | (part.unstable <= 0))
         # A smaller step tells whether one that wandered has found the continuation; the least one is believed.

@@ -22,7 +22,7 @@ class TooMuch(RuntimeError):
 
 
 class _Count(local):
-    steps, most = 0.0, inf
+    steps, most, ends = 0.0, inf, inf
 
 
 _count = _Count()
@@ -43,6 +43,22 @@ def elsewhere(steps: float) -> None:
     _count.steps += steps
     if _count.steps > _count.most:
         raise TooMuch("it would take too long")
+
+
+def over() -> bool:
+    """Whether what `within` allows is used up: nothing new is begun, and what was found until then is kept."""
+    return _count.steps > _count.ends
+
+
+@contextmanager
+def within(steps: float) -> Iterator[None]:
+    """In it, `over` after that many evaluations more, or sooner inside another one."""
+    before = _count.ends
+    _count.ends = min(before, _count.steps + steps)
+    try:
+        yield
+    finally:
+        _count.ends = before
 
 
 @contextmanager

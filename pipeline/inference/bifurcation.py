@@ -102,7 +102,13 @@ def branched(
         if found is not None:
             better = ~lost(found)
             state = state.with_members((rows[0][better], rows[1][better]), found.member(better))
-    return with_reasons(state, lost(state) & group.real)
+    missing = lost(state) & group.real
+    if begun is None or begun.converged.shape != missing.shape:
+        return with_reasons(state, missing)
+    # Of those that a like model lost as well it is known.
+    known = missing & ~state.converged & ~begun.converged
+    reason = np.where(known, begun.reason, state.reason)
+    return with_reasons(replace(state, reason=reason), missing & ~known)
 
 
 def _of_test(

@@ -19,8 +19,9 @@ from pipeline.inference.predicted import Prediction
 from pipeline.inference.residual import Residual, residual
 from pipeline.inference.rounding import SQUARED, TINY
 from pipeline.inference.settings import PROFILE
-from pipeline.inference.solvers import ALL, Effort, End, Solver, Watch, far
+from pipeline.inference.solvers import ALL, WORK, Effort, End, Solver, Watch, allowance, far
 from pipeline.inference.subsets import at_rows, joined
+from vjm.work import within
 
 Array = NDArray[np.float64]
 LOG = logging.getLogger(__name__)
@@ -96,7 +97,8 @@ class Fit:
     @cached_property
     def finite_covariance(self) -> Array:
         """(P, P) with zeros for numbers about which the data say nothing."""
-        return np.where(np.isfinite(self.covariance), self.covariance, 0.0)
+        seen = np.isfinite(np.diag(self.covariance))
+        return np.where(seen[:, None] & seen, self.covariance, 0.0)
 
     @cached_property
     def nominal_slopes(self) -> Array:
@@ -165,7 +167,8 @@ def _fit(
         return End(there, there.rounds, ended=False)
 
     LOG.info("fit of %s from %s", ", ".join(model.names) or "the plain model", model.values)
-    end = along_a_line(model, own, begin, solve, effort)
+    with within(effort.share * WORK * allowance(own)):
+        end = along_a_line(model, own, begin, solve, effort)
     left = float(np.sum(end.there.residuals**2))
     LOG.info("ended after %d evaluations%s", end.evaluations, ", as its work ran out" if end.ended else "")
     LOG.info("sum of squares %.9g, rows lost %d, numbers %s", left, end.there.lost, end.there.values)

@@ -12,9 +12,9 @@ from scipy.optimize import lsq_linear
 
 from pipeline.inference.objective import Evaluation, Objective
 from pipeline.inference.predicted import Prediction
-from pipeline.inference.solvers import WORK, Effort, End, Pulled, Watch, allowance, idle, nothing
+from pipeline.inference.solvers import Effort, End, Pulled, Watch, idle, nothing
 from vjm.effects.base import Parameter
-from vjm.work import spent
+from vjm.work import over
 
 Array = NDArray[np.float64]
 LOG = logging.getLogger(__name__)
@@ -59,7 +59,6 @@ def levenberg_marquardt(
     pulled = Pulled.of(aim, plausible)
     scale, damping, least = pulled.scale, 0.0, 0.0
     refused, losses, past, given_up = np.inf, 0, list[float](), False
-    ends = spent() + effort.share * WORK * allowance(aim.load_cases)
     there = aim.at(np.clip(aim.model.values, *bounds), start, within=np.inf)
     here, slopes, count = pulled.residuals(there), pulled.jacobian(there), there.rounds
     for left in reversed(range(STEPS)):
@@ -101,7 +100,7 @@ def levenberg_marquardt(
             least, losses = (damping, losses + 1) if losing else (damping / SLOWLY, losses)
         past.append(float(here @ here))
         vain = gain <= 0.0 and promise < VAIN * unit
-        given_up = spent() > ends or beaten(past, left, here.size, effort)
+        given_up = over() or beaten(past, left, here.size, effort)
         if vain or damping > 1e6 or losses == LOSSES or given_up or drags(past, here.size):
             break
     return End(there, count, given_up)

@@ -24,6 +24,7 @@ from pipeline.inference.predicted import Prediction
 from pipeline.inference.prediction import predict
 from pipeline.inference.residual import Residual, residual
 from pipeline.inference.settings import INPUTS
+from vjm.work import over
 
 Array = NDArray[np.float64]
 
@@ -71,7 +72,8 @@ class Evaluation:
         return replace(self, prediction=there, residual=residual(it.load_cases, there))
 
     def settle(self, within: float = 0.0) -> Evaluation:
-        """The same with inputs that are settled, or known as far as chi-square is wanted: `within` how much."""
+        """The same with inputs that are settled, known as far as chi-square is wanted (`within` how much), or as far as
+        the work of a fit allows."""
         it, here, found, rounds = self.objective, self.prediction, self.residual, self.rounds
         slopes = here.by_free.shape[-1] == len(it.model.free)
         model, total, same = it.model.at(self.values), float(found.aimed @ found.aimed), np.inf
@@ -80,7 +82,8 @@ class Evaluation:
             settled = off.max(initial=0.0) <= INPUTS.near or same <= INPUTS.same * max(
                 1.0, total / found.aimed.size
             )
-            if settled or rounds >= self.rounds + INPUTS.rounds or float(np.sum(off**2)) <= within:
+            last = over() or rounds >= self.rounds + INPUTS.rounds
+            if settled or last or float(np.sum(off**2)) <= within:
                 return Evaluation(it, self.values, here, found, bool(settled), rounds)
             here = it.about(predict(model, it.load_cases, slopes, start=here, shift=found.shift))
             found = residual(it.load_cases, here)

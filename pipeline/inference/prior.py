@@ -49,8 +49,9 @@ def held_back(free: Sequence[Free], values: Array, plausible: float, jacobian: A
     far = away(free, values, plausible)
     scaled = jacobian * np.array([abs(each.parameter.typical) * plausible for each in free])
     push = residual(far) * slope(far)
-    curvature = scaled.T @ scaled + np.diag(slope(far) ** 2)
-    return float(push @ np.linalg.solve(curvature, push)) if push.size else 0.0
+    # Of the curvature its root: squares of what the readings hardly show are lost beside the others.
+    _, sizes, axes = np.linalg.svd(np.vstack([scaled, np.diag(slope(far))]), full_matrices=False)
+    return float(np.sum((axes @ push / sizes) ** 2))
 
 
 def implausibility(free: Sequence[Free], values: Array, plausible: float) -> float:

@@ -18,6 +18,7 @@ from pipeline.inference.load_cases import LoadCases
 from pipeline.inference.model import Model, Term
 from pipeline.inference.predicted import Prediction
 from pipeline.inference.settings import DIFFERENCES
+from vjm.effects.base import Effect
 from vjm.effects.sensor_fault import SensorFault
 
 Array = NDArray[np.float64]
@@ -33,6 +34,13 @@ def in_mechanism(model: Model) -> list[int]:
     """Numbers of the free parameters that are not those of a sensor's fault."""
     names = {term.effect.name for term in faults(model)}
     return [number for number, each in enumerate(model.free) if each.effect not in names]
+
+
+def moves(effect: Effect, load_cases: LoadCases) -> bool:
+    """Whether the linkage stands otherwise with an effect: not with the fault of a sensor that controls nothing."""
+    if not isinstance(effect, SensorFault):
+        return True
+    return bool(np.any(load_cases.channels == load_cases.rows.columns.index(effect.column)))
 
 
 def inputs_off(model: Model, load_cases: LoadCases) -> Array:

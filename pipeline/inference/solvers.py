@@ -14,7 +14,7 @@ from pipeline.inference.load_cases import LoadCases
 from pipeline.inference.objective import Evaluation, Objective
 from pipeline.inference.predicted import Prediction
 from pipeline.inference.prior import away, residual, slope
-from vjm.work import spent
+from vjm.work import over
 
 Array = NDArray[np.float64]
 Watch = Callable[[str], None]
@@ -118,7 +118,6 @@ def trust_region(
     bounds = np.array([each.bounds for each in aim.model.free]).T
     pulled = Pulled.of(aim, plausible)
     wide = np.clip((bounds - pulled.null) / pulled.scale, -LARGEST, LARGEST)
-    ends = spent() + effort.share * WORK * allowance(aim.load_cases)
     here = aim.at(np.clip(aim.model.values, *bounds), start)
     count = here.rounds
 
@@ -142,7 +141,7 @@ def trust_region(
         xtol=TOLERANCE,
         gtol=TOLERANCE,
     )
-    return End(there(found.x).with_slopes, count, spent() > ends)
+    return End(there(found.x).with_slopes, count, over())
 
 
 def far(total: float, count: int) -> bool:

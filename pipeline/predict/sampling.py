@@ -24,11 +24,14 @@ from pipeline.callbacks import OnProgress
 from pipeline.inference.load_cases import LoadCases
 from pipeline.inference.prediction import predict
 from pipeline.predict.bands import Bands, Tangent
+from vjm.work import spent
 
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
-LOOKS, SAMPLES = 6, 60
-"""Draws that show where the tangent misses; draws that make intervals."""
+LOOKS, SAMPLES, FEWEST = 6, 60, 20
+"""Draws that show where the tangent misses; draws that make intervals, and the fewest that do where each takes long."""
+WORK = 12_000.0
+"""Of the solver, after which no draw is begun beyond the fewest: rows beyond a bifurcation take most of it."""
 EACH = 3
 """One draw of so many is solved for at the measured inputs as well, to part the model from the noise."""
 SHARE, OFF = 0.05, 0.25
@@ -102,13 +105,16 @@ def _samples(
     at: Tangent, cases: LoadCases, seed: int, on_progress: OnProgress, count: int
 ) -> tuple[Array, Array]:
     """(S / 3, R, C) readings at what was prescribed, and (S, R, C) at inputs that were drawn, of some histories; where
-    a draw has no state, what the tangent says of the fit."""
+    a draw has no state, what the tangent says of the fit. S is the count, or fewer where that takes too much work."""
     it, generator = at.posterior, np.random.default_rng([seed, 2])
     values, departures = it.draws(count, generator)
     start = predict(it.model, cases, slopes=False, order=0)
     alone: list[Array] = []
     whole: list[Array] = []
+    ends = spent() + WORK
     for number, (own, departure) in enumerate(zip(values, departures, strict=True)):
+        if number >= FEWEST and spent() > ends:
+            break
         on_progress(f"sample {number + 1} of {count}")
         model = it.model_at(own, departure)
         shift = generator.standard_normal(cases.input_sigma.shape) * cases.input_sigma

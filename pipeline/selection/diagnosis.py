@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
 from functools import partial
 from time import perf_counter
@@ -28,7 +28,7 @@ from pipeline.selection.cross_validation import agreement
 from pipeline.selection.doctor import Suspicion, suspicions
 from pipeline.selection.fit_cache import FitCache, Names
 from pipeline.selection.next_test import NextTest, best_next_test
-from pipeline.selection.noise_rounds import settled, with_faults
+from pipeline.selection.noise_rounds import Again, Settled, settled, with_faults
 from pipeline.selection.reading_noise import AS_DECLARED, Readings
 from pipeline.selection.rivals import Found
 from pipeline.selection.searched import beginning
@@ -37,6 +37,7 @@ from pipeline.selection.verdict import UNSURE_OF_TABLE, Decision
 from vjm.effects.base import Effect
 from vjm.effects.sensor_fault import SensorFault
 from vjm.effects.sized import all_sized
+from vjm.work import at_most
 
 
 @dataclass(frozen=True, eq=False)
@@ -156,7 +157,7 @@ def diagnose(
         settled(cache, again, attempts),
         all_sized(dict(sorted(known.items())), scale_for(campaign)).values(),
     )
-    done = done.attempts.get("whether a sensor is at fault", partial(with_faults, done, kinds, again), done)
+    done = done.attempts.get("whether a sensor is at fault", partial(_at_fault, done, kinds, again), done)
     it, attempts, cache = done.it, done.attempts, done.it.found.cache
     whole = cache.whole.campaign
     if it.untested:
@@ -190,6 +191,12 @@ def diagnose(
         sure,
         alike,
     )
+
+
+def _at_fault(done: Settled, kinds: Iterable[Effect], again: Again) -> Settled:
+    """With faults of sensors. TooMuch where that takes more work than a search may."""
+    with at_most(done.it.found.cache.work):
+        return with_faults(done, kinds, again)
 
 
 def _next_test(cache: FitCache, decision: Decision) -> NextTest | None:

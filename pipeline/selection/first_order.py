@@ -6,8 +6,8 @@ off another effect is worth that, and what would need them itself promises less.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import product
 
@@ -33,14 +33,23 @@ class Gain:
     probes: dict[str, float]
 
 
+Rescue = Callable[[str], float | None]
+"""Chi-square of a fit with an effect at its typical size, of what brings back lost rows: these have no slope."""
+
+
+def unlooked(name: str) -> None:
+    """Of a fit without lost rows."""
+
+
 @dataclass(frozen=True, eq=False)
 class FirstOrder:
     """A fit and what could be added to it.
 
     residual: (N,) whitened, of the rows that are looked at, where what was written about the rig is true. base: (N, P)
     what the fit can move. nominal: (N, K) what a standard deviation of what was written does. tests: (N,) numbers.
-    share: of the fitted readings that are looked at. rescues: chi-square with an effect at its typical size, where
-    that was looked at. plausible: typical sizes of a number that count as one sigma.
+    share: of the fitted readings that are looked at. rescue: chi-square with an effect at its typical size, looked at
+    once it is asked for; None where no row is lost that it could bring back. plausible: typical sizes of a number that
+    count as one sigma.
     """
 
     fit: Fit
@@ -51,7 +60,7 @@ class FirstOrder:
     tests: NDArray[np.int_]
     share: float
     plausible: float
-    rescues: Mapping[str, float] = field(default_factory=dict)
+    rescue: Rescue = unlooked
 
     def without(self, test: int) -> FirstOrder:
         """As if a test had not been done."""
@@ -66,7 +75,7 @@ class FirstOrder:
             base=self.base[kept],
             nominal=self.nominal[kept],
             tests=self.tests[kept],
-            rescues={},
+            rescue=unlooked,
         )
 
     @cached_property
@@ -141,8 +150,8 @@ class FirstOrder:
 
     def _rescued(self, names: Sequence[str]) -> float:
         """Fall of chi-square by the best of them alone, at its typical size; 0 where none was looked at."""
-        least = min((self.rescues[n] for n in names if n in self.rescues), default=self.fit.chi_square)
-        return max(0.0, self.fit.chi_square - least)
+        there = [found for name in names if (found := self.rescue(name)) is not None]
+        return max(0.0, self.fit.chi_square - min(there, default=self.fit.chi_square))
 
     def _probes(self, names: Sequence[str], choice: tuple[int, ...]) -> dict[str, float]:
         every = {n: self.signatures[n].probes for n in names}
@@ -154,7 +163,7 @@ class FirstOrder:
 
 
 def first_order(
-    found: Fit, every: Sequence[Signature], at: Look, rescues: Mapping[str, float], plausible: float
+    found: Fit, every: Sequence[Signature], at: Look, plausible: float, rescue: Rescue = unlooked
 ) -> FirstOrder:
     """Of a fit and the signatures about it."""
     it = found.residual
@@ -173,7 +182,7 @@ def first_order(
         tests,
         share,
         plausible,
-        rescues,
+        rescue,
     )
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from functools import cached_property, partial
+from functools import cache, cached_property, partial
 
 import numpy as np
 
@@ -18,12 +18,13 @@ from pipeline.inference.parallel_fits import fits_at_once
 from pipeline.inference.predicted import Prediction
 from pipeline.inference.prediction import predict
 from pipeline.inference.residual import residual
+from pipeline.inference.sensor_faults import moves
 from pipeline.inference.solvers import WORK, Effort, allowance, far
 from pipeline.inference.stops import sided
 from pipeline.inference.subsets import at_rows, carried, rows_in
 from pipeline.parameter_names import parted, path_of
 from pipeline.selection.criteria import CRITERIA, Criteria, refits
-from pipeline.selection.first_order import FirstOrder, first_order
+from pipeline.selection.first_order import FirstOrder, Rescue, first_order, unlooked
 from pipeline.selection.signatures import (
     Look,
     Probe,
@@ -272,7 +273,7 @@ class FitCache:
             found = found if far(found.chi_square, found.whitened.size) else self.with_own_line(names)
             every = signatures(found, list(self.candidates.values()), self._probes, self.at, self.on_progress)
             plausible = self.criteria.plausible
-            self.first_orders[names] = first_order(found, every, self.at, self._rescues(found), plausible)
+            self.first_orders[names] = first_order(found, every, self.at, plausible, self._rescue(found))
         return self.first_orders[names]
 
     def first_order_about(self, found: Fit, names: Names) -> FirstOrder:
@@ -287,23 +288,26 @@ class FitCache:
             smooth = [it.effect for it in every if it.effect.smooth]
             at = look(cases, self.criteria.screened_steps)
             every = smooth_signatures(found, smooth, at) if smooth else []
-        return first_order(found, every, at, {}, self.criteria.plausible)
+        return first_order(found, every, at, self.criteria.plausible)
 
-    def _rescues(self, found: Fit) -> dict[str, float]:
-        """Chi-square with each further effect at its typical size, where the fit has lost rows: they have no slope."""
+    def _rescue(self, found: Fit) -> Rescue:
+        """What a further effect at its typical size makes of lost rows, where the fit has any."""
         if not found.prediction.lost[self.whole.fitted].any():
-            return {}
-        out = {}
-        for effect in self.candidates.values():
-            if effect.parameters and effect.name not in found.model.names:
-                self.on_progress(f"{effect.name} at its typical size")
-                model = replace(found.model, terms=(*found.model.terms, Term(effect, effect.typicals)))
-                there = predict(model, self.whole, slopes=False, start=found.prediction)
-                there = replace(
-                    there, nominal=found.prediction.nominal, by_nominal=found.prediction.by_nominal
-                )
-                out[effect.name] = Fit(model, there, residual(self.whole, there), 1).chi_square
-        return out
+            return unlooked
+        at = found.prediction
+
+        @cache
+        def with_typical(name: str) -> float | None:
+            effect = self.candidates[name]
+            if not effect.parameters or name in found.model.names or not moves(effect, self.whole):
+                return None
+            self.on_progress(f"{name} at its typical size")
+            model = replace(found.model, terms=(*found.model.terms, Term(effect, effect.typicals)))
+            there = predict(model, self.whole, slopes=False, start=at)
+            there = replace(there, nominal=at.nominal, by_nominal=at.by_nominal)
+            return Fit(model, there, residual(self.whole, there), 1).chi_square
+
+        return with_typical
 
     @cached_property
     def _probes(self) -> list[Probe]:

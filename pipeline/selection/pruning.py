@@ -75,5 +75,7 @@ def _said(cache: FitCache, names: Names, name: str) -> float:
     known = np.isfinite(np.diag(covariance))
     if not known.any():
         return 0.0
-    inner = covariance[np.ix_(known, known)]
-    return float(away[known] @ np.linalg.solve(inner, away[known]))
+    typical = np.array([abs(each.parameter.typical) for each in found.model.free])[mine][known]
+    inner = covariance[np.ix_(known, known)] / np.outer(typical, typical)
+    # Numbers of one effect may be known in some combinations alone.
+    return float(away[known] / typical @ np.linalg.pinv(inner, hermitian=True) @ (away[known] / typical))

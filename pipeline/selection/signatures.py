@@ -27,6 +27,7 @@ from pipeline.parameter_names import path_of
 from pipeline.processors import at_once
 from pipeline.selection.criteria import Criteria
 from vjm.effects.base import Effect, Parameter
+from vjm.effects.sensor_fault import SensorFault
 
 Array = NDArray[np.float64]
 
@@ -175,10 +176,12 @@ def _probes_of(
     out = []
     weights = whitening(own, without)
     used = own.predicted
+    # The fault of a sensor leaves the linkage where it is, or nearly so.
+    near = without if isinstance(effect, SensorFault) else None
     for value in effect.probes:
         on_progress(f"{effect.name} at {value:g}")
         model = probed(besides.with_effects([effect]), effect, value)
-        there = predict(model, own, slopes=False, order=0)
+        there = predict(model, own, slopes=False, start=near, order=0)
         lost = (there.lost | without.lost)[:, None]
         out.append(Probe(effect, value, np.where(lost, 0.0, there.values - without.values)))
         if np.linalg.norm(weights.apply(np.where(used, out[-1].change, 0.0))[used]) > plain:

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 from scipy.stats import chi2, norm
 
 from pipeline.inference.driving import column_name
+from pipeline.inference.eliminated import Marginal
 from pipeline.inference.fit import Fit, fit
 from pipeline.inference.load_cases import load_cases
 from pipeline.inference.noise import lag_one
@@ -161,15 +162,12 @@ def _held_out(found: Fit, scatter: float, level: float) -> Check | None:
     zeros = found.residual.offsets[used]
     wide = _uncertain(found, used)
     if zeros.any():
-        left, sizes, _ = np.linalg.svd(zeros, full_matrices=False)
-        basis = left[:, sizes > EQUAL * sizes.max()]
+        axes, sizes, _ = np.linalg.svd(zeros, full_matrices=False)
+        basis = axes[:, sizes > EQUAL * sizes.max()]
         residual, wide = residual - basis @ (basis.T @ residual), wide - basis @ (basis.T @ wide)
-    total = float(residual @ residual)
-    if wide.shape[1]:
-        inner = np.eye(wide.shape[1]) + wide.T @ wide
-        pull = wide.T @ residual
-        total -= float(pull @ np.linalg.solve(inner, pull))
-    p = float(chi2.sf(total / scatter**2, residual.size))
+    # No difference from the sum of squares, which a number that hardly anything determines would round to nothing.
+    left = Marginal.of(wide).weakened(residual)
+    p = float(chi2.sf(np.sum(left**2) / scatter**2, residual.size))
     rms = float(np.sqrt(np.mean(residual**2)))
     return Check(HELD_OUT, p, f"tests that were held out are off by {sigma(rms)} sigma", level)
 
