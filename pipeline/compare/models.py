@@ -82,12 +82,16 @@ def compare_models(
         found.append(_error(key, model, cases, solve))
     shown = next(it for it in found if it.model == ("vjm" if saved is None else "saved"))
     doctor: tuple[DoctorFinding, ...] = ()
+    attempts = Attempts()
     if shown.fit is not None and not shown.within_noise and not shown.untested:
-        doctor = Attempts().get(
-            "mistakes of the table", lambda: mistakes_of(campaign, saved or Model(), on_progress), ()
+        doctor = attempts.get(
+            "the look for mistakes of the table",
+            lambda: mistakes_of(campaign, saved or Model(), on_progress),
+            (),
         )
     return Comparison(
         doctor=doctor,
+        not_done=tuple(attempts.failed),
         campaign=whole.name,
         folder=str(whole.folder or ""),
         kind=whole.rig.kind,

@@ -156,6 +156,8 @@ class Comparison(Record):
     """One record for each model."""
     doctor: tuple[DoctorFinding, ...] = ()
     """Mistakes that the table seems to have."""
+    not_done: tuple[str, ...] = ()
+    """Optional parts that failed, and why."""
     seconds: float
     """Time that it took."""
     versions: dict[str, str]

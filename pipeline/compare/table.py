@@ -47,6 +47,7 @@ def page(result: Comparison, width: int = WIDTH, full: bool = False) -> Renderab
         *(Text(said) for said in _details(result)),
         Text(counts),
         *(Text(said) for said in mends(result.doctor)),
+        *(Text(f"{said}.") for said in result.not_done),
         *_lines("", shown.in_units, SENTENCES),
         *(_lines("remark: ", result.remarks, REMARKS) if whole else []),
         *([Text()] if whole else []),

@@ -28,8 +28,10 @@ from vjm.work import spent
 
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
-LOOKS, SAMPLES, FEWEST = 6, 60, 20
-"""Draws that show where the tangent misses; draws that make intervals, and the fewest that do where each takes long."""
+LOOKS, SAMPLES = 6, 60
+"""Draws that show where the tangent misses; draws that make intervals."""
+FEWEST = 20
+"""Draws that make them where each takes long."""
 WORK = 12_000.0
 """Of the solver, after which no draw is begun beyond the fewest: rows beyond a bifurcation take most of it."""
 EACH = 3

@@ -43,9 +43,10 @@ from vjm.work import at_most
 Array = NDArray[np.float64]
 
 
-PART = 3.0
-"""Times the work of a search that the look for mistakes may take. Tables with a mistake take up to 2.4 (angles in
-radians), right ones of the tests 0.34 and less, four slow benches of the challenge 0.11 and less."""
+KINKED = 3.0
+"""Times the work of a search that the look for effects with kinks may take which explain as much as a mistake: up to 2.2
+(an axis that was not zeroed). The look for mistakes takes up to 0.4 of one in tables that have one, up to 0.34 in right
+ones of the tests, and 0.02 in benches of the challenge; it may take one."""
 
 
 @dataclass(frozen=True)
@@ -62,46 +63,55 @@ class Suspicion:
 def suspicions(cache: FitCache) -> tuple[Suspicion, ...]:
     """The mistake of the table that explains most, with those that explain as much; none where none does. TooMuch where
     that takes more work than a few searches may."""
-    with at_most(PART * cache.work):
-        return _suspicions(cache)
-
-
-def _suspicions(cache: FitCache) -> tuple[Suspicion, ...]:
-    criteria = cache.criteria
-    # A mistake that explains most is seen in few rows, and by effects that need no search.
-    some = look(cache.whole, criteria.doctor_steps).load_cases
-    if not (some.predicted & some.fitted[:, None]).any():
+    with at_most(cache.work):
+        table = _table(cache)
+        found = [] if table is None else _better_mended(table, cache)
+    if table is None or not found:
         return ()
-    plain = {name: it for name, it in cache.candidates.items() if it.smooth}
-    table = Table.of(FitCache(some, cache.base, plain, cache.on_progress, criteria, before=cache))
-    if (
-        table.fit.degrees < criteria.doctor_readings
-        or _near(table.fit, criteria)
-        or _near(table.plain.fit, criteria)
-    ):
-        return ()
-    cache.on_progress("whether the table has a mistake")
-    noise, promising = max(table.fit.degrees, 1), _promising(table)
-    if not promising:
-        return ()
-    # A faulty sensor is none of the table, and may look like one to a few of its columns.
-    fault = least_with_a_fault(cache, table.root, _kinds(cache.whole.campaign))
-    share = noise / max(cache.fit(table.root).degrees, 1)
-    found = _found(table, promising, fault * share)
-    if found:
-        # A table may be right and the rig lack two effects: neither alone explains most.
-        two = table.left_by_two({it.beside for it in found})
-        found = [it for it in found if it.after * criteria.doctor_factor <= two]
-    if found:
-        # A column of which the model predicts little is silenced by a factor: effects with kinks explain it too.
-        kinked = _least_with_kinks(
-            cache, table.root, [it.after * criteria.doctor_factor / share for it in found]
-        )
-        found = [it for it in found if it.after * criteria.doctor_factor <= kinked * share]
+    criteria, noise, share = cache.criteria, max(table.fit.degrees, 1), _share(table, cache)
+    # A column of which the model predicts little is silenced by a factor: effects with kinks explain it too.
+    with at_most(KINKED * cache.work):
+        enough = [it.after * criteria.doctor_factor / share for it in found]
+        kinked = _least_with_kinks(cache, table.root, enough)
+    found = [it for it in found if it.after * criteria.doctor_factor <= kinked * share]
     # A factor that silences a column leaves less than noise: that explains no more than noise does.
     least = max(min((it.after for it in found), default=0.0), noise)
     kept = [it for it in found if it.after < least + criteria.doctor_tie * least / noise]
     return tuple(sorted(kept, key=lambda it: (it.after, len(it.mistake.columns))))
+
+
+def _table(cache: FitCache) -> Table | None:
+    """What is looked at of a table; None where there is nothing to be found."""
+    criteria = cache.criteria
+    # A mistake that explains most is seen in few rows, and by effects that need no search.
+    some = look(cache.whole, criteria.doctor_steps).load_cases
+    if not (some.predicted & some.fitted[:, None]).any():
+        return None
+    plain = {name: it for name, it in cache.candidates.items() if it.smooth}
+    table = Table.of(FitCache(some, cache.base, plain, cache.on_progress, criteria, before=cache))
+    few = table.fit.degrees < criteria.doctor_readings
+    return None if few or _near(table.fit, criteria) or _near(table.plain.fit, criteria) else table
+
+
+def _share(table: Table, cache: FitCache) -> float:
+    """Of what noise leaves in all rows, the part in those that are looked at."""
+    return max(table.fit.degrees, 1) / max(cache.fit(table.root).degrees, 1)
+
+
+def _better_mended(table: Table, cache: FitCache) -> list[Suspicion]:
+    """Mistakes that explain more than one smooth effect, two of them or the fault of one sensor."""
+    cache.on_progress("whether the table has a mistake")
+    promising = _promising(table)
+    if not promising:
+        return []
+    # A faulty sensor is none of the table, and may look like one to a few of its columns.
+    fault = least_with_a_fault(cache, table.root, _kinds(cache.whole.campaign))
+    found = _found(table, promising, fault * _share(table, cache))
+    if not found:
+        return []
+    # A table may be right and the rig lack two effects: neither alone explains most.
+    two = table.left_by_two({it.beside for it in found})
+    return [it for it in found if it.after * cache.criteria.doctor_factor <= two]
 
 
 def _least_with_kinks(cache: FitCache, root: Names, enough: Sequence[float]) -> float:

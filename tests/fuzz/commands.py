@@ -99,6 +99,7 @@ def _commands(seen: Seen, files: Files, campaign: Campaign, model: Model, known:
     def compared() -> str:
         result = compare_models(campaign, model if model.terms else None)
         seen.faults += [f"compare: {fault}" for fault in _record(result)]
+        seen.failed += [f"compare: {said}" for said in result.not_done]
         return "compared"
 
     def diagnosed() -> str:
