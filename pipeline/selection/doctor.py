@@ -44,9 +44,9 @@ Array = NDArray[np.float64]
 
 
 KINKED = 3.0
-"""Times the work of a search that the look for effects with kinks may take which explain as much as a mistake: up to 2.2
-(an axis that was not zeroed). The look for mistakes takes up to 0.4 of one in tables that have one, up to 0.34 in right
-ones of the tests, and 0.02 in benches of the challenge; it may take one."""
+"""Times the work of a search that the look for effects with kinks may take which explain as much as a mistake: it
+takes up to 2.2 (an axis that was not zeroed). The look for mistakes may take one; it takes up to 0.4 in tables that
+have one, 0.34 in right ones of the tests, 0.02 in benches of the challenge."""
 
 
 @dataclass(frozen=True)
