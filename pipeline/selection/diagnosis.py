@@ -18,6 +18,7 @@ from pipeline.inference.estimated_sigmas import completed
 from pipeline.inference.fit import Fit
 from pipeline.inference.load_cases import load_cases
 from pipeline.inference.model import Model, at_bound
+from pipeline.inference.solvers import WORK, allowance
 from pipeline.inference.suitable import check_suitable, scale_for, sized_model
 from pipeline.selection.adequacy.judgement import Judgement, judge
 from pipeline.selection.certain import certain
@@ -194,8 +195,10 @@ def diagnose(
 
 
 def _at_fault(done: Settled, kinds: Iterable[Effect], again: Again) -> Settled:
-    """With faults of sensors. TooMuch where that takes more work than a search may."""
-    with at_most(done.it.found.cache.work):
+    """With faults of sensors. TooMuch where that takes more work than fits of those that are looked at, beside the best
+    set and beside nothing, each with all that a fit may take."""
+    cache = done.it.found.cache
+    with at_most(2 * cache.criteria.faults_looked_at * WORK * allowance(cache.whole)):
         return with_faults(done, kinds, again)
 
 
