@@ -3,12 +3,17 @@
 import numpy as np
 import pytest
 
+from tests.vjm.test_bent import STRIP, column
 from vjm import paper, work
-from vjm.equilibrium import equilibrium
+from vjm.critical import critical_load
+from vjm.equilibrium import Equilibrium, equilibrium
 from vjm.mechanisms.parallelogram import Parallelogram
 
 MECHANISM = Parallelogram(310.0, 80.0, paper.BAR_STIFFNESS, 0.0)
 MOVED = MECHANISM.unloaded_pose + np.array([0.0, 1.0, 0.0, 0.0, 0.0, 0.0])
+
+COLUMN = column(STRIP, "clamped", "free")
+CRITICAL = critical_load(COLUMN, ()).load
 
 
 def taken(targets: np.ndarray) -> float:
@@ -36,3 +41,36 @@ def test_work_of_another_process_counts() -> None:
     before = work.spent()
     work.elsewhere(7.0)
     assert work.spent() == before + 7.0
+
+
+def test_work_within_a_bound_is_over_beyond_it_and_raises_nothing() -> None:
+    with work.within(1.5):
+        assert not work.over()
+        taken(MOVED)
+        assert work.over()
+        with work.within(1e6):
+            assert work.over()
+    assert not work.over()
+
+
+def pressed(share: float, start: Equilibrium | None = None) -> tuple[Equilibrium, float]:
+    """Under this share of the critical load, and the work that it took."""
+    before, targets = work.spent(), np.zeros(6)
+    targets[0] = share * CRITICAL
+    found = equilibrium(COLUMN, targets, (), start)
+    return found, work.spent() - before
+
+
+def test_a_load_that_had_no_stable_equilibrium_is_not_looked_for_at_length_again() -> None:
+    first, much = pressed(1.3)
+    again, little = pressed(1.31, first)
+    assert first.unstable > 0 and again.unstable > 0
+    assert little < 0.2 * much
+
+
+@pytest.mark.parametrize("share", [0.3, 0.9, -1.0])
+def test_a_load_that_has_one_is_found_from_one_that_had_none(share: float) -> None:
+    first, _ = pressed(1.3)
+    back, _ = pressed(share, first)
+    assert back.converged and back.unstable == 0
+    np.testing.assert_allclose(back.pose, pressed(share)[0].pose, atol=1e-9)
