@@ -134,8 +134,8 @@ def _student(residual: Array) -> tuple[Array, float]:
         degrees, scale = np.exp(at)
         return -float(t.logpdf(residual, degrees, scale=scale).sum())
 
-    spread = np.median(np.abs(residual)) or np.sqrt(np.mean(residual**2))
-    ends = [tuple(np.log(STUDENTS_LAW.degrees)), (None, None)]
+    spread, sizes = _sizes(residual)
+    ends = [tuple(np.log(STUDENTS_LAW.degrees)), sizes]
     it = minimize(
         negative, np.array([np.log(STUDENTS_LAW.first), np.log(spread)]), bounds=ends, method="L-BFGS-B"
     )
@@ -150,9 +150,16 @@ def _with_bad_readings(residual: Array, largest: float) -> float:
         density = (1.0 - part) * norm.pdf(residual, scale=np.exp(at[1])) + part / (2.0 * largest)
         return -float(np.log(np.maximum(density, TINY)).sum())
 
-    spread = np.median(np.abs(residual)) or np.sqrt(np.mean(residual**2))
-    start = np.array([STUDENTS_LAW.bad, np.log(spread / MEDIAN)])
-    return -float(minimize(negative, start, method="Nelder-Mead").fun)
+    spread, sizes = _sizes(residual)
+    start = np.array([STUDENTS_LAW.bad, np.clip(np.log(spread / MEDIAN), *sizes)])
+    return -float(minimize(negative, start, bounds=[(None, None), sizes], method="Nelder-Mead").fun)
+
+
+def _sizes(residual: Array) -> tuple[float, tuple[float, float]]:
+    """A typical size of residuals, and the logarithms between which a scale of them lies: theirs."""
+    size = np.abs(residual)
+    spread = float(np.median(size) or np.sqrt(np.mean(size**2)))
+    return spread, (float(np.log(size[size > 0.0].min())), float(np.log(size.max())))
 
 
 def without_tails(found: Fit, tails: Tails) -> Campaign:

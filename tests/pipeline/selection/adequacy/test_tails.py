@@ -15,7 +15,7 @@ from pipeline.campaign import Campaign
 from pipeline.inference.fit import Fit, unfitted
 from pipeline.inference.load_cases import load_cases
 from pipeline.inference.model import Model
-from pipeline.selection.adequacy.tails import Tails, tails_of, without_tails
+from pipeline.selection.adequacy.tails import Tails, _beyond, tails_of, without_tails
 from pipeline.selection.criteria import CRITERIA
 from pipeline.simulate import bench_rig
 from tests.pipeline.selection.bench import MIXED, bench
@@ -114,3 +114,13 @@ def test_a_campaign_without_tails_leaves_normal_noise() -> None:
     again = of(without_tails(it, law))
     assert again.rms == pytest.approx(1.0, abs=0.12)
     assert np.abs(again.whitened).max() < 4.5 < np.abs(it.whitened).max()
+
+
+@pytest.mark.filterwarnings("error")
+@pytest.mark.parametrize("zeros", [0, 30, 38])
+@pytest.mark.parametrize("size", [1e-9, 1.0, 1e9])
+def test_readings_that_stand_still_leave_no_law_without_a_scale(zeros: int, size: float) -> None:
+    """A display that shows the same as the model leaves zeros; the scale of the rest is one of theirs."""
+    residual = np.random.default_rng(3).normal(size=40)
+    residual[:zeros] = 0.0
+    assert _beyond(size * residual) == pytest.approx(_beyond(residual), abs=1e-3)
