@@ -18,5 +18,8 @@ done
 export root BIND="${BIND:-}"
 exec unshare --mount sh -eu -c '
     for path in /proc /dev /sys $BIND; do mkdir -p "$root$path" && mount --rbind "$path" "$root$path"; done
+    # A setting of pip may hold spaces.
+    IFS="
+"
     exec chroot "$root" /usr/bin/env -i HOME=/root LANG=C.UTF-8 PATH=/usr/local/sbin:/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin \
         $(env | grep "^PIP_" || true) "$@"' sh "$@"
