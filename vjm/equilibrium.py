@@ -15,7 +15,7 @@ from numpy.typing import ArrayLike
 
 from vjm import lagrangian
 from vjm.frames import POSE_NAMES, Array, moment
-from vjm.increments import directly, solve
+from vjm.increments import Start, directly, solve
 from vjm.laws import Response
 from vjm.mechanism import ElasticChain, Mechanism, initial_memory
 from vjm.newton import CONVERGED, Iterate, Step, dense, newton
@@ -244,7 +244,9 @@ def equilibrium(
     astray = np.zeros(batch, dtype=bool)
     if start is not None:
         astray |= ~start.converged | ((start.unstable > 0) & (not follow))
-    return record(problem, solve(problem, first, before, tolerance, limit, follow, astray.ravel()), batch)
+    return record(
+        problem, solve(problem, Start(first, before, astray.ravel()), tolerance, limit, follow), batch
+    )
 
 
 def nearby(

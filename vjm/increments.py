@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import fields, replace
+from dataclasses import dataclass, fields, replace
 
 import numpy as np
 
@@ -23,16 +23,25 @@ LOST_STABILITY = str(Reason.UNSTABLE)
 UNSURE = "unstable, or found after wandering"
 
 
-def solve(
-    problem: Problem,
-    start: Array,
-    before: Array,
-    tolerance: float,
-    limit: int,
-    follow: bool,
-    astray: np.ndarray,
-) -> Iterate:
-    """Equilibria of all load cases, begun at `start` (B, N), an equilibrium at the inputs `before` (B, D).
+@dataclass(frozen=True, eq=False)
+class Start:
+    """Where load cases begin.
+
+    unknowns: (B, N), an equilibrium at the inputs `drives` (B, D). astray: (B,) those whose start is one that was
+    looked for in this way and not found, or unstable: one short step on the way tells whether it goes on now.
+    """
+
+    unknowns: Array
+    drives: Array
+    astray: np.ndarray
+
+    def take(self, members: np.ndarray) -> Start:
+        """Of these load cases."""
+        return Start(self.unknowns[members], self.drives[members], self.astray[members])
+
+
+def solve(problem: Problem, begin: Start, tolerance: float, limit: int, follow: bool) -> Iterate:
+    """Equilibria of all load cases, each begun at its start.
 
     A load case that Newton's method does not reach from its start is approached in increments of all its
     targets, halved where they fail and doubled where they do not. If that fails too, its reason says how far
@@ -40,21 +49,15 @@ def solve(
     equilibrium, or one found after wandering, is approached in increments as well, through stable ones only,
     and a stable one that this leads to takes its place: Newton's method may jump over to a solution that no
     loading reaches.
-    astray: (B,) load cases whose start is one that was looked for in this way and not found, or unstable: one short
-    step on the way tells whether it goes on now.
     """
+    start = begin.unknowns
     # What wanders is approached in increments even if it gets there: it goes on only where they do not.
     end = _newton(problem, start, tolerance, limit if follow else min(limit, _SOON))
     direct = np.where(end.reason == CONVERGED, end.iterations, 0)
     failed = np.flatnonzero(end.reason != CONVERGED)
     if failed.size:
-        end.put(
-            failed,
-            _in_increments(
-                problem.take(failed), start[failed], before[failed], tolerance, limit, follow, astray[failed]
-            ),
-        )
-    lost = np.flatnonzero((end.reason != CONVERGED) & ~astray)
+        end.put(failed, _in_increments(problem.take(failed), begin.take(failed), tolerance, limit, follow))
+    lost = np.flatnonzero((end.reason != CONVERGED) & ~begin.astray)
     if lost.size and not follow and limit > _SOON:
         again = _newton(problem.take(lost), start[lost], tolerance, limit)
         found = again.reason == CONVERGED
@@ -62,15 +65,7 @@ def solve(
     unsure = (end.unstable > 0) | ((end.unstable == 0) & _wandered(problem, start, end))
     doubtful = np.flatnonzero((direct > 0) & unsure)
     if doubtful.size and not follow:
-        again = _in_increments(
-            problem.take(doubtful),
-            start[doubtful],
-            before[doubtful],
-            tolerance,
-            limit,
-            follow,
-            astray[doubtful],
-        )
+        again = _in_increments(problem.take(doubtful), begin.take(doubtful), tolerance, limit, follow)
         better = again.unstable == 0
         end.put(doubtful[better], _members(again, better))
     return end
@@ -106,19 +101,10 @@ def _in_chunks(problem: Problem, start: Array, tolerance: float, limit: int) -> 
     return end
 
 
-def _in_increments(
-    problem: Problem,
-    start: Array,
-    before: Array,
-    tolerance: float,
-    limit: int,
-    follow: bool,
-    astray: np.ndarray,
-) -> Iterate:
-    """Targets and inputs approached from those at the start; a load case that fails stays where it got to.
-
-    before: (B, D) inputs at the start. astray: (B,) as in `solve`; the first step of these is the least one.
-    """
+def _in_increments(problem: Problem, begin: Start, tolerance: float, limit: int, follow: bool) -> Iterate:
+    """Targets and inputs approached from those at the start; a load case that fails stays where it got to. The first
+    step of one that is astray is the least one."""
+    start, before, astray = begin.unknowns, begin.drives, begin.astray
     origin = replace(problem, drives=before).readings(start)
     end = unsolved(start)
     reached, step = np.zeros(len(start)), np.where(astray, LEAST_STEP, FIRST_STEP)

@@ -103,7 +103,8 @@ def levenberg_marquardt(
         given_up = over() or beaten(past, left, here.size, effort)
         if vain or damping > 1e6 or losses == LOSSES or given_up or drags(past, here.size):
             break
-    return End(there, count, given_up)
+    # Inputs may not be settled where the work ran out, whatever a last step promises.
+    return End(there, count, given_up or over())
 
 
 def _tell(
