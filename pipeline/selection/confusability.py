@@ -13,7 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from pipeline.inference.rounding import RANK, ROUNDING
+from pipeline.inference.rounding import RANK, ROUNDING, TINY
 from pipeline.selection.criteria import CRITERIA
 from pipeline.selection.first_order import FirstOrder
 from pipeline.selection.fit_cache import FitCache, Names
@@ -78,9 +78,10 @@ def signature_of(cache: FitCache, names: Names, name: str, about: FirstOrder) ->
 
 
 def multiple_correlation(signature: Array, columns: Array) -> float:
-    """Of a signature (k,) with the best combination of columns (k, p)."""
+    """Of a signature (k,) with the best combination of columns (k, p), without those that are rounding beside others."""
     sizes = np.linalg.norm(columns, axis=0)
-    columns = columns[:, sizes > 0] / sizes[sizes > 0]
+    seen = sizes > RANK * np.max(sizes, initial=TINY)
+    columns = columns[:, seen] / sizes[seen]
     if not columns.size:
         return 0.0
     near = columns @ np.linalg.lstsq(columns, signature, rcond=RANK)[0]

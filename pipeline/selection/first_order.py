@@ -189,7 +189,10 @@ def first_order(
 def _free_of(base: Array, residual: Array, columns: Array) -> tuple[Array, Array]:
     """Residual (N,) and columns (N, K) without what the base can move, in an orthonormal basis of the columns left."""
     free = basis(base)
+    whole = np.linalg.norm(columns, axis=0)
     columns = columns - free @ (free.T @ columns)
+    # What is left of a column that the base can move is rounding, and as a direction it would look like anything.
+    columns = np.where(np.linalg.norm(columns, axis=0) > RANK * whole, columns, 0.0)
     axes, _ = np.linalg.qr(columns)
     return axes.T @ (residual - free @ (free.T @ residual)), axes.T @ columns
 

@@ -16,7 +16,7 @@ from pipeline.inference.prior import implausibility
 from pipeline.selection.confusability import multiple_correlation
 from pipeline.selection.cost import entry
 from pipeline.selection.criteria import CRITERIA
-from pipeline.selection.first_order import FirstOrder
+from pipeline.selection.first_order import FirstOrder, _free_of
 from pipeline.selection.fit_cache import FitCache
 from pipeline.selection.signatures import Signature
 from tests.pipeline.selection.bench import bench
@@ -107,3 +107,20 @@ def test_the_wrong_one_of_two_alike_effects(size: float, wrong: float) -> None:
     assert np.mean(ahead > 0.0) == pytest.approx(wrong, rel=0.05)
     assert np.mean(ahead > CRITERIA.exclusion) < 0.4 * wrong
     assert multiple_correlation(one, other[:, None]) == pytest.approx(0.9)
+
+
+def test_rounding_looks_like_nothing() -> None:
+    """A number that no reading sees leaves a column of rounding beside the others: no direction, at any size of it."""
+    one, other = np.array([1.0, 0.0, 0.0]), np.array([0.6, 0.8, 0.0])
+    unseen = 1e-13 * np.array([1.0, 1e-3, 0.0])
+    assert multiple_correlation(one, np.column_stack([other, unseen])) == pytest.approx(0.6)
+    assert multiple_correlation(one, np.zeros((3, 2))) == 0.0
+
+
+def test_what_the_fit_can_move_leaves_nothing_of_a_column() -> None:
+    rng = np.random.default_rng(2)
+    base = rng.standard_normal((20, 2))
+    moved = 1e6 * base @ [1.0, -2.0]
+    _, left = _free_of(base, rng.standard_normal(20), np.column_stack([moved, rng.standard_normal(20)]))
+    assert np.linalg.norm(left[:, 0]) == 0.0
+    assert np.linalg.norm(left[:, 1]) > 1.0
