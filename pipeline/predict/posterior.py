@@ -39,13 +39,13 @@ TRIES = 50
 @dataclass(frozen=True, eq=False)
 class Posterior:
     """Normal law of P parameters, in their typical sizes, and K numbers that were written, in their standard
-    deviations. model: at the best fit of both. data: (P + K, P + K) what the readings say, without priors. factor: by
+    deviations. model: at the best fit of both. slopes: (N, P + K) of the whitened readings, without priors. factor: by
     which standard errors of parameters are widened, where more is left than noise."""
 
     model: Model
     numbers: tuple[Nominal, ...]
     departure: Array
-    data: Array
+    slopes: Array
     factor: float = 1.0
 
     @classmethod
@@ -59,7 +59,7 @@ class Posterior:
         if numbers:
             columns.append(it.without_zeros(it.nominal))
         whole = np.concatenate(columns, axis=1)
-        return cls(model, numbers, np.clip(at, -WRITTEN.farthest, WRITTEN.farthest), whole.T @ whole, factor)
+        return cls(model, numbers, np.clip(at, -WRITTEN.farthest, WRITTEN.farthest), whole, factor)
 
     @property
     def count(self) -> int:
@@ -72,17 +72,23 @@ class Posterior:
         return _sizes(self.model)
 
     @cached_property
-    def precision(self) -> Array:
-        """(P + K, P + K)"""
+    def _weighed(self) -> Array:
+        """(N + P + K, P + K) slopes of the readings and of the priors: H is their product with themselves. Squares of
+        what the readings hardly show are lost beside the others, so H is never solved with."""
         far = away(self.model.free, self.model.values, CRITERIA.plausible)
-        weak = (slope(far) / CRITERIA.plausible) ** 2
-        widened = self.data / self.factor**2
-        return np.asarray(widened + np.diag(np.concatenate([weak, np.ones(len(self.numbers))])))
+        weak = slope(far) / CRITERIA.plausible
+        prior = np.diag(np.concatenate([weak, np.ones(len(self.numbers))]))
+        return np.vstack([self.slopes / self.factor, prior])
+
+    @cached_property
+    def root(self) -> Array:
+        """L (P + K, P + K), lower triangular, of H^-1 = L L^T."""
+        return _root(self._weighed)
 
     @cached_property
     def covariance(self) -> Array:
-        """(P + K, P + K)"""
-        return np.asarray(np.linalg.inv(self.precision), dtype=float)
+        """H^-1 (P + K, P + K)"""
+        return np.asarray(self.root @ self.root.T)
 
     @cached_property
     def std(self) -> Array:
@@ -93,10 +99,8 @@ class Posterior:
         """(...,) of predictions with slopes (..., P) by the parameters in their units and (..., K) by what was written:
         with that exact, and what it adds."""
         own = by_free * self.sizes
-        given = _quadratic(
-            own, np.asarray(np.linalg.inv(self.precision[: self.count, : self.count]), dtype=float)
-        )
-        whole = _quadratic(np.concatenate([own, by_nominal], axis=-1), self.covariance)
+        given = np.sum((own @ _root(self._weighed[:, : self.count])) ** 2, axis=-1)
+        whole = np.sum((np.concatenate([own, by_nominal], axis=-1) @ self.root) ** 2, axis=-1)
         return given, np.maximum(whole - given, 0.0)
 
     @cached_property
@@ -118,7 +122,7 @@ class Posterior:
 
     def draws(self, count: int, generator: np.random.Generator) -> tuple[Array, Array]:
         """(S, P) parameters in their units and (S, K) departures of what was written; parameters within bounds."""
-        root = np.linalg.cholesky(self.covariance)
+        root = self.root
         low, high = np.array([each.bounds for each in self.model.free]).reshape(-1, 2).T
         centre = self.model.values
         off = generator.standard_normal((count, len(root))) @ root.T
@@ -141,5 +145,8 @@ def _sizes(model: Model) -> Array:
     return np.array([abs(each.parameter.typical) for each in model.free])
 
 
-def _quadratic(rows: Array, matrix: Array) -> Array:
-    return np.asarray(np.einsum("...i,ij,...j->...", rows, matrix, rows))
+def _root(slopes: Array) -> Array:
+    """L (P, P), lower triangular with a positive diagonal, of (S^T S)^-1 = L L^T with slopes S (N, P)."""
+    _, sizes, axes = np.linalg.svd(slopes, full_matrices=False)
+    upper = np.asarray(np.linalg.qr(axes / sizes[:, None], mode="r"))
+    return np.asarray((upper * np.where(np.diag(upper) < 0.0, -1.0, 1.0)[:, None]).T)

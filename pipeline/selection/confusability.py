@@ -78,7 +78,7 @@ def signature_of(cache: FitCache, names: Names, name: str, about: FirstOrder) ->
 
 
 def multiple_correlation(signature: Array, columns: Array) -> float:
-    """Of a signature (k,) with the best combination of columns (k, p), without those that are rounding beside others."""
+    """Of a signature (k,) with the best combination of columns (k, p); what is rounding beside others is none."""
     sizes = np.linalg.norm(columns, axis=0)
     seen = sizes > RANK * np.max(sizes, initial=TINY)
     columns = columns[:, seen] / sizes[seen]

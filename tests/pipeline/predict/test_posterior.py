@@ -9,7 +9,9 @@ from scipy.stats import norm
 from pipeline.predict.budget import budget, variances
 from pipeline.predict.posterior import Posterior
 from pipeline.predict.sampling import LEVELS, quantiles
+from pipeline.selection.criteria import CRITERIA
 from tests.pipeline.predict.bench import fitted
+from vjm.effects import catalogue
 
 
 def law(factor: float = 1.0) -> Posterior:
@@ -53,7 +55,7 @@ def test_draws_have_the_law_and_keep_to_the_bounds() -> None:
     off = np.concatenate([(values - it.model.values) / it.sizes, departures - it.departure], axis=1)
     root = np.linalg.inv(np.linalg.cholesky(it.covariance))
     np.testing.assert_allclose(np.cov(root @ off.T), np.eye(len(root)), atol=0.1)
-    wide = Posterior(it.model, it.numbers, it.departure, 1e-12 * it.data)
+    wide = Posterior(it.model, it.numbers, it.departure, 1e-6 * it.slopes)
     (low, high) = it.model.free[0].bounds
     drawn = wide.draws(200, np.random.default_rng(0))[0][:, 0]
     assert drawn.min() >= low and drawn.max() <= high
@@ -64,8 +66,8 @@ def test_parameters_that_only_show_together_are_named() -> None:
     see two; what is seen alone is not named."""
     assert law().loose == ()
     it = law()
-    blind = it.data.copy()
-    blind[0, :] = blind[:, 0] = 0.0
+    blind = it.slopes.copy()
+    blind[:, 0] = 0.0
     assert Posterior(it.model, it.numbers, it.departure, blind).loose == (("modulus_error.scale",),)
 
 
@@ -93,3 +95,21 @@ def test_quantiles_of_samples_are_those_of_their_law() -> None:
     assert -22.0 < low[0, 0] < -10.0 < 10.0 < high[0, 0] < 22.0
     exact = quantiles(np.full((60, 1, 1), 2.0), np.full((1, 1), 0.5), LEVELS)
     assert exact[2][0, 0] == pytest.approx(2.0 + 0.5 * norm.ppf(0.975), abs=1e-6)
+
+
+def test_what_hardly_shows_beside_the_rest_has_the_width_of_its_prior() -> None:
+    """Two numbers that twenty readings see alike, by 1e9 sigma: their sum is known, their difference as by the weak
+    prior, and draws have both. Of the product of the slopes Cholesky's method finds no root."""
+    it = law()
+    p, k = it.count, len(it.numbers)
+    model = it.model.with_effects([catalogue()["load_offset"]])
+    assert len(model.free) > p
+    slopes = np.zeros((20, len(model.free) + k))
+    slopes[:, 0] = slopes[:, 1] = 1e9
+    close = Posterior(model, it.numbers, it.departure, slopes)
+    widths = CRITERIA.plausible / np.sqrt(2.0)
+    assert np.sqrt(close.covariance[0, 0]) == pytest.approx(widths, rel=1e-6)
+    across = np.array([1.0, 1.0, *np.zeros(len(close.root) - 2)])
+    assert np.linalg.norm(across @ close.root) < 1e-6
+    values, _ = close.draws(20, np.random.default_rng(0))
+    assert np.all(np.isfinite(values))

@@ -232,7 +232,7 @@ def test_what_the_computation_of_a_bar_puts_in_is_u_num() -> None:
     posterior = whole.tangent.posterior
     place = posterior.count + [each.name for each in posterior.numbers].index("EIz")
     # A second way: what a shift of the prior's mean by one deviation does to the estimate, by the normal equations.
-    shift = np.linalg.solve(posterior.precision, np.eye(len(posterior.precision))[place])
+    shift = posterior.covariance[place]
     slopes = np.concatenate(
         [whole.tangent.found.by_free * posterior.sizes, whole.tangent.by_nominal], axis=-1
     )

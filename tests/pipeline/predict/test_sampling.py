@@ -19,8 +19,8 @@ def played() -> Tangent:
     clearance = catalogue()["joint_clearance"]
     model = Model((Term(clearance, {"play_mm": 5e-3}),))
     size = abs(clearance.parameters[0].typical)
-    data = np.array([[(size / 5e-5) ** 2]])
-    return Tangent.of(Posterior(model, (), np.zeros(0), data), load_cases(bench()))
+    slopes = np.array([[size / 5e-5]])
+    return Tangent.of(Posterior(model, (), np.zeros(0), slopes), load_cases(bench()))
 
 
 @pytest.mark.long
