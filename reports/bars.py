@@ -13,9 +13,9 @@ LEAST = 0.3
 """Sigmas where the bars begin; noise makes one."""
 FILLS = (
     "background:#0072B2",
-    "background:repeating-linear-gradient(135deg,#E69F00 0 5px,#ffe0a3 5px 8px)",
+    "background:repeating-linear-gradient(135deg,#b9d6e8 0 5px,#0072B2 5px 7px)",
 )
-"""Of the series, told apart by pattern as well as by colour."""
+"""Of the series, told apart by pattern and shade: a hue of its own would draw the eye to what is fine."""
 _ROW = (
     '<div style="display:flex;align-items:center;gap:8px;font-size:13px;line-height:1.15">'
     '<span style="flex:0 0 5.2em;color:#4a5661;font-size:12px">{}</span>'

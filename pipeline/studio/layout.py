@@ -88,7 +88,7 @@ def _bar(actions: Actions) -> None:
             disabled=("!ready || !!busy",),
             id="export",
             v_if=("screen === 'work'",),
-            **BUTTON,
+            **{**BUTTON, "classes": "mr-4 mb-1"},
         )
 
 

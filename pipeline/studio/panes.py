@@ -35,7 +35,7 @@ def right(actions: Actions, plotter: Any, views: dict[str, Any]) -> None:
         "laws": lambda: laws(actions),
         "rig": lambda: rig(actions),
         "candidates": candidates,
-        "plan": lambda: plan(views),
+        "plan": lambda: plan(actions, views),
     }
     for name, make in made.items():
         with html.Div(raw_attrs=[f":class=\"{{ away: tab !== '{name}' }}\""]):

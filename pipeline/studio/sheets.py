@@ -206,13 +206,14 @@ def candidates() -> None:
             html.Td("{{ it.why }}")
 
 
-def plan(views: dict[str, Any]) -> None:
+def plan(actions: Actions, views: dict[str, Any]) -> None:
     """Which effects these tests can show and tell apart."""
-    html.Div(
-        "Plan looks at which effects these tests can show and tell apart, measured or not, and which test comes next.",
-        v_if=("!planned",),
-        classes="mt-2",
-    )
+    with html.Div(v_if=("!planned",), classes="mt-2"):
+        html.P(
+            "Plan looks at which effects these tests can show and tell apart, "
+            "measured or not, and which test comes next."
+        )
+        v3.VBtn("Plan", click=actions["plan"], disabled=("!!busy",), id="plan_here", **MAIN)
     with html.Div(v_if=("planned",), id="planned"):
         with html.Div(classes="lead mt-2", id="next_test"):
             html.Div("{{ said }}", v_for="said in following")

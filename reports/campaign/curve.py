@@ -117,6 +117,8 @@ def _layout(height: int, stages: tuple[str, ...]) -> str:
     for row, said in enumerate(("", *names), 1):
         plot.update_yaxes(title_text=said, title_font_size=size, row=row, col=1)
         if row > 1:
+            if height < HEIGHT:
+                plot.update_yaxes(nticks=4, row=row, col=1)
             band = {"fillcolor": FAINT, "opacity": 0.18, "line_width": 0, "layer": "below"}
             plot.add_hrect(-BAND, BAND, row=row, col=1, exclude_empty_subplots=False, **band)
     return json.dumps(plot.to_plotly_json()["layout"])
