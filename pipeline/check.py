@@ -9,7 +9,7 @@ import numpy as np
 from rich.markup import escape
 from rich.table import Table
 
-from pipeline.answer.wording.doctor import doctor_sentence, mends
+from pipeline.answer.wording.doctor import doctor_sentence, lines_aside, mends
 from pipeline.attempt import Attempts
 from pipeline.campaign import Campaign, Test, read
 from pipeline.campaign.names import channel_columns
@@ -69,7 +69,7 @@ def _examined(campaign: Campaign) -> Iterator[str]:
     for bad in it.readings.bad:
         yield (
             f"Doctor: {bad.column} at step {bad.step} of {bad.test} is off alone, by {sigma(bad.sigmas)} sigma: "
-            "look it up, or leave the cell empty."
+            f"look it up, or leave it out of all commands by {lines_aside([bad.cell])}."
         )
     for noise in it.noise:
         law = (

@@ -94,8 +94,8 @@ def _competing(it: Diagnosis, best: Names, on_progress: OnProgress) -> Looked:
     if not (_leaves_a_pattern(it, best) or (several and _may_compete(it, best))):
         return it, None
     found, record = _discovered(it, it.cache.base, on_progress)
-    law = _standing(it, found)
-    if law is None or not 0 < len(found.laws) <= len(best - root_of(it.cache, best)):
+    law, own = _standing(it, found), best - root_of(it.cache, best)
+    if law is None or not 0 < len(found.laws) <= len(own) or _effects_of(found) == own:
         return it, found
     behind = law.cost - min(_cost_of_set(it, names) for names in map(frozenset, it.sets))
     if any(each.ways[0].formed.form.kinked for each in found.laws):
@@ -162,6 +162,12 @@ def _of_one(it: Diagnosis) -> float:
     """What a number costs."""
     whole = it.cache.whole
     return float(np.log(max(int(np.sum(whole.predicted & whole.fitted[:, None])), 1)))
+
+
+def _effects_of(found: Discovery) -> Names:
+    """The effects of the catalogue that the laws are by another name."""
+    every = [law.ways[0].formed.form.effects.get(law.site.name, ()) for law in found.laws]
+    return frozenset(name for names in every for name in names)
 
 
 def _told(found: Discovery, law: _Law) -> str:

@@ -8,9 +8,11 @@ taken, with the differences of what is prescribed through the constant stiffness
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
-from functools import cached_property
+from functools import cached_property, partial
+from operator import attrgetter
+from typing import TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -38,15 +40,21 @@ from pipeline.selection.signatures import look
 from vjm.effects import catalogue
 from vjm.effects.base import Effect
 from vjm.effects.sized import all_sized
-from vjm.work import at_most
+from vjm.work import TooMuch, at_most
 
 Array = NDArray[np.float64]
+T = TypeVar("T")
 
 
 KINKED = 3.0
 """Times the work of a search that the look for effects with kinks may take which explain as much as a mistake: it
-takes up to 2.2 (an axis that was not zeroed). The look for mistakes may take one; it takes up to 0.4 in tables that
-have one, 0.34 in right ones of the tests, 0.02 in benches of the challenge."""
+takes up to 2.2 (an axis that was not zeroed). The look for mistakes may take one, that for two smooth effects another;
+both together take up to 1.1 in tables that have one, 0.34 in right ones of the tests, 0.02 in benches of the
+challenge."""
+
+
+SHARE = 0.125
+"""Of the work of a search, that one look at one mistake may take; it takes up to 0.07 where it is the right one."""
 
 
 @dataclass(frozen=True)
@@ -65,16 +73,20 @@ def suspicions(cache: FitCache) -> tuple[Suspicion, ...]:
     that takes more work than a few searches may."""
     with at_most(cache.work):
         table = _table(cache)
-        found = [] if table is None else _better_mended(table, cache)
+        found = [] if table is None else _mended(table, cache)
     if table is None or not found:
         return ()
+    with at_most(cache.work):
+        found = _better_than_two(table, found)
+    if not found:
+        return ()
     criteria, noise, share = cache.criteria, max(table.fit.degrees, 1), _share(table, cache)
-    # A column of which the model predicts little is silenced by a factor: effects with kinks explain it too.
+    # A column of which the model predicts little is silenced by a factor: effects with kinks explain it too. What then
+    # leaves less than noise explains no more than noise does.
     with at_most(KINKED * cache.work):
-        enough = [it.after * criteria.doctor_factor / share for it in found]
-        kinked = _least_with_kinks(cache, table.root, enough)
-    found = [it for it in found if it.after * criteria.doctor_factor <= kinked * share]
-    # A factor that silences a column leaves less than noise: that explains no more than noise does.
+        enough = [max(it.after, noise) * criteria.doctor_factor / share for it in found]
+        kinked = _least_with_kinks(cache, table, enough)
+    found = [it for it in found if max(it.after, noise) * criteria.doctor_factor <= kinked * share]
     least = max(min((it.after for it in found), default=0.0), noise)
     kept = [it for it in found if it.after < least + criteria.doctor_tie * least / noise]
     return tuple(sorted(kept, key=lambda it: (it.after, len(it.mistake.columns))))
@@ -98,36 +110,42 @@ def _share(table: Table, cache: FitCache) -> float:
     return max(table.fit.degrees, 1) / max(cache.fit(table.root).degrees, 1)
 
 
-def _better_mended(table: Table, cache: FitCache) -> list[Suspicion]:
-    """Mistakes that explain more than one smooth effect, two of them or the fault of one sensor."""
+def _mended(table: Table, cache: FitCache) -> list[Suspicion]:
+    """Mistakes that explain more than one smooth effect or the fault of one sensor."""
     cache.on_progress("whether the table has a mistake")
     promising = _promising(table)
     if not promising:
         return []
     # A faulty sensor is none of the table, and may look like one to a few of its columns.
     fault = least_with_a_fault(cache, table.root, _kinds(cache.whole.campaign))
-    found = _found(table, promising, fault * _share(table, cache))
-    if not found:
-        return []
-    # A table may be right and the rig lack two effects: neither alone explains most.
-    two = table.left_by_two({it.beside for it in found})
-    return [it for it in found if it.after * cache.criteria.doctor_factor <= two]
+    return _found(table, promising, fault * _share(table, cache))
 
 
-def _least_with_kinks(cache: FitCache, root: Names, enough: Sequence[float]) -> float:
-    """Chi-square that the best single effect leaves of those that need a search: friction, play, yielding. A fit that
-    does not come near what is enough ends before; none is made once one leaves less than all of that. Those that
-    take longest come last."""
-    before, known = cache.fit(root), root | set(cache.base.names)
+def _better_than_two(table: Table, found: list[Suspicion]) -> list[Suspicion]:
+    """Of these those that explain more than two smooth effects: a table may be right and the rig lack two, of which
+    neither alone explains most."""
+    two, noise = table.left_by_two({it.beside for it in found}), max(table.fit.degrees, 1)
+    return [it for it in found if max(it.after, noise) * table.cache.criteria.doctor_factor <= two]
+
+
+def _least_with_kinks(cache: FitCache, table: Table, enough: Sequence[float]) -> float:
+    """Chi-square that one effect that needs a search leaves (friction, play, yielding), alone or with the smooth one
+    that is best alone: hinges that spring back and rub are two. A fit that does not come near what is enough ends
+    before; none is made once one leaves less than all of that. Those that take longest come last."""
+    smooth = table.left[1]
+    beside = {name: cache.candidates[name] for name in smooth - table.root}
+    before, known = cache.fit(table.root), smooth | set(cache.base.names)
     plausible, out = cache.criteria.plausible, np.inf
     kinked = [it for it in cache.candidates.values() if not it.smooth and known >= set(it.includes)]
     for effect in sorted(kinked, key=lambda it: cache.quickness(frozenset({it.name})), reverse=True):
         if out < min(enough):
             break
         cache.on_progress(f"whether {effect.name} explains as much")
-        model = before.model.with_effects([effect])
+        model = before.model.with_effects([*beside.values(), effect])
         effort = Effort(known=max(enough))
-        there = best_fit(model, cache.whole, [effect.name], before.prediction, None, plausible, effort)
+        there = best_fit(
+            model, cache.whole, [*beside, effect.name], before.prediction, None, plausible, effort
+        )
         out = min(out, there.chi_square + implausibility(there.model.free, there.model.values, plausible))
     return out
 
@@ -235,25 +253,48 @@ def _found(table: Table, promising: list[Mistake], fault: float) -> list[Suspici
     criteria, enough = table.cache.criteria, []
     if fault < criteria.doctor_factor * max(table.fit.degrees, 1):
         return []
+    skipped = False
     for mistake in promising:
         table.cache.on_progress(f"whether {mistake.words}")
         mended = table.mended(mistake)
-        if mended.first_order * criteria.doctor_factor < min(table.first_order, fault):
+        left = _within_its_share(mended, attrgetter("first_order"))
+        skipped |= left is None
+        if left is not None and left * criteria.doctor_factor < min(table.first_order, fault):
             enough.append((mistake, mended))
-    if not enough:
-        return []
-    before = min(table.first_order, table.plain.first_order, fault)
-    least = min(mended.first_order for _, mended in enough)
-    if before < criteria.doctor_sure * least or table.leaves_bounds:
-        before = min(before, table.left[0])
     out: list[Suspicion] = []
-    for mistake, mended in sorted(enough, key=lambda it: it[1].first_order):
-        far = out and mended.first_order > criteria.doctor_far * min(it.after for it in out)
-        if far or not _shows(mended, mistake) or mended.left[0] * criteria.doctor_factor > before:
-            continue
-        if _explained(mended.cache.fit(mended.left[1]), mistake, criteria):
-            out.append(Suspicion(mistake, before, *mended.left))
+    if enough:
+        before = min(table.first_order, table.plain.first_order, fault)
+        least = min(mended.first_order for _, mended in enough)
+        if before < criteria.doctor_sure * least or table.leaves_bounds:
+            before = min(before, table.left[0])
+        for mistake, mended in sorted(enough, key=lambda it: it[1].first_order):
+            if out and mended.first_order > criteria.doctor_far * min(it.after for it in out):
+                continue
+            told = _within_its_share(mended, partial(_is_enough, mistake=mistake, before=before))
+            skipped |= told is None
+            if told:
+                out.append(Suspicion(mistake, before, *mended.left))
+    if skipped and not out:
+        raise TooMuch("it would take too long")
     return out
+
+
+def _is_enough(mended: Table, mistake: Mistake, before: float) -> bool:
+    """Whether a mistake that is mended leaves so much less than was left before, and the model what it is of."""
+    criteria = mended.cache.criteria
+    if not _shows(mended, mistake) or mended.left[0] * criteria.doctor_factor > before:
+        return False
+    return _explained(mended.cache.fit(mended.left[1]), mistake, criteria)
+
+
+def _within_its_share(mended: Table, look: Callable[[Table], T]) -> T | None:
+    """What a look at one mistake says; None where that takes more than its share of the work: a column that is as good
+    as silenced is fitted in vain, and would leave the others no work."""
+    try:
+        with at_most(mended.cache.work * SHARE):
+            return look(mended)
+    except TooMuch:
+        return None
 
 
 def _promising(table: Table) -> list[Mistake]:
@@ -275,7 +316,10 @@ def _promising(table: Table) -> list[Mistake]:
         if left * criteria.doctor_look < before:
             out.append((left, mistake))
     out.sort(key=lambda it: it[0])
-    return [mistake for _, mistake in out[: criteria.doctor_fitted]]
+    # One of each kind first: several units that silence a column leave alike, and a sign with what it spoilt more.
+    best = {mistake.kind: mistake for _, mistake in reversed(out)}
+    first = sorted(out, key=lambda it: best[it[1].kind] is not it[1])
+    return [mistake for _, mistake in first[: criteria.doctor_fitted]]
 
 
 def _moved(whole: LoadCases, cases: LoadCases, linear: Prediction) -> Array:

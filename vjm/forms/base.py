@@ -8,7 +8,7 @@ where influences are known, and a law for the mechanism.
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import ClassVar
 
@@ -79,6 +79,8 @@ class Form(ABC):
     """Whether a linear part beside it makes another form."""
     beside: ClassVar[tuple[str, ...]] = ()
     """Places of that one, where they are not those of the form alone."""
+    effects: ClassVar[Mapping[str, tuple[str, ...]]] = {}
+    """By kind of a site, the effects of the catalogue that together are this law at all sites of the kind."""
 
     @property
     def quantities(self) -> tuple[Quantity, ...]:

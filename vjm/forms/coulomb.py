@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import ClassVar
 
 import numpy as np
@@ -26,6 +26,7 @@ class Coulomb(Form):
     shapes = (REACH,)
     memory = True
     grows = "bounded"
+    effects: ClassVar[Mapping[str, tuple[str, ...]]] = {"hinge_torque": ("joint_friction",)}
 
     def columns(self, x: Array, first: np.ndarray, shapes: Array, axial: Array | None = None) -> Array:
         return followed(x, first, shapes)
@@ -48,6 +49,9 @@ class LinearCoulomb(Coulomb):
         Quantity("limit", 1, 0, "friction while it slips", positive=True),
     )
     grows = "linear"
+    effects: ClassVar[Mapping[str, tuple[str, ...]]] = {
+        "hinge_torque": ("joint_friction", "joint_torsional_stiffness")
+    }
 
     def columns(self, x: Array, first: np.ndarray, shapes: Array, axial: Array | None = None) -> Array:
         return np.column_stack([x, followed(x, first, shapes)])

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from typing import ClassVar
 
 import numpy as np
 
@@ -20,6 +21,7 @@ class Linear(CurveForm):
     title = "linear"
     equation = "y = k x"
     amplitudes = (SLOPE,)
+    effects: ClassVar[Mapping[str, tuple[str, ...]]] = {"hinge_torque": ("joint_torsional_stiffness",)}
 
     def points(self, x: Array, shapes: Array) -> Points:
         return Points.of((x, np.ones_like(x), 0.5 * x**2))

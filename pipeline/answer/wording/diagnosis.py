@@ -9,7 +9,7 @@ from typing import Any
 from pipeline.answer.evidence import Evidence, Explained
 from pipeline.answer.record import Answer, SetAside
 from pipeline.answer.wording.added import limits, written
-from pipeline.answer.wording.doctor import doctor_sentence, mends
+from pipeline.answer.wording.doctor import doctor_sentence, lines_aside, mends
 from pipeline.parameter_names import parted
 from reports.quantities import estimate, p_is, percent, phrase, short, sigma
 
@@ -129,6 +129,8 @@ def _aside(it: Answer, evidence: Evidence) -> Iterator[str]:
         )
         each = "they are" if len(it.set_aside) > 1 else "it is"
         yield f"Set aside, for {each} off alone and what is beside is not: {told}."
+        cells = [(b.test, b.step, b.column) for b in it.set_aside]
+        yield f"Other commands keep what stands in the table: to leave it out of all write {lines_aside(cells)}."
     law = next((found.tails for found in it.noise if found.tails is not None), None)
     if law is not None:
         yield (

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+
 from pipeline.answer.record import DoctorFinding
 from reports.quantities import short
 
@@ -20,3 +22,14 @@ def doctor_sentence(found: tuple[DoctorFinding, ...]) -> str:
 def mends(found: tuple[DoctorFinding, ...]) -> tuple[str, ...]:
     """What mends each."""
     return tuple(f"If {it.hypothesis}: {it.mend}." for it in found)
+
+
+def lines_aside(cells: Iterable[tuple[str, int, str]]) -> str:
+    """The lines of campaign.toml that leave readings out; each a test, a step and a column."""
+    by_test: dict[str, dict[str, list[int]]] = {}
+    for test, step, column in cells:
+        by_test.setdefault(test, {}).setdefault(column, []).append(step)
+    return " and ".join(
+        f"set_aside = {{ {', '.join(f'{column} = {steps}' for column, steps in columns.items())} }} in test {test}"
+        for test, columns in by_test.items()
+    )

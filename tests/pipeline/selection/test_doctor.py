@@ -10,15 +10,19 @@ import pytest
 from pipeline import check
 from pipeline.answer.of_diagnosis import answer_of, answered
 from pipeline.answer.record import FoundNoise
+from pipeline.assessment.virtual.bench import measure
+from pipeline.assessment.virtual.plan import SENSORS, bench_plan
 from pipeline.campaign import Campaign, Data
 from pipeline.check import _examined
 from pipeline.compare.models import compare_models
 from pipeline.compare.table import sentence
+from pipeline.discover.beyond_catalogue import with_laws
 from pipeline.inference.model import Model
 from pipeline.selection.diagnosis import cached_fits, diagnose
 from pipeline.selection.doctor import Suspicion, suspicions
 from pipeline.selection.examined import Examination
 from pipeline.selection.mistakes import possible
+from pipeline.simulate import bench_rig
 from tests.pipeline.selection.bench import bench, creeping_gauge, cross_talk, growing_gain, with_fault
 from tests.pipeline.selection.mistakes import made
 from vjm.effects import catalogue
@@ -169,3 +173,33 @@ def test_a_sigma_is_proposed_only_for_a_sensor_that_is_no_better(monkeypatch: py
     assert (
         "y_mm = 1.32 under [noise] if the sensor is no better; if it is, look at the numbers of [rig]" in said
     )
+
+
+def two_in_the_hinges() -> Campaign:
+    """A dial and a load cell along the swing, of hinges that rub and spring back."""
+    hidden = {"joint_friction.torque_Nmm": 300.0, "joint_torsional_stiffness.stiffness_Nmm_per_rad": 2e4}
+    plan = [test for test in bench_plan(12) if test.id in ("swing_q+0", "swing_q+30")]
+    whole = measure("swing", bench_rig(), plan, SENSORS, hidden, 1)
+
+    def seen(data: Data) -> Data:
+        """x and y are free, the turns held; neither is read."""
+        along = np.arange(6) == 2
+        displacement = np.where(along, data.displacement, np.where(np.arange(6) < 2, np.nan, 0.0))
+        wrench = np.where(along, data.wrench, np.where(np.arange(6) < 2, 0.0, np.nan))
+        return replace(data, displacement=displacement, wrench=wrench)
+
+    return with_fault(whole, seen)
+
+
+def test_two_effects_of_which_one_has_kinks_are_no_unit() -> None:
+    """A factor at the load cell silences it: no single effect explains as much, the pair all."""
+    campaign = two_in_the_hinges()
+    assert not words(campaign)
+
+
+@pytest.mark.long
+def test_a_law_that_is_the_set_by_another_name_is_no_rival_of_it() -> None:
+    """A spring and friction about all hinges are two effects, and one law there: not two explanations."""
+    found = with_laws(diagnose(two_in_the_hinges(), Model(), catalogue()))
+    assert found.verdict == "identified"
+    assert set(found.sets[0]) == {"joint_friction", "joint_torsional_stiffness"}
