@@ -40,9 +40,10 @@ def rows_in(cases: LoadCases, other: LoadCases) -> Rows | None:
 
 
 def carried(found: Prediction, cases: LoadCases, other: LoadCases) -> Prediction | None:
-    """A prediction of other load cases at the rows of cases; None where some are not there."""
+    """A prediction of other load cases at the rows of cases; None where some are not there, or of another rig."""
     rows = rows_in(cases, other)
-    return None if rows is None else at_rows(found, other, cases, rows)
+    known = all(any(group.rig is one.rig for one in other.groups) for group in cases.groups)
+    return None if rows is None or not known else at_rows(found, other, cases, rows)
 
 
 def states_at(found: Prediction, cases: LoadCases, part: LoadCases, rows: Rows) -> tuple[Equilibrium, ...]:

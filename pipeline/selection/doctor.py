@@ -308,9 +308,11 @@ def _promising(table: Table) -> list[Mistake]:
     for mistake in possible(whole.campaign):
         mended = mistake.mended(whole.campaign)
         cases = load_cases(mended)
-        moved = _moved(whole, cases, linear)
-        there = replace(base.prediction, values=base.prediction.values + moved)
-        found = Fit(base.model, there, residual(cases, there), 0)
+        every = [
+            replace(base.prediction, values=it) for it in _foreseen(base.prediction, whole, cases, linear)
+        ]
+        fits = [Fit(base.model, there, residual(cases, there), 0) for there in every]
+        found = min(fits, key=lambda it: it.chi_square)
         # What leaves more when it is mended is none.
         left = table.first_order_of(found) if found.chi_square < base.chi_square else np.inf
         if left * criteria.doctor_look < before:
@@ -322,15 +324,19 @@ def _promising(table: Table) -> list[Mistake]:
     return [mistake for _, mistake in first[: criteria.doctor_fitted]]
 
 
-def _moved(whole: LoadCases, cases: LoadCases, linear: Prediction) -> Array:
-    """(R, C) by which a constant stiffness predicts otherwise what is prescribed otherwise."""
+def _foreseen(base: Prediction, whole: LoadCases, cases: LoadCases, linear: Prediction) -> Iterator[Array]:
+    """(R, C) what is predicted of a mended table: as before, and by how much a constant stiffness predicts otherwise
+    what is prescribed otherwise. Of bars that are far softer or stiffer than they were that says nothing, but what the
+    constant stiffness itself predicts."""
     one, other = whole.campaign, cases.campaign
-    if any(a.q_deg != b.q_deg for a, b in zip(one.tests, other.tests, strict=True)):
-        return np.asarray(predict_linear(cases).values - linear.values)
-    more = np.concatenate(
-        [b.inputs(other.gauges) - a.inputs(one.gauges) for a, b in zip(one.tests, other.tests, strict=True)]
-    )
-    return np.einsum("rci,ri->rc", linear.by_inputs[..., :6], np.nan_to_num(more))
+    pairs = list(zip(one.tests, other.tests, strict=True))
+    if any(a.rig is not b.rig or a.q_deg != b.q_deg for a, b in pairs):
+        values = predict_linear(cases).values
+        yield values
+        yield np.asarray(base.values + values - linear.values)
+        return
+    more = np.concatenate([b.inputs(other.gauges) - a.inputs(one.gauges) for a, b in pairs])
+    yield base.values + np.einsum("rci,ri->rc", linear.by_inputs[..., :6], np.nan_to_num(more))
 
 
 def _near(found: Fit, criteria: Criteria) -> bool:

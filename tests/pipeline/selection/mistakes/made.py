@@ -58,3 +58,19 @@ def angles_in_radians(campaign: Campaign) -> Campaign:
     """q_deg of every test in radians."""
     tests = (replace(test, q_deg=float(np.radians(test.q_deg))) for test in campaign.tests)
     return replace(campaign, tests=tuple(tests))
+
+
+def with_bars(campaign: Campaign, stiffness: Floats) -> Campaign:
+    """Another 6x6 written of the bars."""
+    rig = replace(campaign.rig, bar_stiffness=stiffness)
+    return replace(campaign, rig=rig, tests=tuple(replace(test, rig=rig) for test in campaign.tests))
+
+
+def section_turned(campaign: Campaign) -> Campaign:
+    """What bends about y bends about z, entry by entry."""
+    old = campaign.rig.stiffness
+    new = old.copy()
+    new[1, 1], new[2, 2], new[4, 4], new[5, 5] = old[2, 2], old[1, 1], old[5, 5], old[4, 4]
+    new[1, 5] = new[5, 1] = -old[2, 4]
+    new[2, 4] = new[4, 2] = -old[1, 5]
+    return with_bars(campaign, new)

@@ -126,6 +126,6 @@ def test_steps_that_were_sorted_are_offered_as_loops() -> None:
 def test_every_mistake_says_what_to_do() -> None:
     every = list(possible(made.shifted(30.0, "x_mm")(bench())))
     assert len({it.words for it in every}) == len(every) > 100
-    assert {it.kind for it in every} == {"unit", "sign", "exchanged", "zero", "order"}
+    assert {it.kind for it in every} == {"unit", "sign", "exchanged", "zero", "order", "section", "modulus"}
     for it in every:
         assert it.mend and it.columns and it.words[0].islower(), it.words
