@@ -6,6 +6,7 @@ Units N, mm, rad, temperatures in °C, base frame.
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
+from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, ClassVar
@@ -101,6 +102,10 @@ class Rig(ABC):
     def of_the_bars(self, other: Rig) -> Rig:
         """This rig with what is known of the bars of another one beside its table; the bars are the same."""
         return self
+
+    def with_bars(self, change: Callable[[Array], Array]) -> Rig | None:
+        """This rig with another 6x6 of its bars; None for a rig of which nobody wrote it."""
+        return None
 
     @property
     def tolerance_said(self) -> str:

@@ -53,10 +53,6 @@ both together take up to 1.1 in tables that have one, 0.34 in right ones of the 
 challenge."""
 
 
-SHARE = 0.125
-"""Of the work of a search, that one look at one mistake may take; it takes up to 0.07 where it is the right one."""
-
-
 @dataclass(frozen=True)
 class Suspicion:
     """A mistake that explains most. before, after: chi-square that is left with the best single effect, without and
@@ -291,7 +287,7 @@ def _within_its_share(mended: Table, look: Callable[[Table], T]) -> T | None:
     """What a look at one mistake says; None where that takes more than its share of the work: a column that is as good
     as silenced is fitted in vain, and would leave the others no work."""
     try:
-        with at_most(mended.cache.work * SHARE):
+        with at_most(mended.cache.work / mended.cache.criteria.doctor_fitted):
             return look(mended)
     except TooMuch:
         return None

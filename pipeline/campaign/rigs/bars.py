@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from abc import abstractmethod
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
@@ -96,6 +97,11 @@ class RigOfBars(Rig):
             raise ValueError("a rig needs bar_stiffness or bar, it has neither")
         b = self.bar
         return uniform_stiffness(self.length, b.EA, b.EIy, b.EIz, b.GJ)
+
+    def with_bars(self: Own, change: Callable[[Array], Array]) -> Own | None:
+        if self.computed is not None:
+            return None
+        return replace(self, bar=None, bar_stiffness=change(self.stiffness))
 
     @property
     def written(self) -> tuple[str, ...]:

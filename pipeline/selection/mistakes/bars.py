@@ -5,36 +5,30 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from dataclasses import replace
 from functools import partial
-from typing import cast
 
 import numpy as np
 from numpy.typing import NDArray
 
 from pipeline.campaign import Campaign
-from pipeline.campaign.rigs.bars import RigOfBars
 from pipeline.selection.mistakes.base import Mistake
+from pipeline.selection.mistakes.unit import THOUSAND
 
 Array = NDArray[np.float64]
-THOUSAND = 1000.0
-ALIKE = 0.05
-"""Share by which the two bending stiffnesses of a bar differ at least, where it matters which is which."""
 TURNED = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0]])
 """A quarter of a turn about the axis of the bar."""
 
 
 def mistakes(campaign: Campaign) -> Iterator[Mistake]:
-    """Of bars whose stiffness somebody wrote; one that was computed is no line to be mistaken in."""
-    if not isinstance(campaign.rig, RigOfBars) or campaign.rig.computed is not None:
+    """Of bars whose stiffness somebody wrote."""
+    if campaign.rig.with_bars(_quarter_turned) is None:
         return
-    stiffness = campaign.rig.stiffness
-    if abs(stiffness[1, 1] / stiffness[2, 2] - 1.0) > ALIKE:
-        yield Mistake(
-            "section",
-            ("EIy", "EIz"),
-            "width and height of the bars' section are exchanged",
-            "exchange width_mm and height_mm of the section under [rig], or EIy_Nmm2 and EIz_Nmm2",
-            partial(_with_bars, change=_quarter_turned),
-        )
+    yield Mistake(
+        "section",
+        ("EIy", "EIz"),
+        "width and height of the bars' section are exchanged",
+        "exchange width_mm and height_mm of the section under [rig], or EIy_Nmm2 and EIz_Nmm2",
+        partial(_with_bars, change=_quarter_turned),
+    )
     yield Mistake(
         "modulus",
         ("E",),
@@ -52,9 +46,8 @@ def _quarter_turned(stiffness: Array) -> Array:
 
 def _with_bars(campaign: Campaign, change: Callable[[Array], Array]) -> Campaign:
     """The campaign with another 6x6 of the bars, in the rig of each test too."""
-
-    every = {id(rig): cast(RigOfBars, rig) for rig in (campaign.rig, *(test.rig for test in campaign.tests))}
+    every = {id(rig): rig for rig in (campaign.rig, *(test.rig for test in campaign.tests))}
     # Tests of one rig stay tests of one rig.
-    new = {key: replace(rig, bar=None, bar_stiffness=change(rig.stiffness)) for key, rig in every.items()}
+    new = {key: rig.with_bars(change) or rig for key, rig in every.items()}
     tests = tuple(replace(test, rig=new[id(test.rig)]) for test in campaign.tests)
     return replace(campaign, rig=new[id(campaign.rig)], tests=tests)
