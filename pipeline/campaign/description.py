@@ -6,15 +6,12 @@ from typing import Any, TypeVar
 
 from pydantic import BaseModel, TypeAdapter, ValidationError
 
-from pipeline.campaign.control import controls
+from pipeline.campaign.control import WAYS, controls
 from pipeline.campaign.head import Description, Draft, Head, SensorNoise
 from pipeline.campaign.mapped.sources import Sources
 from pipeline.campaign.model import Cells, Gauge, Rig, Vector
 from pipeline.campaign.names import (
-    DISPLACEMENT,
-    FORCE,
     KEYS,
-    SUPPORT,
     TEMPERATURE,
     gauge_column,
     known_columns,
@@ -118,11 +115,7 @@ class _Reader:
                 continue
             if table.name in (gauge.name for gauge in gauges):
                 self.say(("gauges", k, "name"), "is there twice, allowed is each name once", place)
-            elif gauge_column(table.name) in known_columns(()) or table.name in (
-                DISPLACEMENT,
-                FORCE,
-                SUPPORT,
-            ):
+            elif gauge_column(table.name) in known_columns(()) or table.name in WAYS:
                 self.say(("gauges", k, "name"), "is taken, allowed is a name of its own", place)
             elif rig is not None and (wrong := rig.refused(table.gauge())):
                 self.say(("gauges", k, *filter(None, wrong[:1])), wrong[1], place)

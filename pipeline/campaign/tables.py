@@ -131,8 +131,9 @@ class TestTable(Table):
     role: Role
     """fit: models are fitted to it and chosen by it. holdout: it is only predicted, as a check."""
     control: dict[str, str]
-    """What was prescribed for each of x, y, z, rx, ry and rz: "displacement" (moved or held), "force" (loaded
-    or left free; an empty cell is no load), or the name of a gauge whose reading the load was set by."""
+    """What was prescribed for each of x, y, z, rx, ry and rz: "displacement" (moved or held, and read in every
+    row), "force" (loaded or left free; an empty cell is no load), "held" (a clamp keeps it where it is unloaded, and no
+    column reads it), or the name of a gauge whose reading the load was set by."""
     zero: Zero = "nominal"
     """nominal: readings count from the nominal unloaded pose. first_row: sensors and cell were zeroed in the
     first row, so that the noise of one reading is in all others: no constant is compared. fitted: their offsets are

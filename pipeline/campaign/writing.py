@@ -13,7 +13,6 @@ from pipeline.campaign.model import Campaign, Gauge, Rig
 from pipeline.campaign.names import (
     COORDINATES,
     DISPLACEMENTS,
-    SUPPORT,
     TEMPERATURE,
     WRENCHES,
     channel_columns,
@@ -94,7 +93,8 @@ def description_text(campaign: Campaign) -> str:
     base = rig_table(campaign.rig)
     document["tests"] = []
     for test in campaign.tests:
-        control = {key: by for key, by in zip(COORDINATES, test.control, strict=True) if by != SUPPORT}
+        implied = test.rig.supports
+        control = {key: by for key, by in zip(COORDINATES, test.control, strict=True) if key not in implied}
         place = {"q_deg": test.q_deg} if test.rig.point is None else {"at_mm": list(test.rig.point)}
         entry = {"id": test.id, **place, "role": test.role, "control": inline(control)}
         if test.zero != "nominal":
