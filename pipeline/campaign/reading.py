@@ -27,6 +27,7 @@ from pipeline.campaign.posture_rows import parted
 from pipeline.campaign.rows import data_by_test, measured_of
 from pipeline.campaign.sheet import sheet
 from pipeline.campaign.tolerance import widest
+from pipeline.errors import unread
 from pipeline.toml.complaints import BadCampaign, Complaints, shown
 from pipeline.typed import command
 
@@ -155,9 +156,8 @@ def _tried(path: Path) -> str | BadCampaign:
         text = _text(path, LARGEST[path.name], complaints)
         complaints.check()
     except OSError as error:
-        missing = isinstance(error, FileNotFoundError)
-        said = f"is missing{_beside(path)}" if missing else f"cannot be read: {error.strerror}"
-        return BadCampaign((f"{path}: {said}",))
+        beside = _beside(path) if isinstance(error, FileNotFoundError) else ""
+        return BadCampaign((f"{path}: {unread(error)}{beside}",))
     except BadCampaign as error:
         return error
     return text

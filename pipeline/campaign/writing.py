@@ -20,7 +20,7 @@ from pipeline.campaign.names import (
 )
 from pipeline.campaign.reading import DESCRIPTION, MEASUREMENTS, read
 from pipeline.campaign.tolerance import table as tolerance_table
-from pipeline.errors import InputError
+from pipeline.errors import InputError, unread
 from pipeline.toml.complaints import BadCampaign
 
 BARS = ("bar", "bar_stiffness", "bar_from")
@@ -72,7 +72,7 @@ def _named_files(campaign: Campaign) -> dict[str, bytes]:
         try:
             content = path.read_bytes()
         except OSError as error:
-            raise InputError(f"{path}: cannot be read: {error.strerror}") from error
+            raise InputError(f"{path}: {unread(error)}") from error
         if found.setdefault(path.name, content) != content:
             raise InputError(
                 f"{path} and another file of its name are bars of one campaign, allowed is a name for each"

@@ -12,7 +12,7 @@ import numpy as np
 from pydantic import Field, ValidationError
 
 from pipeline.campaign import Rig
-from pipeline.errors import InputError
+from pipeline.errors import InputError, unread
 from pipeline.inference.model import Model, Term
 from pipeline.inference.model_file import BASE, SCHEMA, ModelFile, Uncertainty
 from pipeline.inference.suitable import Known, known_effects
@@ -93,7 +93,7 @@ def _text(path: Path) -> str:
     try:
         return path.read_bytes().decode("utf-8-sig").replace("\r\n", "\n")
     except OSError as error:
-        raise InputError(f"{path}: cannot be read: {error.strerror}") from error
+        raise InputError(f"{path}: {unread(error)}") from error
     except UnicodeDecodeError as error:
         raise InputError(f"{path}: is no UTF-8, allowed is text in UTF-8") from error
 

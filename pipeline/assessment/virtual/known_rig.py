@@ -11,7 +11,7 @@ from pipeline.campaign import ParallelogramRig
 from pipeline.campaign.bar_from import bar_from
 from pipeline.campaign.reading import DESCRIPTION
 from pipeline.campaign.rigs import KINDS
-from pipeline.errors import InputError
+from pipeline.errors import InputError, unread
 from pipeline.toml.fields import sentences
 
 ALLOWED = "allowed is a campaign of a parallelogram, or a result with its width"
@@ -39,7 +39,7 @@ def _of_campaign(folder: Path) -> ParallelogramRig:
     try:
         raw = tomllib.loads(path.read_text(encoding="utf-8-sig")).get("rig", {})
     except OSError as error:
-        raise InputError(f"{path}: cannot be read: {error.strerror}") from error
+        raise InputError(f"{path}: {unread(error)}") from error
     except ValueError as error:
         raise InputError(f"{path}: is no TOML: {error}") from error
     kind = raw.get("kind") if isinstance(raw, dict) else None
