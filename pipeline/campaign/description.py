@@ -1,6 +1,5 @@
 """campaign.toml: text in; rig, noise, gauges and the head of each test out."""
 
-import tomllib
 from pathlib import Path as FilePath
 from typing import Any, TypeVar
 
@@ -25,7 +24,7 @@ from pipeline.campaign.tolerance import tolerance, widest
 from pipeline.errors import InputError
 from pipeline.toml.complaints import Complaints, shown
 from pipeline.toml.fields import Sigma, sentences
-from pipeline.toml.lines import TomlLines
+from pipeline.toml.lines import TomlLines, parsed
 
 Raw = dict[str, Any]
 Model = TypeVar("Model", bound=BaseModel)
@@ -58,10 +57,9 @@ class _Reader:
         self.complaints, self.folder = complaints, folder
         self.lines = TomlLines(text.replace("\r\n", "\n"))
         try:
-            self.raw: Raw = tomllib.loads(text)
-        except (ValueError, RecursionError) as error:
-            said = str(error) or "too deeply nested"
-            complaints.add("", f"is no TOML: {said}")
+            self.raw: Raw = parsed(text)
+        except ValueError as error:
+            complaints.add("", f"is no TOML: {error}")
             complaints.check()
         self.gauge_names: list[str] = []
         self.postures: dict[Vector, Rig] = {}

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import re
-import tomllib
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Annotated, Any, Literal
@@ -19,7 +18,7 @@ from pipeline.inference.suitable import Known, known_effects
 from pipeline.parameter_names import path_of
 from pipeline.toml.complaints import Complaints, shown
 from pipeline.toml.fields import Table, sentences
-from pipeline.toml.lines import TomlLines
+from pipeline.toml.lines import TomlLines, parsed
 from pipeline.toml.spelling import unknown_name
 from vjm.effects import effect_named
 from vjm.effects.base import Effect, Parameter
@@ -104,9 +103,9 @@ class _Reader:
     def __init__(self, text: str, path: Path, complaints: Complaints) -> None:
         self.text, self.path, self.complaints, self.lines = text, path, complaints, TomlLines(text)
         try:
-            self.raw: dict[str, Any] = tomllib.loads(text)
-        except (ValueError, RecursionError) as error:
-            complaints.add("", f"is no TOML: {str(error) or 'too deeply nested'}")
+            self.raw: dict[str, Any] = parsed(text)
+        except ValueError as error:
+            complaints.add("", f"is no TOML: {error}")
             complaints.check()
 
     def read(self, known: Known | None, rig: Kind | None) -> ModelFile:
