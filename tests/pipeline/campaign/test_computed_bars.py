@@ -160,9 +160,7 @@ def test_two_bars_of_one_name_are_refused(tmp_path: Path) -> None:
 
 
 def test_a_file_of_a_test_that_cannot_be_read_is_a_complaint(tmp_path: Path) -> None:
-    with pytest.raises(
-        BadCampaign, match=r"line \d+, test 'test-2', rig.bar_from: .*no.json: is missing"
-    ):
+    with pytest.raises(BadCampaign, match=r"line \d+, test 'test-2', rig.bar_from: .*no.json: is missing"):
         read(two_bars(tmp_path, '{ bar_from = "no.json" }'))
 
 
