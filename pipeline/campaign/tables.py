@@ -125,7 +125,8 @@ class TestTable(Table):
     id: Text
     """Name of the test, as it stands in the column test of the readings."""
     q_deg: Angle | None = None
-    """Angle of the bars of a parallelogram against the base frame; a single bar has 0."""
+    """Angle of the bars of a parallelogram against the base frame, positive where the bars point from the base towards
+    +x and -z; a single bar has 0."""
     at_mm: tuple[Place, Place, Place] | None = None
     """Where the unloaded platform of a manipulator stands, base frame; or columns at_x_mm, at_y_mm, at_z_mm."""
     role: Role
