@@ -47,7 +47,8 @@ def describe(text: str, complaints: Complaints, folder: FilePath | None = None) 
     names = tuple(reader.gauge_names)
     if rig is None or complaints.found:
         return Draft(None, names, sources)
-    return Draft(Description(top.name, rig, noise, gauges, heads, sources, known), names, sources)
+    asked = tuple(dict.fromkeys(reader.questions))
+    return Draft(Description(top.name, rig, noise, gauges, heads, sources, known, asked), names, sources)
 
 
 class _Reader:
@@ -63,6 +64,7 @@ class _Reader:
             complaints.check()
         self.gauge_names: list[str] = []
         self.postures: dict[Vector, Rig] = {}
+        self.questions: list[str] = []
 
     def top(self) -> Top:
         version = self.raw.get("schema", 1)
@@ -82,6 +84,7 @@ class _Reader:
 
     def _made(self, table: RigTable, raw: Raw, path: Path, place: str) -> Rig | None:
         """The rig; None, with complaints, where a file that it names cannot be used."""
+        self.questions += [f"{place}.{said}" for said in table.questions()]
         try:
             return table.rig(self.folder)
         except InputError as error:

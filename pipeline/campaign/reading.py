@@ -70,7 +70,8 @@ def read(folder: Path, instead: str | None = None) -> Campaign:
     tests = tuple(_test(head, data[head.id], description, first) for head in description.heads)
     first.check()
     known, said = _tolerance(description)
-    remarks = [*_sigma_remarks(description, tests), *said, *_by_hand_remarks(tests), *remarks]
+    asked = [f"{DESCRIPTION}, {said}" for said in description.questions]
+    remarks = [*asked, *_sigma_remarks(description, tests), *said, *_by_hand_remarks(tests), *remarks]
     shorter = [thinned(test, noise, description.gauges) for test in tests]
     tests = tuple(test for test, _ in shorter)
     remarks += [said for _, said in shorter if said]
