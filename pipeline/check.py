@@ -9,6 +9,7 @@ import numpy as np
 from rich.markup import escape
 from rich.table import Table
 
+from pipeline.answer.record import place_of
 from pipeline.answer.wording.doctor import doctor_sentence, mends
 from pipeline.attempt import Attempts
 from pipeline.campaign import Campaign, Test, read
@@ -68,7 +69,8 @@ def _examined(campaign: Campaign) -> Iterator[str]:
         )
     for bad in it.readings.bad:
         yield (
-            f"Doctor: {bad.column} at step {bad.step} of {bad.test} is off alone, by {sigma(bad.sigmas)} sigma: "
+            f"Doctor: {bad.column} at {place_of(bad.test, bad.step, bad.line)} is off alone, by {sigma(bad.sigmas)} "
+            "sigma: "
             "look it up, or leave the cell empty."
         )
     for noise in it.noise:

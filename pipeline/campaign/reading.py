@@ -34,6 +34,7 @@ from pipeline.typed import command
 DESCRIPTION, MEASUREMENTS = "campaign.toml", "measurements.csv"
 LARGEST = {DESCRIPTION: 2**24, MEASUREMENTS: 2**30}
 """Bytes."""
+BY_ROWS = "no column is the step: of each test the rows that are read are its steps, the first is step 0"
 
 
 def read(folder: Path, instead: str | None = None) -> Campaign:
@@ -174,7 +175,8 @@ def _readings(
         found, words, said, files = assembled(folder, MEASUREMENTS, draft.sources, names)
         if said:
             raise BadCampaign(tuple(said))
-        return found, [f"read as declared: {each}" for each in words], files
+        remarks = [f"read as declared: {each}" for each in words]
+        return found, [*remarks, *([BY_ROWS] if found.steps is None else [])], files
     if isinstance(table, BadCampaign):
         raise table
     otherwise = _declared(MEASUREMENTS, folder / MEASUREMENTS)

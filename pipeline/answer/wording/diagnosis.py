@@ -124,8 +124,7 @@ def _aside(it: Answer, evidence: Evidence) -> Iterator[str]:
     """What was found of the readings themselves, and the verdict with all of them as they were declared."""
     if it.set_aside:
         told = ", ".join(
-            f"{b.column} at step {b.step} of {b.test} ({sigma(b.sigma)} sigma{_or_else(b)})"
-            for b in it.set_aside
+            f"{b.column} at {b.place} ({sigma(b.sigma)} sigma{_or_else(b)})" for b in it.set_aside
         )
         each = "they are" if len(it.set_aside) > 1 else "it is"
         yield f"Set aside, for {each} off alone and what is beside is not: {told}."
