@@ -17,7 +17,7 @@ from pipeline.campaign.names import channel_columns
 from pipeline.progress import Progress
 from pipeline.selection.beginnings import Beginning
 from pipeline.selection.examined import examined
-from pipeline.terminal import terminal
+from pipeline.terminal import terminal, wrapped
 from pipeline.typed import command
 from reports.quantities import short, sigma
 
@@ -38,9 +38,9 @@ def check(folder: Path) -> Campaign:
         )
     out.print(table)
     for remark in campaign.remarks:
-        out.print(escape(remark), soft_wrap=True)
+        out.print(escape(wrapped(remark, out.width)), soft_wrap=True)
     for said in _examined(campaign):
-        out.print(escape(said), soft_wrap=True)
+        out.print(escape(wrapped(said, out.width)), soft_wrap=True)
     out.print(f"next: {escape(command('compare', folder))}", soft_wrap=True)
     return campaign
 
