@@ -9,6 +9,7 @@ import numpy as np
 from rich.markup import escape
 from rich.table import Table
 
+from pipeline.answer.record import place_of
 from pipeline.answer.wording.doctor import doctor_sentence, lines_aside, mends
 from pipeline.attempt import Attempts
 from pipeline.campaign import Campaign, Test, read
@@ -16,7 +17,7 @@ from pipeline.campaign.names import channel_columns
 from pipeline.progress import Progress
 from pipeline.selection.beginnings import Beginning
 from pipeline.selection.examined import examined
-from pipeline.terminal import terminal
+from pipeline.terminal import terminal, wrapped
 from pipeline.typed import command
 from reports.quantities import short, sigma
 
@@ -37,9 +38,9 @@ def check(folder: Path) -> Campaign:
         )
     out.print(table)
     for remark in campaign.remarks:
-        out.print(escape(remark), soft_wrap=True)
+        out.print(escape(wrapped(remark, out.width)), soft_wrap=True)
     for said in _examined(campaign):
-        out.print(escape(said), soft_wrap=True)
+        out.print(escape(wrapped(said, out.width)), soft_wrap=True)
     out.print(f"next: {escape(command('compare', folder))}", soft_wrap=True)
     return campaign
 
@@ -68,8 +69,8 @@ def _examined(campaign: Campaign) -> Iterator[str]:
         )
     for bad in it.readings.bad:
         yield (
-            f"Doctor: {bad.column} at step {bad.step} of {bad.test} is off alone, by {sigma(bad.sigmas)} sigma: "
-            f"look it up, or leave it out of all commands by {lines_aside([bad.cell])}."
+            f"Doctor: {bad.column} at {place_of(bad.test, bad.step, bad.line)} is off alone, by {sigma(bad.sigmas)} "
+            f"sigma: look it up, or leave it out of all commands by {lines_aside([bad.cell])}."
         )
     for noise in it.noise:
         law = (

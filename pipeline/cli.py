@@ -16,6 +16,7 @@ from pipeline.log import log_to
 from pipeline.options import CampaignFolder, EffectsFrom, Json, LogFile, ModelFile
 from pipeline.predict.wiring import register as register_predict
 from pipeline.system import missing_libraries, wanted
+from pipeline.terminal import complain
 from pipeline.typed import typed
 
 app = typer.Typer(
@@ -38,7 +39,7 @@ ManipulatorFile = Annotated[
 
 def give_up(message: str, code: int) -> NoReturn:
     """Print one sentence and end."""
-    print(f"error: {message}", file=sys.stderr)
+    complain(f"error: {message}")
     raise typer.Exit(code)
 
 

@@ -1,13 +1,13 @@
 """What the commands do, with their imports where they are needed: a complaint about the input comes at once."""
 
 import os
-import sys
 from pathlib import Path
 
 from pipeline.bar.file_case import file_case, names_a_file
 from pipeline.errors import InputError
 from pipeline.progress import Progress
 from pipeline.system import require
+from pipeline.terminal import complain
 from pipeline.typed import INSTALLED
 from pipeline.validation.case import load_case
 from pipeline.validation.detail import COARSE, DEFAULT, FINE
@@ -41,7 +41,7 @@ def validate(name: str, coarse: bool, fine: bool, out: Path | None, quiet: bool,
     page = draw(folder, progress)
     print("\n".join([*result.story, f"report: {page}"]), flush=True)
     for said in result.warnings:
-        print(f"warning: {said}", file=sys.stderr)
+        complain(f"warning: {said}")
 
 
 def validate_file(path: Path, coarse: bool, fine: bool, out: Path | None, quiet: bool, typed: str) -> None:
@@ -59,7 +59,7 @@ def validate_file(path: Path, coarse: bool, fine: bool, out: Path | None, quiet:
     page = draw_part(folder, progress)
     print("\n".join([*result.story, f"report: {page}"]), flush=True)
     for said in result.warnings:
-        print(f"warning: {said}", file=sys.stderr)
+        complain(f"warning: {said}")
 
 
 def is_part(path: Path) -> bool:

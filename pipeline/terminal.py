@@ -5,7 +5,10 @@ Widths are in cells: a Chinese character or an emoji takes two.
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Iterator, Sequence
+from shutil import get_terminal_size
+from textwrap import wrap
 
 from rich.box import SIMPLE_HEAD
 from rich.cells import cell_len, chop_cells
@@ -24,6 +27,22 @@ def terminal(console: Console | None = None) -> Console:
     out = console or Console(highlight=False)
     out.width = min(max(out.width, WIDTH), WIDEST) if out.is_terminal else WIDTH
     return out
+
+
+def wrapped(said: str, width: int = WIDTH) -> str:
+    """Sentences, each on as many lines as it takes, further ones indented; no word is cut: a path stays whole."""
+    lines = []
+    for each in said.splitlines():
+        lines += wrap(each, width, subsequent_indent="  ", break_long_words=False, break_on_hyphens=False)
+    return "\n".join(lines)
+
+
+def complain(said: str) -> None:
+    """Print sentences to standard error: wrapped on a terminal, else a line each, as a search of a log needs them."""
+    if sys.stderr.isatty():
+        columns = get_terminal_size((WIDTH, 0)).columns
+        said = wrapped(said, min(max(columns, 20), WIDEST))
+    print(said, file=sys.stderr)
 
 
 def one_line(*tries: str) -> str:

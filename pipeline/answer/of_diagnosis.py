@@ -14,10 +14,17 @@ from pipeline.answer.record import (
     Correlation,
     DoctorFinding,
     FoundNoise,
-    SetAside,
     UnknownZero,
 )
-from pipeline.answer.summary import changes, confusable, error_of, nominals_of, undetermined, values_of
+from pipeline.answer.summary import (
+    changes,
+    confusable,
+    error_of,
+    nominals_of,
+    set_aside_records,
+    undetermined,
+    values_of,
+)
 from pipeline.answer.wording.diagnosis import sentences
 from pipeline.attempt import Attempts
 from pipeline.campaign import Campaign
@@ -82,10 +89,7 @@ def answer_of(it: Diagnosis, found: Fit | None = None) -> Answer:
         next_test=next_test_record(it.next_test, it.sets),
         at_bound=it.decision.at_bound,
         out_by_plausibility=tuple((*cache.base.names, *cache.order(n)) for n in it.decision.out),
-        set_aside=tuple(
-            SetAside(test=b.test, step=b.step, column=b.column, sigma=b.sigmas, instead=b.instead)
-            for b in it.readings.bad
-        ),
+        set_aside=set_aside_records(it.readings.bad),
         noise=(*_other_noise(it), *_correlated(it)),
         as_declared=None if it.readings.plain else it.with_all,
         certain=tuple(Certain(effect=name, parameters=_values(found.model, name)) for name in it.certain),

@@ -33,6 +33,11 @@ class DoctorFinding(Record):
     """The line of campaign.toml that mends it, or what to do."""
 
 
+def place_of(test: str, step: int, line: int | None) -> str:
+    """Where a reading stands, in words."""
+    return f"step {step} of {test}" + ("" if line is None else f", line {line} of its file")
+
+
 class SetAside(Record):
     """A single reading that was left out."""
 
@@ -46,6 +51,13 @@ class SetAside(Record):
     """By how many of its sigmas it is off."""
     instead: tuple[str, ...] = ()
     """Columns of the same step of which one may be off in its place: what the row says of both is the same."""
+    line: int | None = None
+    """Its line in the file of readings, counted from 1; null where it comes from no file."""
+
+    @property
+    def place(self) -> str:
+        """Step, test and line in words."""
+        return place_of(self.test, self.step, self.line)
 
 
 class FoundNoise(Record):

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 
 import numpy as np
 
-from pipeline.answer.record import ModelError, NominalValue, TestChange, TestNoise
+from pipeline.answer.record import ModelError, NominalValue, SetAside, TestChange, TestNoise
 from pipeline.answer.value import Value
 from pipeline.compare.error import Discrepancy
 from pipeline.inference.fit import Fit
@@ -16,6 +16,7 @@ from pipeline.inference.model import Model, at_bound
 from pipeline.inference.noise import chi_square, lag_one
 from pipeline.inference.nuisances import nominals
 from pipeline.parameter_names import parted, path_of
+from pipeline.selection.adequacy.bad_readings import BadReading
 from pipeline.selection.adequacy.judgement import Judgement
 from pipeline.selection.criteria import Criteria
 
@@ -119,3 +120,11 @@ def confusable(names: list[str], pairs: list[tuple[int, int, float]]) -> tuple[t
     """Pairs of different effects with parameters that go together."""
     effects = [parted(name)[0] for name in names]
     return tuple(dict.fromkeys((effects[i], effects[j]) for i, j, _ in pairs if effects[i] != effects[j]))
+
+
+def set_aside_records(bad: Iterable[BadReading]) -> tuple[SetAside, ...]:
+    """Readings that were left out, as an answer has them."""
+    return tuple(
+        SetAside(test=b.test, step=b.step, column=b.column, sigma=b.sigmas, instead=b.instead, line=b.line)
+        for b in bad
+    )

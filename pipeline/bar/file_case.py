@@ -12,7 +12,7 @@ from pydantic import ValidationError
 from pipeline.bar.tables import FileCase
 from pipeline.errors import InputError
 from pipeline.toml.complaints import Complaints
-from pipeline.toml.lines import TomlLines
+from pipeline.toml.lines import TomlLines, parsed
 from pipeline.validation.case import complaint
 
 STEEL = "E_MPa = 210000.0, nu = 0.3"
@@ -30,7 +30,7 @@ def names_a_file(path: Path) -> bool:
 def file_case(path: Path) -> FileCase:
     """The case in a TOML file; InputError says all that is wrong, with lines."""
     text = path.read_text(encoding="utf-8-sig")
-    return _checked(tomllib.loads(text), str(path), TomlLines(text.replace("\r\n", "\n")))
+    return _checked(parsed(text), str(path), TomlLines(text.replace("\r\n", "\n")))
 
 
 def case_of_options(path: Path, options: Mapping[str, Any]) -> FileCase:
@@ -68,7 +68,7 @@ def _checked(raw: dict[str, Any], named: str, lines: TomlLines) -> FileCase:
     except ValidationError as error:
         for mistake in error.errors():
             place = tuple(mistake["loc"])
-            complaints.add("", complaint(mistake), _line(lines, place))
+            complaints.add("", complaint(mistake, FileCase), _line(lines, place))
     complaints.check()
     raise AssertionError("a case that cannot be used has raised a complaint")
 

@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from pipeline.campaign.tolerance import SHARE
-from pipeline.errors import InputError
+from pipeline.errors import InputError, unread
 from pipeline.toml.stiffness import Array, not_a_stiffness, symmetric
 
 OF = {"EA": ("K11",), "EIy": ("K33", "K35", "K55"), "EIz": ("K22", "K26", "K66"), "GJ": ("K44",)}
@@ -80,7 +80,7 @@ def bar_from(path: Path) -> BarFrom:
     try:
         raw = json.loads(path.read_text(encoding="utf-8"))
     except OSError as error:
-        raise InputError(f"{path}: cannot be read: {error.strerror}") from error
+        raise InputError(f"{path}: {unread(error)}") from error
     except ValueError as error:
         raise InputError(f"{path}: is no JSON, {ALLOWED}") from error
     try:

@@ -11,6 +11,8 @@ NEARLY_ALONG = np.sin(np.radians(1.0))
 """A coordinate within a degree of the bars' direction does not keep them from swinging."""
 SIGMAS = 5.0
 """A reading counts as a load beyond so many sigma: one in 1.7 million rows is noise."""
+WAYS = (DISPLACEMENT, FORCE, SUPPORT)
+"""What may control a coordinate without a gauge."""
 PART = 0.01
 """Where no sigma is known, a reading counts as a load from this part of the largest one."""
 
@@ -26,12 +28,12 @@ def controls(written: dict[str, str], rig: Rig, names: list[str]) -> tuple[tuple
     for key, by in written.items():
         if key in supported:
             said.append(f"{key} is held by {supported[key]} already, allowed is to leave it out")
-        elif key in COORDINATES and by not in (DISPLACEMENT, FORCE, *names):
-            near = unknown_name(by, (DISPLACEMENT, FORCE, *names))
-            said.append(f"{key} is {shown(by)}, neither displacement nor force nor a gauge; {near}")
+        elif key in COORDINATES and by not in (*WAYS, *names):
+            near = unknown_name(by, (*WAYS, *names))
+            said.append(f"{key} is {shown(by)}, neither displacement nor force nor held nor a gauge; {near}")
     if missing := [key for key in COORDINATES if key not in supported and key not in written]:
         said.append(
-            f"{', '.join(missing)} missing, allowed is displacement, force or a gauge for each coordinate"
+            f"{', '.join(missing)} missing, allowed is displacement, force, held or a gauge for each coordinate"
         )
     twice = [name for name in names if list(written.values()).count(name) > 1]
     said += [f"gauge {name} controls two coordinates, allowed is one" for name in twice]
@@ -39,13 +41,13 @@ def controls(written: dict[str, str], rig: Rig, names: list[str]) -> tuple[tuple
 
 
 def swings(rig: Rig, q: float, control: tuple[str, ...], gauges: tuple[Gauge, ...]) -> bool:
-    """Whether the rig has a motion that costs no energy, and no coordinate held by displacement keeps it from that."""
+    """Whether the rig has a motion that costs no energy, and no coordinate that is moved or held keeps it from that."""
     motion = rig.swing(q)
     if motion is None:
         return False
     by_name = {gauge.name: gauge for gauge in gauges}
     for k, by in enumerate(control):
-        if by == DISPLACEMENT and abs(motion[k]) > (NEARLY_ALONG if k < 3 else 0.0):
+        if by in (DISPLACEMENT, SUPPORT) and abs(motion[k]) > (NEARLY_ALONG if k < 3 else 0.0):
             return False
         if by in by_name:
             gauge = by_name[by]

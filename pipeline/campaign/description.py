@@ -1,20 +1,16 @@
 """campaign.toml: text in; rig, noise, gauges and the head of each test out."""
 
-import tomllib
 from pathlib import Path as FilePath
 from typing import Any, TypeVar
 
 from pydantic import BaseModel, TypeAdapter, ValidationError
 
-from pipeline.campaign.control import controls
+from pipeline.campaign.control import WAYS, controls
 from pipeline.campaign.head import Description, Draft, Head, SensorNoise
 from pipeline.campaign.mapped.sources import Sources
 from pipeline.campaign.model import Cells, Gauge, Rig, Vector
 from pipeline.campaign.names import (
-    DISPLACEMENT,
-    FORCE,
     KEYS,
-    SUPPORT,
     TEMPERATURE,
     gauge_column,
     known_columns,
@@ -28,7 +24,7 @@ from pipeline.campaign.tolerance import tolerance, widest
 from pipeline.errors import InputError
 from pipeline.toml.complaints import Complaints, shown
 from pipeline.toml.fields import Sigma, sentences
-from pipeline.toml.lines import TomlLines
+from pipeline.toml.lines import TomlLines, parsed
 
 Raw = dict[str, Any]
 Model = TypeVar("Model", bound=BaseModel)
@@ -51,7 +47,8 @@ def describe(text: str, complaints: Complaints, folder: FilePath | None = None) 
     names = tuple(reader.gauge_names)
     if rig is None or complaints.found:
         return Draft(None, names, sources)
-    return Draft(Description(top.name, rig, noise, gauges, heads, sources, known), names, sources)
+    asked = tuple(dict.fromkeys(reader.questions))
+    return Draft(Description(top.name, rig, noise, gauges, heads, sources, known, asked), names, sources)
 
 
 class _Reader:
@@ -61,13 +58,13 @@ class _Reader:
         self.complaints, self.folder = complaints, folder
         self.lines = TomlLines(text.replace("\r\n", "\n"))
         try:
-            self.raw: Raw = tomllib.loads(text)
-        except (ValueError, RecursionError) as error:
-            said = str(error) or "too deeply nested"
-            complaints.add("", f"is no TOML: {said}")
+            self.raw: Raw = parsed(text)
+        except ValueError as error:
+            complaints.add("", f"is no TOML: {error}")
             complaints.check()
         self.gauge_names: list[str] = []
         self.postures: dict[Vector, Rig] = {}
+        self.questions: list[str] = []
 
     def top(self) -> Top:
         version = self.raw.get("schema", 1)
@@ -87,6 +84,7 @@ class _Reader:
 
     def _made(self, table: RigTable, raw: Raw, path: Path, place: str) -> Rig | None:
         """The rig; None, with complaints, where a file that it names cannot be used."""
+        self.questions += [f"{place}.{said}" for said in table.questions()]
         try:
             return table.rig(self.folder)
         except InputError as error:
@@ -118,11 +116,7 @@ class _Reader:
                 continue
             if table.name in (gauge.name for gauge in gauges):
                 self.say(("gauges", k, "name"), "is there twice, allowed is each name once", place)
-            elif gauge_column(table.name) in known_columns(()) or table.name in (
-                DISPLACEMENT,
-                FORCE,
-                SUPPORT,
-            ):
+            elif gauge_column(table.name) in known_columns(()) or table.name in WAYS:
                 self.say(("gauges", k, "name"), "is taken, allowed is a name of its own", place)
             elif rig is not None and (wrong := rig.refused(table.gauge())):
                 self.say(("gauges", k, *filter(None, wrong[:1])), wrong[1], place)

@@ -37,6 +37,7 @@ class Description:
     nothing is said.
 
     sources: of files that are read as they are declared; none where measurements.csv is as the contract has it.
+    questions: about numbers of the rigs that are accepted and seldom right.
     """
 
     name: str
@@ -46,6 +47,7 @@ class Description:
     heads: tuple[Head, ...]
     sources: tuple[Source, ...] = ()
     tolerance: dict[str, float] | None = None
+    questions: tuple[str, ...] = ()
 
     @property
     def rigs(self) -> tuple[Rig, ...]:

@@ -54,9 +54,9 @@ class Test:
     """One continuous history from the unloaded state, with hinge springs and friction relaxed there.
 
     q_deg: nominal angle of the bars, degrees as it was given. control: what is prescribed for each of the six
-    coordinates: "displacement", "force", the name of a gauge, or "support" where the support of a bar's tip holds
-    the coordinate at zero. rig: that of the campaign with the test's own values. set_aside, keep: step and column of
-    readings that somebody left out, and of those that are to count whatever they look like.
+    coordinates: "displacement", "force", the name of a gauge, or "held" where a clamp or the support of a bar's tip
+    keeps the coordinate where it is unloaded. rig: that of the campaign with the test's own values. set_aside, keep:
+    step and column of readings that somebody left out, and of those that are to count whatever they look like.
     """
 
     id: str

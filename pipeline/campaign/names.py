@@ -21,8 +21,9 @@ UNITS = {
     "Nmm": "newton millimetres",
     "C": "degrees Celsius",
 }
-DISPLACEMENT, FORCE, SUPPORT = "displacement", "force", "support"
-"""What may control a coordinate, beside a gauge's name; `SUPPORT` is never written, a bar's tip implies it."""
+DISPLACEMENT, FORCE, SUPPORT = "displacement", "force", "held"
+"""What may control a coordinate, beside a gauge's name. `SUPPORT`: a clamp, or the tip of a bar where its kind implies
+it, keeps the coordinate where it is unloaded; no column, sigma or noise goes with it."""
 
 
 def gauge_column(name: str) -> str:

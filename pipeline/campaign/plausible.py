@@ -9,6 +9,10 @@ from pipeline.campaign.names import COORDINATES, DISPLACEMENT, DISPLACEMENTS, FO
 from pipeline.campaign.rig import LARGE_TURN
 from pipeline.toml.complaints import Complaints, lines_named, shown
 
+HELD_Z = (
+    f'z = "{DISPLACEMENT}" with a column z_mm, or z = "{SUPPORT}" where a clamp keeps it where it is unloaded'
+)
+
 
 def judge(
     head: Head, data: Data, gauges: tuple[Gauge, ...], noise: Noise, columns: set[str], complaints: Complaints
@@ -17,6 +21,7 @@ def judge(
     place = f"test {shown(head.id)}"
     q = float(np.radians(head.q_deg))
     _controlled(head, data, gauges, columns, complaints, place)
+    _clamped_readings(head, data, complaints, place)
     _reach(head, data, complaints, place)
     _held(head, data, gauges, noise, q, complaints, place)
     if data.temperature is not None:
@@ -48,11 +53,32 @@ def _controlled(
         kind = "displacement" if by == DISPLACEMENT else f"gauge {by}"
         why = f"{place} controls {COORDINATES[k]} by {kind}"
         if column not in columns:
-            complaints.add(f"column {column}", f"is missing, but {why}")
+            complaints.add(f"column {column}", f"is missing, but {why}{_clamped(COORDINATES[k], by)}")
         elif (empty := data.lines[np.isnan(values)]).size:
             lines = [int(line) for line in empty]
             said = f"is empty, but {why}, allowed is a number{lines_named(lines)}"
             complaints.add(f"column {column}", said, lines[0])
+
+
+def _clamped(coordinate: str, by: str) -> str:
+    """What to write where nothing reads a coordinate because a clamp keeps it where it is; empty for a gauge."""
+    way = f'; where a clamp holds it and nothing reads it, write {coordinate} = "{SUPPORT}" in its control'
+    return way if by == DISPLACEMENT else ""
+
+
+def _clamped_readings(head: Head, data: Data, complaints: Complaints, place: str) -> None:
+    """What is held without a sensor has no readings: one other than zero is of something that was moved."""
+    for k, by in enumerate(head.control):
+        if by != SUPPORT or COORDINATES[k] in head.rig.supports:
+            continue
+        read = np.flatnonzero(np.nan_to_num(data.displacement[:, k]))
+        if read.size:
+            first = int(read[0])
+            said = (
+                f"reads {data.displacement[first, k]:g} in {place}, which holds {COORDINATES[k]} where it is unloaded; "
+                f'what is moved and read is {COORDINATES[k]} = "{DISPLACEMENT}"'
+            )
+            complaints.add(f"column {DISPLACEMENTS[k]}", said, int(data.lines[first]))
 
 
 def _reach(head: Head, data: Data, complaints: Complaints, place: str) -> None:
@@ -89,9 +115,7 @@ def _turns(head: Head, data: Data, complaints: Complaints, place: str) -> list[s
 def _nothing_to_predict(head: Head, data: Data, place: str) -> list[str]:
     """A test that measures nothing beyond what it controls says nothing about a model."""
     predicted: list[Array] = [
-        data.wrench[:, k] if by != FORCE else data.displacement[:, k]
-        for k, by in enumerate(head.control)
-        if by != SUPPORT
+        data.wrench[:, k] if by != FORCE else data.displacement[:, k] for k, by in enumerate(head.control)
     ]
     predicted += [data.gauges[:, k] for k in range(data.gauges.shape[1])]
     if all(np.isnan(values).all() for values in predicted):
@@ -123,12 +147,12 @@ def _held(
     if pushed.size:
         said = (
             f"the bars are pushed while z is controlled by force{lines_named([int(n) for n in pushed])}: "
-            f"{mechanism} and runs away; allowed is tension, or z controlled by displacement"
+            f"{mechanism} and runs away; allowed is tension, or {HELD_Z}"
         )
         complaints.add(place, said, int(pushed[0]))
     elif not (loaded > 0).any():
         said = (
             f"nothing holds z: it is controlled by force, no step pulls the bars, and {mechanism}; "
-            "allowed is tension, or z controlled by displacement"
+            f"allowed is tension, or {HELD_Z}"
         )
         complaints.add(place, said, int(data.lines[0]))

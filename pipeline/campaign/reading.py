@@ -27,12 +27,14 @@ from pipeline.campaign.posture_rows import parted
 from pipeline.campaign.rows import data_by_test, measured_of
 from pipeline.campaign.sheet import sheet
 from pipeline.campaign.tolerance import widest
+from pipeline.errors import unread
 from pipeline.toml.complaints import BadCampaign, Complaints, shown
 from pipeline.typed import command
 
 DESCRIPTION, MEASUREMENTS = "campaign.toml", "measurements.csv"
 LARGEST = {DESCRIPTION: 2**24, MEASUREMENTS: 2**30}
 """Bytes."""
+BY_ROWS = "no column is the step: of each test the rows that are read are its steps, the first is step 0"
 
 
 def read(folder: Path, instead: str | None = None) -> Campaign:
@@ -69,7 +71,8 @@ def read(folder: Path, instead: str | None = None) -> Campaign:
     tests = tuple(_test(head, data[head.id], description, first) for head in description.heads)
     first.check()
     known, said = _tolerance(description)
-    remarks = [*_sigma_remarks(description, tests), *said, *_by_hand_remarks(tests), *remarks]
+    asked = [f"{DESCRIPTION}, {said}" for said in description.questions]
+    remarks = [*asked, *_sigma_remarks(description, tests), *said, *_by_hand_remarks(tests), *remarks]
     shorter = [thinned(test, noise, description.gauges) for test in tests]
     tests = tuple(test for test, _ in shorter)
     remarks += [said for _, said in shorter if said]
@@ -155,9 +158,8 @@ def _tried(path: Path) -> str | BadCampaign:
         text = _text(path, LARGEST[path.name], complaints)
         complaints.check()
     except OSError as error:
-        missing = isinstance(error, FileNotFoundError)
-        said = f"is missing{_beside(path)}" if missing else f"cannot be read: {error.strerror}"
-        return BadCampaign((f"{path}: {said}",))
+        beside = _beside(path) if isinstance(error, FileNotFoundError) else ""
+        return BadCampaign((f"{path}: {unread(error)}{beside}",))
     except BadCampaign as error:
         return error
     return text
@@ -173,7 +175,8 @@ def _readings(
         found, words, said, files = assembled(folder, MEASUREMENTS, draft.sources, names)
         if said:
             raise BadCampaign(tuple(said))
-        return found, [f"read as declared: {each}" for each in words], files
+        remarks = [f"read as declared: {each}" for each in words]
+        return found, [*remarks, *([BY_ROWS] if found.steps is None else [])], files
     if isinstance(table, BadCampaign):
         raise table
     otherwise = _declared(MEASUREMENTS, folder / MEASUREMENTS)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from abc import abstractmethod
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any, ClassVar
 
@@ -53,6 +54,10 @@ class RigTable(Table):
         if self.gravity is None and self.weight > 0.0:
             return ["a weight is given without its direction, allowed with gravity = [x, y, z]"]
         return []
+
+    def questions(self) -> Iterator[str]:
+        """What to ask about numbers that are accepted and seldom right, behind the name of the table."""
+        yield from ()
 
     @property
     def weight(self) -> float:

@@ -125,14 +125,16 @@ class TestTable(Table):
     id: Text
     """Name of the test, as it stands in the column test of the readings."""
     q_deg: Angle | None = None
-    """Angle of the bars of a parallelogram against the base frame; a single bar has 0."""
+    """Angle of the bars of a parallelogram against the base frame, positive where the bars point from the base towards
+    +x and -z; a single bar has 0."""
     at_mm: tuple[Place, Place, Place] | None = None
     """Where the unloaded platform of a manipulator stands, base frame; or columns at_x_mm, at_y_mm, at_z_mm."""
     role: Role
     """fit: models are fitted to it and chosen by it. holdout: it is only predicted, as a check."""
     control: dict[str, str]
-    """What was prescribed for each of x, y, z, rx, ry and rz: "displacement" (moved or held), "force" (loaded
-    or left free; an empty cell is no load), or the name of a gauge whose reading the load was set by."""
+    """What was prescribed for each of x, y, z, rx, ry and rz: "displacement" (moved or held, and read in every
+    row), "force" (loaded or left free; an empty cell is no load), "held" (a clamp keeps it where it is unloaded, and no
+    column reads it), or the name of a gauge whose reading the load was set by."""
     zero: Zero = "nominal"
     """nominal: readings count from the nominal unloaded pose. first_row: sensors and cell were zeroed in the
     first row, so that the noise of one reading is in all others: no constant is compared. fitted: their offsets are

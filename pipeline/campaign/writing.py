@@ -13,7 +13,6 @@ from pipeline.campaign.model import Campaign, Gauge, Rig
 from pipeline.campaign.names import (
     COORDINATES,
     DISPLACEMENTS,
-    SUPPORT,
     TEMPERATURE,
     WRENCHES,
     channel_columns,
@@ -21,7 +20,7 @@ from pipeline.campaign.names import (
 )
 from pipeline.campaign.reading import DESCRIPTION, MEASUREMENTS, read
 from pipeline.campaign.tolerance import table as tolerance_table
-from pipeline.errors import InputError
+from pipeline.errors import InputError, unread
 from pipeline.toml.complaints import BadCampaign
 
 BARS = ("bar", "bar_stiffness", "bar_from")
@@ -73,7 +72,7 @@ def _named_files(campaign: Campaign) -> dict[str, bytes]:
         try:
             content = path.read_bytes()
         except OSError as error:
-            raise InputError(f"{path}: cannot be read: {error.strerror}") from error
+            raise InputError(f"{path}: {unread(error)}") from error
         if found.setdefault(path.name, content) != content:
             raise InputError(
                 f"{path} and another file of its name are bars of one campaign, allowed is a name for each"
@@ -94,7 +93,8 @@ def description_text(campaign: Campaign) -> str:
     base = rig_table(campaign.rig)
     document["tests"] = []
     for test in campaign.tests:
-        control = {key: by for key, by in zip(COORDINATES, test.control, strict=True) if by != SUPPORT}
+        implied = test.rig.supports
+        control = {key: by for key, by in zip(COORDINATES, test.control, strict=True) if key not in implied}
         place = {"q_deg": test.q_deg} if test.rig.point is None else {"at_mm": list(test.rig.point)}
         entry = {"id": test.id, **place, "role": test.role, "control": inline(control)}
         if test.zero != "nominal":

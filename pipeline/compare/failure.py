@@ -18,6 +18,9 @@ from pipeline.inference.driving import column_name, driving, unit_of
 
 Array = NDArray[np.float64]
 _ANGLE = re.compile(r"[\s_.-]*(q[\s_=]*)?[+-]?\d+(\.\d+)?$")
+_POSTURE = re.compile(r"[\s_.-]q[\s_=]*[+-]?\d+(\.\d+)?$")
+LISTED = 3
+"""Tests that are named one by one."""
 FEWEST, PLAIN = 8, 2
 """Readings of a channel below which its shape is not looked at, and from which its offset and slope are."""
 LINE = ("offset", "slope")
@@ -56,7 +59,8 @@ def findings(discrepancy: Discrepancy) -> tuple[tuple[Finding, ...], int]:
 
 
 def groups(tests: tuple[Test, ...], gauges: tuple[Gauge, ...], role: str = "fit") -> tuple[LoadedAlike, ...]:
-    """The tests of a role whose ids differ by a number at the end only, by control and driving quantity, named."""
+    """The tests of a role whose ids differ by a number at the end only, by control and driving quantity, named: by what
+    they have in common where the rest of their ids is an angle q, else one by one."""
     alike: dict[tuple[tuple[str, ...], int, str], list[int]] = {}
     for number, test in enumerate(tests):
         if test.role == role:
@@ -65,11 +69,26 @@ def groups(tests: tuple[Test, ...], gauges: tuple[Gauge, ...], role: str = "fit"
     found, used = [], set[str]()
     for (_, load, stem), numbers in alike.items():
         first = tests[numbers[0]].id
-        name = first if len(numbers) == 1 else stem if stem else f"{first} and {len(numbers) - 1} more"
+        name = _named([test.id for test in tests], numbers, stem)
         name = name if name not in used else f"{name} ({first})"
         used.add(name)
         found.append(LoadedAlike(name, tuple(numbers), load))
     return tuple(found)
+
+
+def _named(ids: list[str], numbers: list[int], stem: str) -> str:
+    own = [ids[number] for number in numbers]
+    if len(own) == 1:
+        return own[0]
+    if stem and all(_POSTURE.search(each) for each in own):
+        return stem
+    if len(own) == len(ids):
+        return "all tests" if len(own) > LISTED else _listed(own)
+    return _listed(own) if len(own) <= LISTED else f"{own[0]} and {len(own) - 1} more"
+
+
+def _listed(names: list[str]) -> str:
+    return f"{', '.join(names[:-1])} and {names[-1]}"
 
 
 def too_short(discrepancy: Discrepancy) -> tuple[str, ...]:

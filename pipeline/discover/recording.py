@@ -6,8 +6,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pipeline.answer.law import Curve, Grouped, LawFound, Tie
-from pipeline.answer.record import ModelError, SetAside
-from pipeline.answer.summary import error_of
+from pipeline.answer.record import ModelError
+from pipeline.answer.summary import error_of, set_aside_records
 from pipeline.answer.value import Value
 from pipeline.attempt import Attempts
 from pipeline.discover.record import Discovered, Entered
@@ -52,10 +52,7 @@ def recorded(found: Discovery, whole: LoadCases, seconds: float) -> Discovered:
         whole=found.whole,
         next_site=None if top is None else top.site.name,
         next_evidence=found.last.best,
-        set_aside=tuple(
-            SetAside(test=it.test, step=it.step, column=it.column, sigma=it.sigmas, instead=it.instead)
-            for it in found.bad
-        ),
+        set_aside=set_aside_records(found.bad),
         not_done=tuple(attempts.failed),
         seconds=round(seconds, 3),
         commit=commit(),

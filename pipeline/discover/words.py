@@ -91,7 +91,7 @@ def said_of(it: LawFound) -> Iterator[str]:
 def _last(it: Discovered) -> Iterator[str]:
     if it.set_aside:
         some = ", ".join(
-            f"{' or '.join([e.column, *e.instead])} in {e.test} step {e.step} ({sigma(e.sigma)})"
+            f"{' or '.join([e.column, *e.instead])} at {e.place} ({sigma(e.sigma)})"
             for e in it.set_aside[:MANY]
         )
         more = f" and {len(it.set_aside) - MANY} more" if len(it.set_aside) > MANY else ""

@@ -14,6 +14,7 @@ from pipeline.answer.record import Answer
 from pipeline.answer.tables.added import parameter_table
 from pipeline.answer.tables.diagnosis import candidate_table, waterfall
 from pipeline.answer.tables.headline import headline
+from pipeline.answer.wording.diagnosis import no_next_test
 from pipeline.discover.beyond_catalogue import with_laws
 from pipeline.discover.table import law_table
 from pipeline.discover.words import said_of
@@ -120,6 +121,8 @@ class Diagnosis(AboutBench):
     def following(self) -> tuple[str, ...]:
         doctor = tuple(f"Mend the table first: {it.mend}" for it in self.answer.doctor)
         test = (f"Next test: {self.answer.next_test['why']}.",) if self.answer.next_test else ()
+        if not test and self.verdict == "ambiguous" and len(self.choices) > 1:
+            test = (no_next_test(self.answer.evidence),)
         named = {
             "identified": f"bench.add({', '.join(map(repr, self.choices[0]))}) fits them, save_model() keeps them.",
             "ambiguous": "model_of(...) takes one of the choices.",

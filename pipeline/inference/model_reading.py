@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import re
-import tomllib
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Annotated, Any, Literal
@@ -12,14 +11,14 @@ import numpy as np
 from pydantic import Field, ValidationError
 
 from pipeline.campaign import Rig
-from pipeline.errors import InputError
+from pipeline.errors import InputError, unread
 from pipeline.inference.model import Model, Term
 from pipeline.inference.model_file import BASE, SCHEMA, ModelFile, Uncertainty
 from pipeline.inference.suitable import Known, known_effects
 from pipeline.parameter_names import path_of
 from pipeline.toml.complaints import Complaints, shown
 from pipeline.toml.fields import Table, sentences
-from pipeline.toml.lines import TomlLines
+from pipeline.toml.lines import TomlLines, parsed
 from pipeline.toml.spelling import unknown_name
 from vjm.effects import effect_named
 from vjm.effects.base import Effect, Parameter
@@ -93,7 +92,7 @@ def _text(path: Path) -> str:
     try:
         return path.read_bytes().decode("utf-8-sig").replace("\r\n", "\n")
     except OSError as error:
-        raise InputError(f"{path}: cannot be read: {error.strerror}") from error
+        raise InputError(f"{path}: {unread(error)}") from error
     except UnicodeDecodeError as error:
         raise InputError(f"{path}: is no UTF-8, allowed is text in UTF-8") from error
 
@@ -104,9 +103,9 @@ class _Reader:
     def __init__(self, text: str, path: Path, complaints: Complaints) -> None:
         self.text, self.path, self.complaints, self.lines = text, path, complaints, TomlLines(text)
         try:
-            self.raw: dict[str, Any] = tomllib.loads(text)
-        except (ValueError, RecursionError) as error:
-            complaints.add("", f"is no TOML: {str(error) or 'too deeply nested'}")
+            self.raw: dict[str, Any] = parsed(text)
+        except ValueError as error:
+            complaints.add("", f"is no TOML: {error}")
             complaints.check()
 
     def read(self, known: Known | None, rig: Kind | None) -> ModelFile:

@@ -6,7 +6,14 @@ import json
 from collections.abc import Sequence
 
 from pipeline.campaign.mapped.layout import header_unit
-from pipeline.campaign.names import COORDINATES, known_columns
+from pipeline.campaign.names import (
+    COORDINATES,
+    DISPLACEMENT,
+    DISPLACEMENTS,
+    FORCE,
+    SUPPORT,
+    known_columns,
+)
 from pipeline.campaign.rigs import KINDS
 from pipeline.init.found import Found
 from pipeline.init.known_bar import KnownBar
@@ -61,7 +68,9 @@ def campaign_text(
     head = f"schema = 1\nname = {_quoted(name)}\n\n[rig]\n{_rig(kind, bar)}{more}"
     tables = "" if found is None else _file(file, found) + _columns(found) + CELL
     names = ("test-1",) if found is None or not found.tests else found.tests
-    return head + tables + _test(kind, names[0]) + "".join(_further(kind, each) for each in names[1:])
+    control = _control(kind, found)
+    more_tests = "".join(_further(kind, each, control) for each in names[1:])
+    return head + tables + _test(kind, names[0], control) + more_tests
 
 
 def _rig(kind: str, bar: KnownBar | None) -> str:
@@ -143,27 +152,39 @@ def _times(found: Found) -> list[str]:
     return sorted(every, key=lambda name: name in found.still)
 
 
-def _control(kind: str) -> str:
-    """What controls each coordinate."""
-    held = KINDS[kind].held
-    return ", ".join(f'{c} = "{"displacement" if c in held else "force"}"' for c in COORDINATES)
+def _control(kind: str, found: Found | None) -> str:
+    """What controls each coordinate; what the rig needs held is clamped where no column of the file can read it."""
+    ways = {c: _way_of_held(c, found) if c in KINDS[kind].held else FORCE for c in COORDINATES}
+    return ", ".join(f'{c} = "{way}"' for c, way in ways.items())
 
 
-def _further(kind: str, name: str) -> str:
+def _way_of_held(coordinate: str, found: Found | None) -> str:
+    if found is None:
+        return DISPLACEMENT
+    quantity = "angle" if coordinate.startswith("r") else "length"
+    for name, beside in zip(found.names, found.units, strict=True):
+        mine = name == DISPLACEMENTS[COORDINATES.index(coordinate)]
+        if mine or (name not in known_columns(()) and quantity_of(name, beside) in (quantity, None)):
+            return DISPLACEMENT
+    return SUPPORT
+
+
+def _further(kind: str, name: str, control: str) -> str:
     """A test after the first, of which every key is explained."""
     angle = f"{KINDS[kind].posture_key}\n" if KINDS[kind].posture_key else ""
-    return f'\n[[tests]]\nid = {_quoted(name)}\n{angle}role = "fit"\ncontrol = {{ {_control(kind)} }}\n'
+    return f'\n[[tests]]\nid = {_quoted(name)}\n{angle}role = "fit"\ncontrol = {{ {control} }}\n'
 
 
-def _test(kind: str, name: str) -> str:
+def _test(kind: str, name: str, control: str) -> str:
     angle = KINDS[kind].posture_template
     return f"""
 [[tests]]                    # one for each run of the bench, from the unloaded state
 id = {_quoted(name)}
 {angle}role = "fit"                 # or "holdout": kept to look at the result with
 # zero = "nominal"           or "first_row" (sensors zeroed there), "fitted" (offsets not known)
-# "displacement" for what was moved or held, "force" for what was pushed or left free (an empty cell is no force)
-control = {{ {_control(kind)} }}
+# "displacement" for what was moved or held and is read by a column, "held" for what a clamp keeps where it is unloaded
+# (no column), "force" for what was pushed or left free (an empty cell is no force)
+control = {{ {control} }}
 """
 
 

@@ -10,7 +10,7 @@ from pipeline.campaign.names import known_columns
 from pipeline.campaign.reading import DESCRIPTION, MEASUREMENTS
 from pipeline.campaign.rigs import KINDS
 from pipeline.command import usable
-from pipeline.errors import InputError
+from pipeline.errors import InputError, unread
 from pipeline.init.campaign_file import campaign_text, plain_header
 from pipeline.init.found import Found, looked
 from pipeline.init.known_bar import known_bar
@@ -66,4 +66,4 @@ def found_in(file: Path) -> Found:
     except BadTable as error:
         raise InputError(f"{file}: {error}") from error
     except OSError as error:
-        raise InputError(f"{file} cannot be read: {error.strerror}") from error
+        raise InputError(f"{file} {unread(error)}") from error

@@ -1,6 +1,5 @@
 """A manipulator file: TOML in, a frozen manipulator and its home out; every complaint names file, line and key."""
 
-import tomllib
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, TypeVar
@@ -13,7 +12,7 @@ from pipeline.errors import InputError
 from pipeline.manipulator.tables import PARTS, LegTable, Top
 from pipeline.toml.complaints import Complaints, shown
 from pipeline.toml.fields import sentences
-from pipeline.toml.lines import TomlLines
+from pipeline.toml.lines import TomlLines, parsed
 from pipeline.toml.spelling import unknown_name
 from vjm.manipulator.parts import Manipulator
 from vjm.manipulator.posture import postures
@@ -82,9 +81,9 @@ class _Reader:
         self.complaints = complaints
         self.lines = TomlLines(text.replace("\r\n", "\n"))
         try:
-            self.raw: dict[str, Any] = tomllib.loads(text)
-        except (ValueError, RecursionError) as error:
-            complaints.add("", f"is no TOML: {str(error) or 'too deeply nested'}")
+            self.raw: dict[str, Any] = parsed(text)
+        except ValueError as error:
+            complaints.add("", f"is no TOML: {error}")
             complaints.check()
 
     def say(self, path: Place, place: str, said: str) -> None:

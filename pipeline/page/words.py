@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 
 from pipeline.answer.record import Answer, Candidate
+from pipeline.answer.wording.diagnosis import no_next_test
 from pipeline.campaign import Campaign
 from pipeline.inference.load_cases import LOST
 from pipeline.page.record import ByHand, Following, TolerancePage
@@ -98,7 +99,10 @@ def _apart(answer: Answer) -> Iterator[Following]:
     """The test that tells the sets apart."""
     found = answer.next_test
     if found is None:
-        yield Following(words="No test of the menu tells these sets apart: measure the part itself.")
+        if answer.evidence is not None and len(answer.evidence.sets) < 2:
+            # One set beside a fault of a sensor: no test of the rig parts these.
+            return
+        yield Following(words=no_next_test(answer.evidence))
         return
     for said, it in zip(
         ("Measure", *("Only together with",) * 9), (found, *found["together_with"]), strict=False

@@ -14,6 +14,8 @@ from pipeline.answer.of_diagnosis import in_words
 from pipeline.attempt import Attempts
 from pipeline.callbacks import OnProgress
 from pipeline.campaign import Campaign, Test, read
+from pipeline.campaign.control import WAYS
+from pipeline.campaign.names import FORCE
 from pipeline.command import usable
 from pipeline.inference.estimated_sigmas import completed
 from pipeline.inference.fit import unfitted
@@ -83,8 +85,8 @@ def foreseen(campaign: Campaign) -> tuple[Campaign, tuple[str, ...]]:
 
 def _unmeasured(test: Test) -> bool:
     d = test.data
-    by_force = np.array([by == "force" for by in test.control])
-    by_gauge = np.array([by not in ("force", "displacement", "support") for by in test.control])
+    by_force = np.array([by == FORCE for by in test.control])
+    by_gauge = np.array([by not in WAYS for by in test.control])
     others = np.where(by_force, d.displacement, d.wrench)
     return not np.isfinite(others).any() and bool(by_gauge.any() or not np.isfinite(d.gauges).any())
 

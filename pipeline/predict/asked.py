@@ -37,7 +37,7 @@ from pipeline.campaign.plausible import judge
 from pipeline.campaign.rows import steps_of
 from pipeline.campaign.sheet import numbers, sheet
 from pipeline.campaign.variant import value_keys, varied
-from pipeline.errors import InputError
+from pipeline.errors import InputError, unread
 from pipeline.toml.complaints import Complaints, shown
 from pipeline.toml.spelling import unknown_name
 
@@ -97,7 +97,7 @@ def _text(path: Path) -> str:
             raise InputError(f"{path} has more than {LARGEST // 2**20} MB, allowed is less")
         return path.read_text(encoding="utf-8-sig")
     except OSError as error:
-        raise InputError(f"{path}: cannot be read: {error.strerror}") from error
+        raise InputError(f"{path}: {unread(error)}") from error
     except UnicodeDecodeError as error:
         raise InputError(
             f"{path}: is not text in UTF-8, allowed is a table of comma-separated values"

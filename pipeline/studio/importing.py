@@ -94,9 +94,9 @@ def _tests() -> None:
             with html.Td(v_for="name in table.coordinates"):
                 _select(
                     "row.control[name]",
-                    "['force', 'displacement']",
+                    "['force', 'displacement', 'held']",
                     "name + ' of ' + row.name",
-                    shown="{force: 'loaded or free', displacement: 'moved or held'}[it]",
+                    shown="{force: 'loaded or free', displacement: 'moved or held', held: 'held, not read'}[it]",
                 )
 
 

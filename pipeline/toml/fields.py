@@ -8,7 +8,7 @@ from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
 from fem.frame.rig import STEEPEST_DEG
 from pipeline.toml.complaints import shown
-from pipeline.toml.spelling import unknown_name
+from pipeline.toml.nested import tables_at, unknown_key
 
 Number = Annotated[float, Field(strict=True, allow_inf_nan=False)]
 # The bounds keep every product of three such numbers far from what a float can hold.
@@ -55,7 +55,8 @@ class BarTable(Table):
 
 def sentences(error: ValidationError, model: type[BaseModel]) -> list[tuple[tuple[str | int, ...], str]]:
     """Each of pydantic's complaints as path and sentence."""
-    return [(e["loc"], _sentence(dict(e), model)) for e in error.errors(include_url=False)]
+    every = error.errors(include_url=False)
+    return [(tables_at(model, e["loc"])[1], _sentence(dict(e), model)) for e in every]
 
 
 def _sentence(error: dict[str, Any], model: type[BaseModel]) -> str:
@@ -63,9 +64,7 @@ def _sentence(error: dict[str, Any], model: type[BaseModel]) -> str:
     if kind == "missing":
         return "is missing"
     if kind == "extra_forbidden":
-        keys = BarTable.model_fields if loc[:-1] == ("bar",) else model.model_fields
-        names = [field.alias or name for name, field in keys.items()]
-        return f"is not a key of this table, {unknown_name(str(loc[-1]), names)}"
+        return unknown_key(model, loc)
     message = error["msg"].removeprefix("Value error, ")
     if kind == "value_error":
         return f"is {shown(found)}, {message}" if isinstance(found, str) else message

@@ -1,6 +1,5 @@
 """A validation case: TOML in, frozen Case out; all complaints at once, each with file, line, key, found and allowed."""
 
-import tomllib
 from copy import deepcopy
 from pathlib import Path
 from typing import Any, TypeVar
@@ -11,7 +10,8 @@ from meshes.resolution import Resolution
 from meshes.workable import require_workable
 from pipeline.errors import InputError
 from pipeline.toml.complaints import Complaints
-from pipeline.toml.lines import TomlLines
+from pipeline.toml.lines import TomlLines, parsed
+from pipeline.toml.nested import unknown_key
 from pipeline.validation.case_tables import BarChoice, Case, LinkageSize, MeshSize
 from pipeline.validation.geometry import bar_of, contradictions, height_of, overlapping
 
@@ -43,8 +43,8 @@ def load_case(name: str, finest: int = 1) -> Case:
         raise InputError(f"case {name!r} is unknown, allowed are {allowed} or the path of a .toml file")
     try:
         text = path.read_text(encoding="utf-8-sig")
-        raw = tomllib.loads(text)
-    except (tomllib.TOMLDecodeError, UnicodeDecodeError, OSError) as error:
+        raw = parsed(text)
+    except (ValueError, OSError) as error:
         raise InputError(f"{path}: not a readable TOML file: {error}") from error
     if isinstance(raw.get("bar"), dict) and "file" in raw["bar"]:
         raise InputError(
@@ -73,7 +73,7 @@ class _Reader:
         except ValidationError as error:
             for mistake in error.errors():
                 path = tuple(step for step in mistake["loc"] if step not in TAGS)
-                self._say(path, complaint(mistake))
+                self._say(path, complaint(mistake, Case))
         return None
 
     def together(self, finest: int) -> None:
@@ -126,14 +126,14 @@ class _Reader:
         return None
 
 
-def complaint(error: Any) -> str:
-    """One of pydantic's complaints as place, what was found, what is allowed."""
+def complaint(error: Any, model: type[BaseModel]) -> str:
+    """One of pydantic's complaints about a model as place, what was found, what is allowed."""
     place = ".".join(str(step) for step in error["loc"] if step not in TAGS)
     kind = error["type"]
     if kind == "missing":
         return f"{place} is missing"
     if kind == "extra_forbidden":
-        return f"{place} is not a key of this table"
+        return f"{place} {unknown_key(model, error['loc'])}"
     message = error["msg"].removeprefix("Value error, ")
     found = error["input"]
     shown = (

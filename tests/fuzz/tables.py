@@ -146,12 +146,12 @@ def tables(draw: st.DrawFn, rig: Rig, id: str, most: int) -> Table:
     path = share * np.linspace(0.0 if rows > 1 else 1.0, 1.0, rows)
     if draw(st.booleans()):
         path = np.concatenate([path, -path[1:]])[:most]
-    full = tuple(control[coordinates.index(c)] if c in coordinates else "support" for c in COORDINATES)
+    full = tuple(control[coordinates.index(c)] if c in coordinates else "held" for c in COORDINATES)
     readings = _readings(rig, np.radians(q), full, COORDINATES.index(driven), path)
     seen = np.array([draw(st.booleans()) for _ in range(12)])
     for k, by in enumerate(full):
         seen[k] |= by == "displacement"
-        seen[k] &= by != "support"
+        seen[k] &= by != "held"
         seen[6 + k] |= by == "force" and COORDINATES[k] == driven
     readings[:, ~seen] = np.nan
     return Table(head, id, full, readings)

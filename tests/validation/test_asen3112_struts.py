@@ -53,7 +53,7 @@ def campaign(strut: str) -> Campaign:
     gauges = (Gauge("mid", 0.5, "z"),)
     middle = INCH * table["delta_in"].to_numpy()[:, None]
     data = Data(np.arange(count), displacement, wrench, middle, None, np.zeros(count, dtype=np.int64))
-    control = ("mid", *["support"] * 5)
+    control = ("mid", *["held"] * 5)
     return Campaign(strut, rig, noise, gauges, (Test("push", 0.0, "fit", control, "nominal", rig, data),))
 
 

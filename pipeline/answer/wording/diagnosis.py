@@ -124,8 +124,7 @@ def _aside(it: Answer, evidence: Evidence) -> Iterator[str]:
     """What was found of the readings themselves, and the verdict with all of them as they were declared."""
     if it.set_aside:
         told = ", ".join(
-            f"{b.column} at step {b.step} of {b.test} ({sigma(b.sigma)} sigma{_or_else(b)})"
-            for b in it.set_aside
+            f"{b.column} at {b.place} ({sigma(b.sigma)} sigma{_or_else(b)})" for b in it.set_aside
         )
         each = "they are" if len(it.set_aside) > 1 else "it is"
         yield f"Set aside, for {each} off alone and what is beside is not: {told}."
@@ -243,15 +242,22 @@ def _rivals(_: Answer, evidence: Evidence) -> Iterator[str]:
         )
 
 
+def no_next_test(evidence: Evidence | None) -> str:
+    """What to do where several sets fit and no planned test tells them apart."""
+    if evidence is not None and evidence.no_sensor:
+        return "No planned test reads a sensor that exists: none can be proposed."
+    return (
+        "No further test with these sensors tells them apart: add a sensor at another place, or measure the part "
+        "itself."
+    )
+
+
 def _next(it: Answer, evidence: Evidence) -> Iterator[str]:
     if len(evidence.sets) < 2:
         return
     test: Mapping[str, Any] | None = it.next_test
     if test is None:
-        if evidence.no_sensor:
-            yield "No planned test reads a sensor that exists: none can be proposed."
-        else:
-            yield "No test of these kinds tells them apart on this rig: measure the part itself."
+        yield no_next_test(evidence)
         return
     yield f"Next test: {test['why']}. {_how(test)}"
     for other in test["together_with"]:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import tomllib
 from pathlib import Path
 
 from pydantic import ValidationError
@@ -11,8 +10,9 @@ from pipeline.campaign import ParallelogramRig
 from pipeline.campaign.bar_from import bar_from
 from pipeline.campaign.reading import DESCRIPTION
 from pipeline.campaign.rigs import KINDS
-from pipeline.errors import InputError
+from pipeline.errors import InputError, unread
 from pipeline.toml.fields import sentences
+from pipeline.toml.lines import parsed
 
 ALLOWED = "allowed is a campaign of a parallelogram, or a result with its width"
 
@@ -37,9 +37,9 @@ def _of_result(path: Path) -> ParallelogramRig:
 def _of_campaign(folder: Path) -> ParallelogramRig:
     path = folder / DESCRIPTION
     try:
-        raw = tomllib.loads(path.read_text(encoding="utf-8-sig")).get("rig", {})
+        raw = parsed(path.read_text(encoding="utf-8-sig")).get("rig", {})
     except OSError as error:
-        raise InputError(f"{path}: cannot be read: {error.strerror}") from error
+        raise InputError(f"{path}: {unread(error)}") from error
     except ValueError as error:
         raise InputError(f"{path}: is no TOML: {error}") from error
     kind = raw.get("kind") if isinstance(raw, dict) else None

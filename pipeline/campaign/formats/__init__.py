@@ -18,10 +18,12 @@ def by_suffix() -> dict[str, ModuleType]:
 
 
 def grids(path: Path, how: FileTable) -> tuple[Grid, ...]:
-    """The tables in a file. BadTable where it cannot be read as one."""
+    """The tables in a file. BadTable where it cannot be read as one, OSError where it is not there."""
     known = by_suffix()
     module = known.get(path.suffix.lower())
     if module is None:
         raise BadTable(f"has the ending {path.suffix or 'none'}, allowed are {', '.join(sorted(known))}")
+    # A format's own library says in its own words that there is no file, if it says it at all.
+    path.stat()
     found: tuple[Grid, ...] = module.read(path, how)
     return found

@@ -21,6 +21,7 @@ from pipeline.campaign.mapped.readings import columns_of, derived_of, words_of
 from pipeline.campaign.mapped.table import Read, zeroed
 from pipeline.campaign.measured import Measured
 from pipeline.campaign.rows import steps_of
+from pipeline.errors import unread
 from pipeline.toml.complaints import Complaints, shown
 
 Array = NDArray[np.float64]
@@ -83,7 +84,7 @@ def _layouts(path: Path, source: Source, complaints: Complaints) -> Iterator[Lay
         complaints.add("", str(error), error.line)
         return
     except OSError as error:
-        complaints.add("", f"cannot be read: {error.strerror}")
+        complaints.add("", unread(error))
         return
     for grid in tables:
         layout = laid_out(grid, source.declared.file, complaints, source.declared.columns)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from abc import abstractmethod
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
@@ -23,6 +23,7 @@ from pipeline.toml.fields import BarTable, Entry, Length, Weight
 from pipeline.toml.stiffness import not_a_stiffness, symmetric
 from pipeline.validation.case_tables import Material, SectionSize
 from pipeline.validation.geometry import section_of
+from pipeline.validation.material_questions import material_questions
 from vjm.effects.sized import Scale, scale_of
 from vjm.mechanisms.assembly import GaugeAt
 from vjm.mechanisms.bar import Bar, Base, Tip
@@ -220,6 +221,10 @@ class TableOfBars(RigTable):
             there, missing = ("material", "section") if self.section is None else ("section", "material")
             said.append(f"{there} is given without {missing}, allowed are both together")
         return [*said, *super().contradictions()]
+
+    def questions(self) -> Iterator[str]:
+        if self.material is not None:
+            yield from (f"material.{said}" for said in material_questions(self.material))
 
     @property
     def weight(self) -> float:

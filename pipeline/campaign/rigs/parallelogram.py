@@ -79,7 +79,9 @@ length_mm = "?"              # between the hinge axes
 width_mm = "?"               # between the bars
 bar = { EA_N = "?", EIy_Nmm2 = "?", EIz_Nmm2 = "?", GJ_Nmm2 = "?" }   # of one bar
 """
-    posture_template = 'q_deg = "?"                  # angle of the bars\n'
+    posture_template = (
+        'q_deg = "?"                  # angle of the bars, positive where they point towards -z\n'
+    )
     posture_key = 'q_deg = "?"'
     # It swings along z unless something holds it there.
     held = ("z",)

@@ -16,7 +16,7 @@ what the fit can move, and the next one is looked at.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 import numpy as np
@@ -45,13 +45,14 @@ FOR_NEITHER = 2.0 * float(np.log(2.0))
 @dataclass(frozen=True)
 class BadReading:
     """One reading by the id of its test, its step and its column. sigmas: by how many of its own it is off. instead:
-    columns of the same row of which one may be off in its place."""
+    columns of the same row of which one may be off in its place. line: of its file, None where it is not known."""
 
     test: str
     step: int
     column: str
     sigmas: float
     instead: tuple[str, ...] = ()
+    line: int | None = field(default=None, compare=False)
 
     @property
     def cell(self) -> tuple[str, int, str]:
@@ -226,9 +227,10 @@ def _beside(shifts: _Shifts, row: int, number: int, scores: Array) -> Array:
 def _named(found: Fit, row: int, channel: int, off: float, instead: list[int]) -> BadReading:
     whole = found.residual.load_cases
     test = whole.campaign.tests[whole.test[row]]
-    step = int(test.data.steps[row - whole.first[whole.test[row]]])
+    number = row - whole.first[whole.test[row]]
+    step, line = int(test.data.steps[number]), int(test.data.lines[number]) or None
     names = channel_columns(whole.campaign.gauges)
-    return BadReading(test.id, step, names[channel], off, tuple(names[k] for k in instead))
+    return BadReading(test.id, step, names[channel], off, tuple(names[k] for k in instead), line)
 
 
 def set_aside(campaign: Campaign, bad: tuple[BadReading, ...]) -> Campaign:

@@ -73,7 +73,10 @@ def times(campaign: Campaign, columns: tuple[str, ...], factor: float) -> Campai
     size = abs(factor)
     for channel in np.flatnonzero(np.abs(factors) != 1.0):
         scatter, sigma = _scatters(campaign)[channel], sigmas[channel]
-        if scatter is not None and abs(np.log(scatter / sigma)) < abs(np.log(size * scatter / sigma)):
+        # What was prescribed in steps that were chosen counts as exact, in whatever unit; what has no sigma needs none.
+        if scatter is None or not sigma > 0.0:
+            continue
+        if abs(np.log(scatter / sigma)) < abs(np.log(size * scatter / sigma)):
             sigmas[channel] = sigma * size
     return with_readings(campaign, lambda values: values * factors, sigmas)
 

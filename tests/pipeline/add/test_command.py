@@ -114,5 +114,5 @@ def test_a_model_elsewhere_is_the_start_and_is_left_alone(tmp_path: Path) -> Non
     saved = read_model_file(folder / "model.toml")
     assert saved.model.terms[0].values == {"scale": 0.95} and saved.model.fixed == {"modulus_error.scale"}
     assert other.read_text() == text
-    with pytest.raises(InputError, match=r"gone\.toml: cannot be read"):
+    with pytest.raises(InputError, match=r"gone\.toml: is missing"):
         add_effects(folder, ["load_offset"], model_file=tmp_path / "gone.toml", quiet=True)

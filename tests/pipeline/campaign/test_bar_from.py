@@ -142,7 +142,7 @@ def test_a_length_that_is_not_the_bars_and_a_file_that_is_not_there(tmp_path: Pa
     ):
         read(out)
     path.write_text(text.replace('"bar.json"', '"other.json"'))
-    with pytest.raises(BadCampaign, match=r"rig.bar_from: .*other.json: cannot be read"):
+    with pytest.raises(BadCampaign, match=r"rig.bar_from: .*other.json: is missing"):
         read(out)
     path.write_text(text.replace("\nbar_from", "\nbar_stiffness = [[1.0]]\nbar_from"))
     with pytest.raises(BadCampaign, match="bar_stiffness"):
@@ -172,7 +172,7 @@ def test_a_virtual_bench_of_that_rig_feels_its_bars(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("source", "said"),
     [
-        ("nowhere", "cannot be read"),
+        ("nowhere", "is missing"),
         ("bar", "rig.kind is 'bar', allowed is"),
         ("narrow.json", "says no width"),
     ],

@@ -146,7 +146,7 @@ def test_what_no_file_can_say_is_a_sentence(campaign: Campaign, tmp_path: Path) 
     with pytest.raises(ValueError, match=r"its 6x6 is not that of bar.json"):
         write(tmp_path / "true", true)
     campaign.rig.files[0].unlink()
-    with pytest.raises(InputError, match=r"bar.json: cannot be read"):
+    with pytest.raises(InputError, match=r"bar.json: is missing"):
         write(tmp_path / "gone", campaign)
     assert not list(tmp_path.glob("true/*")) and not list(tmp_path.glob("gone/*"))
 
@@ -160,9 +160,7 @@ def test_two_bars_of_one_name_are_refused(tmp_path: Path) -> None:
 
 
 def test_a_file_of_a_test_that_cannot_be_read_is_a_complaint(tmp_path: Path) -> None:
-    with pytest.raises(
-        BadCampaign, match=r"line \d+, test 'test-2', rig.bar_from: .*no.json: cannot be read"
-    ):
+    with pytest.raises(BadCampaign, match=r"line \d+, test 'test-2', rig.bar_from: .*no.json: is missing"):
         read(two_bars(tmp_path, '{ bar_from = "no.json" }'))
 
 

@@ -12,6 +12,7 @@ import pytest
 from nptdms import ChannelObject, GroupObject, TdmsWriter
 
 from pipeline.campaign.names import DISPLACEMENTS, WRENCHES
+from pipeline.campaign.reading import BY_ROWS
 from tests.pipeline.campaign.mapped_tables import (
     FZ,
     SIMPLE,
@@ -68,6 +69,17 @@ def test_titles_units_remarks_and_skipped_rows_are_where_it_was_declared(
     )
     columns = f'[columns]\n"{names[0]}" = {{ is = "z" }}\n"{names[1]}" = {{ is = "fz" }}\n'
     assert_agrees(campaign(tmp_path, layout + columns, content + rows))
+
+
+@pytest.mark.parametrize("step", ["", '"No" = { is = "step" }\n'])
+def test_where_rows_are_the_steps_it_is_said_where_they_begin(tmp_path: Path, step: str) -> None:
+    content = "No,Travel,Load\n" + "".join(
+        f"{k},{z},{f}\n" for k, (z, f) in enumerate(zip(Z, FZ, strict=True), 1)
+    )
+    declared = SIMPLE.format(z="mm", fz="N") + (step or '"No" = { is = "ignore" }\n')
+    found = campaign(tmp_path, declared, content)
+    assert (BY_ROWS in found.remarks) is (not step)
+    assert found.tests[0].data.steps[0] == (1 if step else 0)
 
 
 def test_blank_rows_and_headers_that_come_again_are_no_rows(tmp_path: Path) -> None:

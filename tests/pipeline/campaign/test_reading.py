@@ -63,7 +63,7 @@ def test_a_test_has_its_own_rig(tmp_path: Path) -> None:
 def test_a_bar_leaves_out_what_its_tip_holds(tmp_path: Path) -> None:
     campaign = read(laid(tmp_path, BAR, BAR_CSV))
     (push,) = campaign.tests
-    assert push.control == ("force", "displacement", "force", "support", "support", "support")
+    assert push.control == ("force", "displacement", "force", "held", "held", "held")
     assert push.inputs(())[1].tolist() == [-10.0, 1.5, 0.0, 0.0, 0.0, 0.0]
     assert push.rig.stiffness[1, 5] == -2400.0 and push.data.temperature is None
     assert campaign.remarks == tuple(

@@ -1,5 +1,7 @@
 """How a model fails, on failures that were planted: the right number, in the right words, and none on noise."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -77,6 +79,22 @@ def test_tests_that_are_loaded_alike_are_one_group() -> None:
         "lateral_q+0": ["lateral_q+0"],
         "swing": ["swing_q+0", "swing_q+30"],
     }
+
+
+@pytest.mark.parametrize(
+    ("ids", "name"),
+    [
+        (("V1", "V2"), "V1 and V2"),
+        (("q0", "q30"), "q0 and q30"),
+        (("run-1", "run-2", "run-3"), "run-1, run-2 and run-3"),
+        (("V1", "V2", "V3", "V4"), "all tests"),
+        (("V1", "V2", "V3", "V4", "other"), "V1 and 3 more"),
+        (("push_q+0", "push_q-30"), "push"),
+    ],
+)
+def test_only_an_angle_is_left_out_of_the_names_of_tests(ids: tuple[str, ...], name: str) -> None:
+    tests = tuple(replace(CASES.campaign.tests[0], id=each) for each in ids)
+    assert groups(tests, CASES.campaign.gauges)[0].name == name
 
 
 def test_every_number_has_words() -> None:

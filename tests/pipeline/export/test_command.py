@@ -93,7 +93,7 @@ def bad(tmp_path: Path) -> dict[str, tuple[list[object], str]]:
             "--q is 90, allowed are degrees between -90 and 90",
         ),
         "model of a result": ([KEPT, "--to", "inp", out, "--model", text], "belong to a campaign"),
-        "no model": ([bench, "--to", "inp", out, "--model", tmp_path / "no.toml"], "no.toml: cannot be read"),
+        "no model": ([bench, "--to", "inp", out, "--model", tmp_path / "no.toml"], "no.toml: is missing"),
         "manipulator": ([machine, "--to", "inp", out], "is a campaign of a manipulator, allowed are"),
         "folder": (
             [bench, "--to", "json", tmp_path / "none"],

@@ -34,7 +34,7 @@ def driven(middle: list[float]) -> Campaign:
         np.zeros(count, dtype=np.int64),
     )
     noise = Noise(np.full(6, 1e-3), np.ones(6), np.array([1e-3]))
-    control = ("mid", *["support"] * 5)
+    control = ("mid", *["held"] * 5)
     test = Test("push", 0.0, "fit", control, "nominal", rig, data)
     return Campaign("strut", rig, noise, (Gauge("mid", 0.5, "z"),), (test,))
 

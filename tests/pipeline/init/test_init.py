@@ -13,6 +13,7 @@ import openpyxl
 import pytest
 
 from pipeline.campaign import BadCampaign, read
+from pipeline.campaign.formats import by_suffix
 from pipeline.campaign.mapped.grid import BadTable
 from pipeline.errors import InputError
 from pipeline.init.command import init
@@ -309,7 +310,7 @@ def test_a_bar_may_be_taken_from_a_case_or_a_result(tmp_path: Path, kind: str, s
     [
         ("bar", "orthoglide", "its bar is searched for; run it, and give its result.json"),
         ("bar", "nothing", "case 'nothing' is unknown"),
-        ("bar", "nothing.json", "cannot be read: No such file"),
+        ("bar", "nothing.json", "nothing.json: is missing"),
         ("manipulator", "plain_i_bar", "a manipulator is described in its own file"),
     ],
 )
@@ -320,3 +321,11 @@ def test_a_bar_that_is_not_there_is_said(tmp_path: Path, kind: str, source: str,
     (tmp_path / "a.json").write_text("{}")
     with pytest.raises(InputError, match="is no result of run"):
         init(tmp_path / "c", None, "bar", str(tmp_path / "a.json"))
+
+
+@pytest.mark.parametrize("suffix", sorted(by_suffix()))
+def test_a_file_that_is_not_there_is_missing_whatever_its_format(suffix: str, tmp_path: Path) -> None:
+    file = tmp_path / f"none{suffix}"
+    with pytest.raises(InputError) as caught:
+        init(tmp_path / "out", file, "bar")
+    assert str(caught.value) == f"{file} is missing, allowed is a file of readings"

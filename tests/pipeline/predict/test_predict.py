@@ -158,7 +158,7 @@ def test_a_bad_table_is_one_sentence(tmp_path: Path, text: str, said: str) -> No
 
 
 def test_a_missing_table_is_one_sentence(tmp_path: Path) -> None:
-    with pytest.raises(InputError, match="cannot be read"):
+    with pytest.raises(InputError, match="is missing"):
         read_table(tmp_path / "none.csv", bench())
 
 

@@ -8,6 +8,7 @@ from functools import cache
 import numpy as np
 import pytest
 
+from pipeline.answer.summary import set_aside_records
 from pipeline.campaign import Campaign
 from pipeline.campaign.names import DISPLACEMENTS, WRENCHES
 from pipeline.campaign.tolerance import usual
@@ -115,6 +116,18 @@ def test_two_readings_that_say_the_same_of_their_step_are_both_told() -> None:
     # A force that is read only stands alone.
     (bad,) = bad_readings(fitted(knocked(campaign(), {(IDS[1], 5, "mz_Nmm"): 40.0})), CRITERIA)
     assert bad.column == "mz_Nmm" and not bad.instead
+
+
+def test_the_line_of_a_bad_reading_is_that_of_its_file() -> None:
+    it = knocked(campaign(), {(IDS[1], 5, "mz_Nmm"): 40.0})
+    tests = [replace(t, data=replace(t.data, lines=100 + 7 * np.arange(t.data.steps.size))) for t in it.tests]
+    (bad,) = bad_readings(fitted(replace(it, tests=tuple(tests))), CRITERIA)
+    row = int(np.flatnonzero(it.tests[1].data.steps == 5)[0])
+    assert bad.line == 100 + 7 * row
+    (said,) = set_aside_records((bad,))
+    assert said.place == f"step 5 of {IDS[1]}, line {bad.line} of its file"
+    (unknown,) = bad_readings(fitted(it), CRITERIA)
+    assert unknown == bad and unknown.line is None
 
 
 def test_a_run_is_none() -> None:

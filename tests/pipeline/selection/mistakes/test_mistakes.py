@@ -11,7 +11,7 @@ from pipeline.assessment.virtual.bench import measure
 from pipeline.assessment.virtual.plan import GAUGES, SENSORS, bench_plan
 from pipeline.campaign import Campaign
 from pipeline.selection.mistakes import possible
-from pipeline.selection.mistakes.base import Mistake
+from pipeline.selection.mistakes.base import Mistake, times
 from pipeline.simulate import bench_rig
 from tests.pipeline.selection.bench import bench
 from tests.pipeline.selection.mistakes import made
@@ -51,6 +51,21 @@ def test_what_mends_a_mistake_undoes_it(words: str) -> None:
     mended = named(wrong, words).mended(wrong)
     np.testing.assert_allclose(readings(mended), readings(right), rtol=1e-12)
     assert [t.q_deg for t in mended.tests] == [t.q_deg for t in right.tests]
+
+
+def test_a_sensor_that_counts_as_exact_stays_so_in_another_unit() -> None:
+    """A sigma of zero is that of a load that was prescribed in steps: RuntimeWarnings are errors here."""
+    right = bench()
+    sigmas = right.noise.sigmas
+    sigmas[8] = 0.0
+    exact = replace(right, noise=right.noise.of(sigmas))
+    tests = [replace(t, data=replace(t.data, wrench=t.data.wrench.copy())) for t in exact.tests]
+    rng = np.random.default_rng(1)
+    for test in tests:
+        test.data.wrench[:, 8 - 6] = rng.normal(size=test.data.steps.size)
+    found = times(replace(exact, tests=tuple(tests)), ("fz_N", "fy_N"), 1000.0)
+    assert found.noise.sigmas[8] == 0.0
+    np.testing.assert_allclose(found.tests[0].data.wrench[:, 2], 1000.0 * tests[0].data.wrench[:, 2])
 
 
 @pytest.mark.parametrize("power", [10.0, 100.0])
