@@ -189,7 +189,7 @@ class Criteria(LawCriteria):
     doctor_sure: float = criterion(
         25.0, FACTOR, "doctor", "the same to first order, from which the table as it is need not be fitted"
     )
-    doctor_fitted: int = criterion(6, COUNT, "doctor", "mistakes that are fitted, those that promise most")
+    doctor_fitted: int = criterion(4, COUNT, "doctor", "mistakes that are fitted, those that promise most")
     doctor_steps: int = criterion(100, COUNT, "doctor", "load steps in which mistakes are looked for")
     doctor_far: float = criterion(
         4.0, FACTOR, "doctor", "what a mistake leaves, beyond which another one is no tie of it"

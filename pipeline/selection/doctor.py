@@ -244,13 +244,25 @@ class Table:
 
 
 def _found(table: Table, promising: list[Mistake], fault: float) -> list[Suspicion]:
-    """Every mistake that is enough: to first order, then fitted. Fits far from an explanation are slow, so that they
-    are made of the table as it is and of what may be right alone. fault: what the fault of one sensor leaves."""
-    criteria, enough = table.cache.criteria, []
+    """Every mistake that is enough, of the first ones and then of those of the kinds that were found: a sign lost in
+    the load or in the displacement reads alike. fault: what the fault of one sensor leaves."""
+    criteria = table.cache.criteria
     if fault < criteria.doctor_factor * max(table.fit.degrees, 1):
         return []
-    skipped = False
-    for mistake in promising:
+    count = criteria.doctor_fitted
+    out, skipped = _looked_at(table, promising[:count], fault)
+    if skipped and not out:
+        raise TooMuch("it would take too long")
+    kinds = {it.mistake.kind for it in out}
+    alike = [mistake for mistake in promising[count:] if mistake.kind in kinds]
+    return [*out, *_looked_at(table, alike[:count], fault)[0]]
+
+
+def _looked_at(table: Table, mistakes: list[Mistake], fault: float) -> tuple[list[Suspicion], bool]:
+    """Those that are enough, to first order, then fitted, and whether one was not looked at for want of work. Fits far
+    from an explanation are slow, so that they are made of the table as it is and of what may be right alone."""
+    criteria, enough, skipped = table.cache.criteria, list[tuple[Mistake, Table]](), False
+    for mistake in mistakes:
         table.cache.on_progress(f"whether {mistake.words}")
         mended = table.mended(mistake)
         left = _within_its_share(mended, attrgetter("first_order"))
@@ -258,21 +270,20 @@ def _found(table: Table, promising: list[Mistake], fault: float) -> list[Suspici
         if left is not None and left * criteria.doctor_factor < min(table.first_order, fault):
             enough.append((mistake, mended))
     out: list[Suspicion] = []
-    if enough:
-        before = min(table.first_order, table.plain.first_order, fault)
-        least = min(mended.first_order for _, mended in enough)
-        if before < criteria.doctor_sure * least or table.leaves_bounds:
-            before = min(before, table.left[0])
-        for mistake, mended in sorted(enough, key=lambda it: it[1].first_order):
-            if out and mended.first_order > criteria.doctor_far * min(it.after for it in out):
-                continue
-            told = _within_its_share(mended, partial(_is_enough, mistake=mistake, before=before))
-            skipped |= told is None
-            if told:
-                out.append(Suspicion(mistake, before, *mended.left))
-    if skipped and not out:
-        raise TooMuch("it would take too long")
-    return out
+    if not enough:
+        return out, skipped
+    before = min(table.first_order, table.plain.first_order, fault)
+    least = min(mended.first_order for _, mended in enough)
+    if before < criteria.doctor_sure * least or table.leaves_bounds:
+        before = min(before, table.left[0])
+    for mistake, mended in sorted(enough, key=lambda it: it[1].first_order):
+        if out and mended.first_order > criteria.doctor_far * min(it.after for it in out):
+            continue
+        told = _within_its_share(mended, partial(_is_enough, mistake=mistake, before=before))
+        skipped |= told is None
+        if told:
+            out.append(Suspicion(mistake, before, *mended.left))
+    return out, skipped
 
 
 def _is_enough(mended: Table, mistake: Mistake, before: float) -> bool:
@@ -294,7 +305,7 @@ def _within_its_share(mended: Table, look: Callable[[Table], T]) -> T | None:
 
 
 def _promising(table: Table) -> list[Mistake]:
-    """Those that a first-order look at them all does not exclude, the best first."""
+    """Those that a first-order look at all does not exclude: the best of each kind, then the others, best first."""
     criteria, whole, base = table.cache.criteria, table.cache.whole, table.fit
     before = table.first_order
     if min(before, table.plain.first_order) < criteria.doctor_factor * max(base.degrees, 1):
@@ -316,8 +327,7 @@ def _promising(table: Table) -> list[Mistake]:
     out.sort(key=lambda it: it[0])
     # One of each kind first: several units that silence a column leave alike, and a sign with what it spoilt more.
     best = {mistake.kind: mistake for _, mistake in reversed(out)}
-    first = sorted(out, key=lambda it: best[it[1].kind] is not it[1])
-    return [mistake for _, mistake in first[: criteria.doctor_fitted]]
+    return [mistake for _, mistake in sorted(out, key=lambda it: best[it[1].kind] is not it[1])]
 
 
 def _foreseen(base: Prediction, whole: LoadCases, cases: LoadCases, linear: Prediction) -> Iterator[Array]:
