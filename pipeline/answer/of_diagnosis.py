@@ -17,6 +17,7 @@ from pipeline.answer.record import (
     UnknownZero,
 )
 from pipeline.answer.summary import (
+    as_written,
     changes,
     confusable,
     error_of,
@@ -32,6 +33,7 @@ from pipeline.campaign.names import COORDINATES
 from pipeline.inference.fit import Fit
 from pipeline.inference.intervals import correlations, intervals, only_together, profile_likelihood, straight
 from pipeline.inference.model import Model
+from pipeline.inference.nuisances import nominals
 from pipeline.provenance import commit, versions
 from pipeline.selection.cost import taken
 from pipeline.selection.cross_validation import crossvalidated, crossvalidated_with
@@ -102,6 +104,9 @@ def answer_of(it: Diagnosis, found: Fit | None = None) -> Answer:
         nominals=()
         if it.doctor
         else attempts.get("what was written about the rig", lambda: nominals_of(found, cache.criteria), ()),
+        as_written=None
+        if it.doctor or it.untested or not nominals(it.campaign)
+        else attempts.get("the error of the rig as it is written", lambda: as_written(before, whole), None),
         evidence=evidence_of(it, attempts),
         not_done=(*it.failed, *attempts.failed),
         evaluations=cache.evaluations + land.evaluations,

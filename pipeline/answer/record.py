@@ -251,6 +251,8 @@ class Answer(Record):
     """Sensors that seem not to be zeroed."""
     nominals: tuple[NominalValue, ...] = ()
     """What was written about the rig, as it fits best; empty where all of it is exact."""
+    as_written: float | None = None
+    """Error of the first model with the rig exactly as it is written, where its tolerances take a good part of that."""
     set_aside: tuple[SetAside, ...] = ()
     """Single bad readings that were left out."""
     noise: tuple[FoundNoise, ...] = ()

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
+from dataclasses import replace
 
 import numpy as np
 
@@ -15,10 +16,14 @@ from pipeline.inference.load_cases import LoadCases
 from pipeline.inference.model import Model, at_bound
 from pipeline.inference.noise import chi_square, lag_one
 from pipeline.inference.nuisances import nominals
+from pipeline.inference.objective import Objective
 from pipeline.parameter_names import parted, path_of
 from pipeline.selection.adequacy.bad_readings import BadReading
 from pipeline.selection.adequacy.judgement import Judgement
 from pipeline.selection.criteria import Criteria
+
+TAKEN = 1.2
+"""Times what is left within the tolerances, from which it is said what is left as the rig is written."""
 
 
 def values_of(model: Model, intervals: Sequence[Interval]) -> dict[str, Value]:
@@ -80,6 +85,16 @@ def error_of(found: Fit, cases: LoadCases, parameters: int, judged: Judgement | 
         lost=tuple(each.sentence for each in gap.lost()),
         not_noise=() if judged is None else tuple(check.words for check in judged.checks if not check.passed),
     )
+
+
+def as_written(before: Fit, cases: LoadCases) -> float | None:
+    """Whitened RMS that a model leaves of the fitted tests with the rig exactly as it is written; None where its
+    tolerances take no part of it that is worth a word."""
+    exact, cases = replace(before.model, nominals=()), replace(cases, by_nominal=None)
+    there = Objective(exact, cases).at(exact.values, slopes=False, within=np.inf).prediction
+    size = Discrepancy(cases, there).size()
+    found = 0.0 if size is None else float(np.sqrt(size.statistic / size.degrees))
+    return found if found > TAKEN * before.rms else None
 
 
 def changes(before: Fit, after: Fit, cases: LoadCases) -> tuple[TestChange, ...]:

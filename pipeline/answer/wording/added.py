@@ -101,6 +101,11 @@ def limits(answer: Answer) -> Iterator[str]:
 
 def written(answer: Answer) -> Iterator[str]:
     """What was written about the rig and fits best far from that, and what is not seen."""
+    if answer.as_written is not None:
+        yield (
+            f"With the rig exactly as it is written {sigma(answer.as_written)} sigma are left; all errors here begin "
+            "with it where it fits best within its tolerances."
+        )
     far = sorted((it for it in answer.nominals if it.moved), key=lambda it: -abs(it.pull))
     if far:
         said = "; ".join(
