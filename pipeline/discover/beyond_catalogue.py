@@ -23,7 +23,7 @@ from pipeline.discover.elements import NoSites
 from pipeline.discover.locating import mapped
 from pipeline.discover.record import Discovered
 from pipeline.discover.recording import recorded
-from pipeline.discover.search import Added, Discovery, discover, fitted_to
+from pipeline.discover.search import Discovery, discover, fitted_to
 from pipeline.discover.words import law_sentences, sentences
 from pipeline.inference.load_cases import LoadCases, load_cases
 from pipeline.inference.model import Model
@@ -95,9 +95,12 @@ def _competing(it: Diagnosis, best: Names, on_progress: OnProgress) -> Looked:
         return it, None
     found, record = _discovered(it, it.cache.base, on_progress)
     law, own = _standing(it, found), best - root_of(it.cache, best)
-    if law is None or not 0 < len(found.laws) <= len(own) or _effects_of(found) == own:
+    if law is None or not 0 < len(found.laws) <= len(own) or _effects_of(found) | law.beside == own:
         return it, found
     behind = law.cost - min(_cost_of_set(it, names) for names in map(frozenset, it.sets))
+    if law.beside:
+        # No rival by itself, but what it explains as well without an effect takes that off what is certain.
+        return (it if behind > 0.0 else _less_certain(it, found)), found
     if any(each.ways[0].formed.form.kinked for each in found.laws):
         # Where each row chooses its side of a gap that takes up noise: it is never better than a set by that alone.
         behind = max(behind, -CRITERIA.law_alike)
@@ -110,10 +113,14 @@ def _competing(it: Diagnosis, best: Names, on_progress: OnProgress) -> Looked:
         decision = replace(
             it.decision, verdict="unknown", because=f"{told} explains it by {-behind:.0f} better"
         )
-    # What laws explain without an effect makes that effect less than certain.
-    sure = tuple(name for name in it.certain if name in found.end.model.names)
-    done = replace(it, decision=decision, certain=sure, laws=record.laws, law_words=law_sentences(record))
-    return done, found
+    done = _less_certain(replace(it, decision=decision), found)
+    return replace(done, laws=record.laws, law_words=law_sentences(record)), found
+
+
+def _less_certain(it: Diagnosis, found: Discovery) -> Diagnosis:
+    """What laws explain without an effect makes that effect less than certain."""
+    there = {*found.end.model.names, *_effects_of(found)}
+    return replace(it, certain=tuple(name for name in it.certain if name in there))
 
 
 def _leaves_a_pattern(it: Diagnosis, best: Names) -> bool:
@@ -135,22 +142,25 @@ def _may_compete(it: Diagnosis, best: Names) -> bool:
 
 @dataclass(frozen=True)
 class _Law:
-    """What all laws together leave and cost. numbers: of them."""
+    """What all laws together leave and cost. numbers: of them. beside: effects that entered the model with them, and
+    cost what they cost a set."""
 
     cost: float
     numbers: int
+    beside: Names
 
 
 def _standing(it: Diagnosis, found: Discovery) -> _Law | None:
     """What the laws that were found cost; None where they do not explain all, or by other readings."""
-    if found.bad or any(isinstance(step, Added) or not step.ways for step in found.steps):
+    if found.bad or not all(law.ways for law in found.laws):
         return None
     if found.end.lost or not judge(found.end, it.cache.criteria).noise:
         return None
     numbers = sum(law.ways[0].numbers for law in found.laws) + int(found.bent)
     # Choices of sides cost a law what they cost an effect.
     left = found.end.chi_square + found.end.residual.doubt + found.end.residual.spread
-    return _Law(left + numbers * _of_one(it), numbers)
+    beside = frozenset(found.end.model.names) & set(it.cache.candidates) - {*found.begin.model.names}
+    return _Law(left + (numbers + taken(it.cache, beside)) * _of_one(it), numbers, beside)
 
 
 def _cost_of_set(it: Diagnosis, names: Names) -> float:

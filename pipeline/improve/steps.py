@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from pipeline.answer.record import ModelError
 from pipeline.answer.summary import error_of
 from pipeline.inference.fit import Fit
+from pipeline.selection.cost import root_of
 from pipeline.selection.diagnosis import Diagnosis
 from pipeline.selection.fit_cache import Names
 
@@ -22,10 +23,15 @@ class Step:
 
 
 def certain(it: Diagnosis) -> Names:
-    """Effects that the diagnosis is certain of: all of one set, what all of several share, none of the unknown."""
-    if it.verdict in ("identified", "ambiguous"):
-        return frozenset.intersection(*(frozenset(names) for names in it.possible))
-    return frozenset()
+    """Effects to be added: all of one set; of several what all share and is certain besides, for a sensor's fault that
+    all share may stand for a law that none of them is; none of the unknown."""
+    if it.verdict not in ("identified", "ambiguous"):
+        return frozenset()
+    shared = frozenset.intersection(*(frozenset(names) for names in it.possible))
+    if it.verdict == "identified":
+        return shared
+    # What is there or not has no number that could be another's.
+    return root_of(it.cache, shared) | (shared & frozenset(it.certain))
 
 
 def steps(it: Diagnosis) -> Iterator[Step]:

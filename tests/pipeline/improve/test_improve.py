@@ -4,12 +4,16 @@ from __future__ import annotations
 
 import json
 from pathlib import Path
+from types import SimpleNamespace
+from typing import cast
 
 from typer.testing import CliRunner
 
 from pipeline.campaign import write
 from pipeline.cli import app
+from pipeline.improve.steps import certain
 from pipeline.inference.model_reading import read_model_file
+from pipeline.selection.diagnosis import Diagnosis
 from tests.pipeline.selection.bench import bench
 
 LARGE = "bar_geometric_nonlinearity"
@@ -49,3 +53,14 @@ def test_noise_needs_nothing(tmp_path: Path) -> None:
     assert ran.exit_code == 0, ran.output
     assert "Nothing was added: what is left is noise." in ran.output
     assert not (folder / "model.toml").exists()
+
+
+def test_of_several_sets_only_what_is_certain_is_added() -> None:
+    """A sensor's fault that all sets share is none by that: a law at a place that none of them is may look like it."""
+    effects = {"a": ("one",), "fault": ("two",), LARGE: ()}
+    cache = SimpleNamespace(candidates={k: SimpleNamespace(parameters=v) for k, v in effects.items()})
+    sets = ((LARGE, "a", "fault"), (LARGE, "fault"))
+    it = SimpleNamespace(verdict="ambiguous", possible=sets, certain=(), cache=cache)
+    assert certain(cast(Diagnosis, it)) == {LARGE}
+    it.certain = ("fault", "a")
+    assert certain(cast(Diagnosis, it)) == {LARGE, "fault"}
