@@ -54,6 +54,11 @@ def held_back(free: Sequence[Free], values: Array, plausible: float, jacobian: A
     return float(np.sum((axes @ push / sizes) ** 2))
 
 
+def in_tails(free: Sequence[Free], values: Array, plausible: float) -> bool:
+    """Whether any of these values (P,) lies where the power law holds."""
+    return bool(np.any(np.abs(away(free, values, plausible)) > TAIL))
+
+
 def implausibility(free: Sequence[Free], values: Array, plausible: float) -> float:
     """Chi-square of values (P,) of these parameters alone."""
     return float(np.sum(residual(away(free, values, plausible)) ** 2))

@@ -24,7 +24,7 @@ from pipeline.inference.linear_prediction import predict_linear
 from pipeline.inference.load_cases import LoadCases, load_cases
 from pipeline.inference.multistart import best_fit
 from pipeline.inference.predicted import Prediction
-from pipeline.inference.prior import implausibility
+from pipeline.inference.prior import implausibility, in_tails
 from pipeline.inference.residual import residual
 from pipeline.inference.solvers import Effort
 from pipeline.inference.suitable import scale_for
@@ -142,8 +142,15 @@ def _least_with_kinks(cache: FitCache, table: Table, enough: Sequence[float]) ->
         there = best_fit(
             model, cache.whole, [*beside, effect.name], before.prediction, None, plausible, effort
         )
-        out = min(out, there.chi_square + implausibility(there.model.free, there.model.values, plausible))
+        if _usual(there, cache.criteria):
+            out = min(out, there.chi_square + implausibility(there.model.free, there.model.values, plausible))
     return out
+
+
+def _usual(found: Fit, criteria: Criteria) -> bool:
+    """Whether all effects have usual sizes: a hinge a hundred times softer than any may be, but forces in kgf look like
+    it, and are asked about first."""
+    return not in_tails(found.model.free, found.model.values, criteria.plausible)
 
 
 def _kinds(campaign: Campaign) -> list[Effect]:
@@ -204,7 +211,7 @@ class Table:
 
     @cached_property
     def left(self) -> tuple[float, Names]:
-        """What the best single effect leaves, and the set; of those that promise most, fitted."""
+        """What the best single effect of a usual size leaves, and the set; of those that promise most, fitted."""
         cache, root = self.cache, self.root
         there = cache.first_order(root)
         known = root | set(cache.base.names)
@@ -214,9 +221,9 @@ class Table:
             if known >= set(cache.candidates[name].includes)
         }
         leaders = sorted(single, key=lambda name: -single[name])[: cache.criteria.doctor_effects]
-        sets = [root, *(root | {name} for name in leaders)]
-        cache.fit_all({names: {} for names in sets[1:]})
-        best = min(sets, key=lambda names: misfit(cache, names))
+        sets = [root | {name} for name in leaders]
+        cache.fit_all({names: {} for names in sets})
+        best = min([root, *filter(self._usual, sets)], key=lambda names: misfit(cache, names))
         return misfit(cache, best), best
 
     def left_by_two(self, singles: Iterable[Names]) -> float:
@@ -228,8 +235,11 @@ class Table:
             more = [each.names for each in estimates(cache, single, (1,)) if each.names != single]
             some = more[: cache.criteria.doctor_effects]
             cache.fit_all({names: {} for names in some})
-            least = min([least, *(misfit(cache, names) for names in some)])
+            least = min([least, *(misfit(cache, names) for names in some if self._usual(names))])
         return least
+
+    def _usual(self, names: Names) -> bool:
+        return _usual(self.cache.fit(names), self.cache.criteria)
 
     def mended(self, mistake: Mistake) -> Table:
         """The table without a mistake, with the sigmas that its scatter then allows."""

@@ -51,11 +51,12 @@ def settled(cache: FitCache, again: Again, attempts: Attempts, single: bool = Fa
     for. Where no work is left the best set is looked for again once, where it is the fault of one sensor."""
     given, what = cache.whole, "what the readings are"
     begun: list[Names] = []
-    new = AS_DECLARED
+    first = _Beside(AS_DECLARED, settled=False)
     if not untested(beginning(cache)) and not plain_zero(beginning(cache), cache.criteria):
         begun = singles_first(cache)
         if begun:
-            new = attempts.get(what, partial(_at_first, cache, begun, again), AS_DECLARED)
+            first = attempts.get(what, partial(_at_first, cache, begun, again), first)
+    new = first.it if first.settled else AS_DECLARED
     alone = not new.plain
     it = chosen(cache, attempts, alone or single, begun)
     with_all, readings = it.decision.verdict, AS_DECLARED
@@ -72,7 +73,28 @@ def settled(cache: FitCache, again: Again, attempts: Attempts, single: bool = Fa
         cache.on_progress("with the readings as they are")
         readings, attempts = new, Attempts()
         it = chosen(again(readings.applied(given.campaign), it.found.cache), attempts, single)
-    return Settled(it, readings, given, with_all, alone, attempts)
+    return _without_seen(Settled(it, readings, given, with_all, alone, attempts), first.it, again, single)
+
+
+def _without_seen(here: Settled, seen: Readings, again: Again, single: bool) -> Settled:
+    """Where nothing explains all: without the single bad readings that were seen beside one effect, where that leaves
+    noise beside which they are bad as well. Beside a play, which takes up one at a turn, they are not seen."""
+    it, given = here.it, here.given
+    cache = it.found.cache
+    if (
+        not seen.bad
+        or not here.readings.plain
+        or cache.worn_out
+        or judge(it.decision.fit, cache.criteria).noise
+    ):
+        return here
+    cache.on_progress("without single readings that are off")
+    attempts = Attempts()
+    other = chosen(again(seen.applied(given.campaign), cache), attempts, single)
+    found = other.decision.fit
+    if not judge(found, cache.criteria).noise or not seen.again(found, given, cache.criteria).same(seen):
+        return here
+    return replace(here, it=other, readings=seen, attempts=attempts)
 
 
 def _of_a_fault(it: Chosen) -> bool:
@@ -118,19 +140,18 @@ def _explains_more(new: Chosen, best: Names) -> bool:
     return judge(left, cache.criteria).failed <= (IN_PLACES if far else frozenset())
 
 
-def _at_first(cache: FitCache, begun: list[Names], again: Again) -> Readings:
+def _at_first(cache: FitCache, begun: list[Names], again: Again) -> _Beside:
     """What the readings are beside a single effect, where nothing but single bad ones is left then. A bad one may be
-    more than all that an effect explains: then the effects are looked at again without those that are seen first."""
+    more than all that an effect explains: then the effects are looked at again without those that are seen first; these
+    where that does not settle it."""
     given = cache.whole
     new = _beside_one(cache, begun, AS_DECLARED, given)
-    if new.settled:
-        return new.it
-    if not new.it.bad:
-        return AS_DECLARED
+    if new.settled or not new.it.bad:
+        return new
     without = Readings(new.it.bad)
     cache = again(without.applied(given.campaign), cache)
     new = _beside_one(cache, singles_first(cache), without, given)
-    return new.it if new.settled else AS_DECLARED
+    return new if new.settled else _Beside(without, settled=False)
 
 
 @dataclass(frozen=True)

@@ -77,7 +77,8 @@ VERDICTS = {
     "t06_plan_zero_division": "nothing_tested",
     "t08_offset_identified_as_dimension": "nothing_tested",
     "t09_identified_undetermined": "ambiguous",
-    "t10_add_unsolvable": "unknown",
+    # One reading is left, 36 % stiffer than the bar: several stiffnesses along x explain it, and none is named.
+    "t10_add_unsolvable": "ambiguous",
     "t18_angle_refused_by_fea": "within_noise",
     "t19_no_sigma_refused": "nothing_tested",
 }

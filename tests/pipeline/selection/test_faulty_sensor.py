@@ -72,7 +72,7 @@ def test_the_sensor_is_named_beside_the_effect(name: str, among: tuple[str, ...]
     assert all(name in each for each in found.decision.sets)
 
 
-@pytest.mark.parametrize("work", [40.0, pytest.param(300.0, marks=pytest.mark.long)])
+@pytest.mark.parametrize("work", [120.0, pytest.param(300.0, marks=pytest.mark.long)])
 def test_the_sensor_is_named_where_no_work_is_left_for_a_search(work: float) -> None:
     few = replace(CRITERIA, search_work=work)
     found = diagnose(
