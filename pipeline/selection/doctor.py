@@ -8,9 +8,9 @@ taken, with the differences of what is prescribed through the constant stiffness
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
-from functools import cached_property, partial
+from functools import partial
 from operator import attrgetter
 from typing import TypeVar
 
@@ -18,22 +18,19 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pipeline.campaign import Campaign
-from pipeline.inference.declared_sigmas import trusted
 from pipeline.inference.fit import Fit
 from pipeline.inference.linear_prediction import predict_linear
 from pipeline.inference.load_cases import LoadCases, load_cases
 from pipeline.inference.multistart import best_fit
 from pipeline.inference.predicted import Prediction
-from pipeline.inference.prior import implausibility, in_tails
+from pipeline.inference.prior import implausibility
 from pipeline.inference.residual import residual
 from pipeline.inference.solvers import Effort
 from pipeline.inference.suitable import scale_for
-from pipeline.selection.cost import misfit
 from pipeline.selection.criteria import Criteria
 from pipeline.selection.faulty_sensor import least_with_a_fault
-from pipeline.selection.first_order import FirstOrder
-from pipeline.selection.first_order_costs import estimates
 from pipeline.selection.fit_cache import FitCache, Names
+from pipeline.selection.mended_table import Left, Table
 from pipeline.selection.mistakes import possible
 from pipeline.selection.mistakes.base import Mistake, columns_of, with_readings
 from pipeline.selection.signatures import look
@@ -77,12 +74,11 @@ def suspicions(cache: FitCache) -> tuple[Suspicion, ...]:
     if not found:
         return ()
     criteria, noise, share = cache.criteria, max(table.fit.degrees, 1), _share(table, cache)
-    # A column of which the model predicts little is silenced by a factor: effects with kinks explain it too. What then
-    # leaves less than noise explains no more than noise does.
+    # A column of which the model predicts little is silenced by a factor: effects with kinks explain it too.
     with at_most(KINKED * cache.work):
         enough = [max(it.after, noise) * criteria.doctor_factor / share for it in found]
         kinked = _least_with_kinks(cache, table, enough)
-    found = [it for it in found if max(it.after, noise) * criteria.doctor_factor <= kinked * share]
+    found = [it for it in found if not kinked.clears(it.after / share, noise / share, criteria.doctor_factor)]
     least = max(min((it.after for it in found), default=0.0), noise)
     kept = [it for it in found if it.after < least + criteria.doctor_tie * least / noise]
     return tuple(sorted(kept, key=lambda it: (it.after, len(it.mistake.columns))))
@@ -121,20 +117,21 @@ def _better_than_two(table: Table, found: list[Suspicion]) -> list[Suspicion]:
     """Of these those that explain more than two smooth effects: a table may be right and the rig lack two, of which
     neither alone explains most."""
     two, noise = table.left_by_two({it.beside for it in found}), max(table.fit.degrees, 1)
-    return [it for it in found if max(it.after, noise) * table.cache.criteria.doctor_factor <= two]
+    factor = table.cache.criteria.doctor_factor
+    return [it for it in found if not two.clears(it.after, noise, factor)]
 
 
-def _least_with_kinks(cache: FitCache, table: Table, enough: Sequence[float]) -> float:
+def _least_with_kinks(cache: FitCache, table: Table, enough: Sequence[float]) -> Left:
     """Chi-square that one effect that needs a search leaves (friction, play, yielding), alone or with the smooth one
     that is best alone: hinges that spring back and rub are two. A fit that does not come near what is enough ends
     before; none is made once one leaves less than all of that. Those that take longest come last."""
     smooth = table.left[1]
     beside = {name: cache.candidates[name] for name in smooth - table.root}
     before, known = cache.fit(table.root), smooth | set(cache.base.names)
-    plausible, out = cache.criteria.plausible, np.inf
+    plausible, out = cache.criteria.plausible, Left(np.inf)
     kinked = [it for it in cache.candidates.values() if not it.smooth and known >= set(it.includes)]
     for effect in sorted(kinked, key=lambda it: cache.quickness(frozenset({it.name})), reverse=True):
-        if out < min(enough):
+        if out.usual < min(enough):
             break
         cache.on_progress(f"whether {effect.name} explains as much")
         model = before.model.with_effects([*beside.values(), effect])
@@ -142,115 +139,13 @@ def _least_with_kinks(cache: FitCache, table: Table, enough: Sequence[float]) ->
         there = best_fit(
             model, cache.whole, [*beside, effect.name], before.prediction, None, plausible, effort
         )
-        if _usual(there, cache.criteria):
-            out = min(out, there.chi_square + implausibility(there.model.free, there.model.values, plausible))
+        sizes = implausibility(there.model.free, there.model.values, plausible)
+        out = out.or_that(there, there.chi_square + sizes, cache.criteria)
     return out
-
-
-def _usual(found: Fit, criteria: Criteria) -> bool:
-    """Whether all effects have usual sizes: a hinge a hundred times softer than any may be, but forces in kgf look like
-    it, and are asked about first."""
-    return not in_tails(found.model.free, found.model.values, criteria.plausible)
 
 
 def _kinds(campaign: Campaign) -> list[Effect]:
     return list(all_sized(catalogue(), scale_for(campaign)).values())
-
-
-@dataclass(frozen=True, eq=False)
-class Table:
-    """Fits of a table, and the set beside which mistakes are looked for: what is there or not."""
-
-    cache: FitCache
-    root: Names
-
-    @classmethod
-    def of(cls, cache: FitCache) -> Table:
-        """Beside all that is there or not, with no number to fit: a right table is better explained with it."""
-        return cls(cache, frozenset(name for name, it in cache.candidates.items() if not it.parameters))
-
-    @property
-    def fit(self) -> Fit:
-        """Without any further effect."""
-        return self.cache.fit(self.root)
-
-    @property
-    def plain(self) -> Table:
-        """Beside nothing."""
-        return replace(self, root=frozenset())
-
-    @cached_property
-    def first_order(self) -> float:
-        """What the best single effect leaves, to first order."""
-        return self.first_order_of(self.fit)
-
-    def first_order_of(self, found: Fit) -> float:
-        """The same of a fit of a table that is like this one."""
-        here = self.cache.first_order_about(found, self.root)
-        gains = [here.gain([name]).value for name in here.signatures if self._allowed(here, name)]
-        return max(found.chi_square - max(gains, default=0.0), 0.0)
-
-    @cached_property
-    def leaves_bounds(self) -> bool:
-        """Whether an effect would explain most with a number beyond its bounds, to first order: what it does within
-        them only a fit can tell."""
-        here = self.cache.first_order_about(self.fit, self.root)
-        gains = {name: here.gain([name]).value for name in here.signatures}
-        return bool(gains) and not self._allowed(here, max(gains, key=gains.__getitem__))
-
-    def _allowed(self, here: FirstOrder, name: str) -> bool:
-        """Whether the numbers of an effect lie within its bounds, to first order: a stiffness below zero explains a
-        lost sign."""
-        _, sizes = here.alone(name)
-        parameters = self.cache.candidates[name].parameters
-        low, high = (
-            np.array([(bound - p.null) / p.typical for p, bound in zip(parameters, bounds, strict=True)])
-            for bounds in ([p.low for p in parameters], [p.high for p in parameters])
-        )
-        return bool(np.all((sizes >= low) & (sizes <= high)))
-
-    @cached_property
-    def left(self) -> tuple[float, Names]:
-        """What the best single effect of a usual size leaves, and the set; of those that promise most, fitted."""
-        cache, root = self.cache, self.root
-        there = cache.first_order(root)
-        known = root | set(cache.base.names)
-        single = {
-            name: there.gain([name]).value
-            for name in there.signatures
-            if known >= set(cache.candidates[name].includes)
-        }
-        leaders = sorted(single, key=lambda name: -single[name])[: cache.criteria.doctor_effects]
-        sets = [root | {name} for name in leaders]
-        cache.fit_all({names: {} for names in sets})
-        best = min([root, *filter(self._usual, sets)], key=lambda names: misfit(cache, names))
-        return misfit(cache, best), best
-
-    def left_by_two(self, singles: Iterable[Names]) -> float:
-        """What the best two effects leave, one of them that of these sets: of the second ones those that promise most,
-        fitted. The best single effect, where that leaves less."""
-        cache = self.cache
-        least = self.left[0]
-        for single in singles:
-            more = [each.names for each in estimates(cache, single, (1,)) if each.names != single]
-            some = more[: cache.criteria.doctor_effects]
-            cache.fit_all({names: {} for names in some})
-            least = min([least, *(misfit(cache, names) for names in some if self._usual(names))])
-        return least
-
-    def _usual(self, names: Names) -> bool:
-        return _usual(self.cache.fit(names), self.cache.criteria)
-
-    def mended(self, mistake: Mistake) -> Table:
-        """The table without a mistake, with the sigmas that its scatter then allows."""
-        cache = self.cache
-        cases = load_cases(trusted(mistake.mended(cache.whole.campaign), cache.base))
-        return replace(
-            self,
-            cache=FitCache(
-                cases, cache.base, cache.candidates, cache.on_progress, cache.criteria, before=cache
-            ),
-        )
 
 
 def _found(table: Table, promising: list[Mistake], fault: float) -> list[Suspicion]:

@@ -1,0 +1,152 @@
+"""A table as it is or mended, and what single effects and two of them leave of it.
+
+An effect of an unusual size (`pipeline.inference.prior.in_tails`) may be there: a base a hundred times softer than any.
+But forces in kgf look like a hinge that is as soft. So it clears a table only where it leaves less than the mistake
+does, one of a usual size where it leaves no more than a few times as much.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+
+from pipeline.inference.declared_sigmas import trusted
+from pipeline.inference.fit import Fit
+from pipeline.inference.load_cases import load_cases
+from pipeline.inference.prior import in_tails
+from pipeline.selection.cost import misfit
+from pipeline.selection.criteria import Criteria
+from pipeline.selection.first_order import FirstOrder
+from pipeline.selection.first_order_costs import estimates
+from pipeline.selection.fit_cache import FitCache, Names
+from pipeline.selection.mistakes.base import Mistake
+
+
+def usual(found: Fit, criteria: Criteria) -> bool:
+    """Whether all effects have usual sizes."""
+    return not in_tails(found.model.free, found.model.values, criteria.plausible)
+
+
+@dataclass(frozen=True)
+class Left:
+    """The least that effects leave, with what their sizes cost: of usual sizes, and of unusual ones."""
+
+    usual: float
+    unusual: float = np.inf
+
+    def or_that(self, found: Fit, left: float, criteria: Criteria) -> Left:
+        """Or what a further fit leaves."""
+        if usual(found, criteria):
+            return replace(self, usual=min(self.usual, left))
+        return replace(self, unusual=min(self.unusual, left))
+
+    def clears(self, after: float, noise: float, factor: float) -> bool:
+        """Whether a table is right by these, of which a mistake leaves so much where it is mended. What leaves less
+        than noise explains no more than noise does."""
+        return max(after, noise) * factor > self.usual or after >= self.unusual
+
+
+@dataclass(frozen=True, eq=False)
+class Table:
+    """Fits of a table, and the set beside which mistakes are looked for: what is there or not."""
+
+    cache: FitCache
+    root: Names
+
+    @classmethod
+    def of(cls, cache: FitCache) -> Table:
+        """Beside all that is there or not, with no number to fit: a right table is better explained with it."""
+        return cls(cache, frozenset(name for name, it in cache.candidates.items() if not it.parameters))
+
+    @property
+    def fit(self) -> Fit:
+        """Without any further effect."""
+        return self.cache.fit(self.root)
+
+    @property
+    def plain(self) -> Table:
+        """Beside nothing."""
+        return replace(self, root=frozenset())
+
+    @cached_property
+    def first_order(self) -> float:
+        """What the best single effect leaves, to first order."""
+        return self.first_order_of(self.fit)
+
+    def first_order_of(self, found: Fit) -> float:
+        """The same of a fit of a table that is like this one."""
+        here = self.cache.first_order_about(found, self.root)
+        gains = [here.gain([name]).value for name in here.signatures if self._allowed(here, name)]
+        return max(found.chi_square - max(gains, default=0.0), 0.0)
+
+    @cached_property
+    def leaves_bounds(self) -> bool:
+        """Whether an effect would explain most with a number beyond its bounds, to first order: what it does within
+        them only a fit can tell."""
+        here = self.cache.first_order_about(self.fit, self.root)
+        gains = {name: here.gain([name]).value for name in here.signatures}
+        return bool(gains) and not self._allowed(here, max(gains, key=gains.__getitem__))
+
+    def _allowed(self, here: FirstOrder, name: str) -> bool:
+        """Whether the numbers of an effect lie within its bounds, to first order: a stiffness below zero explains a
+        lost sign."""
+        _, sizes = here.alone(name)
+        parameters = self.cache.candidates[name].parameters
+        low, high = (
+            np.array([(bound - p.null) / p.typical for p, bound in zip(parameters, bounds, strict=True)])
+            for bounds in ([p.low for p in parameters], [p.high for p in parameters])
+        )
+        return bool(np.all((sizes >= low) & (sizes <= high)))
+
+    @cached_property
+    def sets(self) -> tuple[Names, ...]:
+        """Single effects that promise most, fitted."""
+        cache, root = self.cache, self.root
+        there = cache.first_order(root)
+        known = root | set(cache.base.names)
+        single = {
+            name: there.gain([name]).value
+            for name in there.signatures
+            if known >= set(cache.candidates[name].includes)
+        }
+        leaders = sorted(single, key=lambda name: -single[name])[: cache.criteria.doctor_effects]
+        sets = tuple(root | {name} for name in leaders)
+        cache.fit_all({names: {} for names in sets})
+        return sets
+
+    @cached_property
+    def left(self) -> tuple[float, Names]:
+        """What the best of them that has a usual size leaves, and the set."""
+        cache, root, sets = self.cache, self.root, self.sets
+        best = min(
+            [root, *(n for n in sets if usual(cache.fit(n), cache.criteria))], key=lambda n: misfit(cache, n)
+        )
+        return misfit(cache, best), best
+
+    def left_by_two(self, singles: Iterable[Names]) -> Left:
+        """What the best two effects leave, one of them that of these sets: of the second ones those that promise most,
+        fitted. The best single effect, where that leaves less."""
+        cache, two = self.cache, list[Names]()
+        for single in singles:
+            more = [each.names for each in estimates(cache, single, (1,)) if each.names != single]
+            some = more[: cache.criteria.doctor_effects]
+            cache.fit_all({names: {} for names in some})
+            two += some
+        out = Left(self.left[0])
+        for names in (*self.sets, *two):
+            out = out.or_that(cache.fit(names), misfit(cache, names), cache.criteria)
+        return out
+
+    def mended(self, mistake: Mistake) -> Table:
+        """The table without a mistake, with the sigmas that its scatter then allows."""
+        cache = self.cache
+        cases = load_cases(trusted(mistake.mended(cache.whole.campaign), cache.base))
+        return replace(
+            self,
+            cache=FitCache(
+                cases, cache.base, cache.candidates, cache.on_progress, cache.criteria, before=cache
+            ),
+        )
