@@ -92,9 +92,10 @@ def _without_seen(here: Settled, seen: Readings, again: Again, single: bool) -> 
     attempts = Attempts()
     other = chosen(again(seen.applied(given.campaign), cache), attempts, single)
     found = other.decision.fit
-    if not judge(found, cache.criteria).noise or not seen.again(found, given, cache.criteria).same(seen):
+    if not judge(found, cache.criteria).noise:
         return here
-    return replace(here, it=other, readings=seen, attempts=attempts)
+    readings = seen.again(found, given, cache.criteria)
+    return replace(here, it=other, readings=readings, attempts=attempts) if readings.same(seen) else here
 
 
 def _of_a_fault(it: Chosen) -> bool:

@@ -19,7 +19,7 @@ from reports import bars
 from reports.campaign import tables, words
 from reports.campaign.doubt import mistakes
 from reports.campaign.names import channel_label, measured, test_label, unit_label
-from reports.formats import number
+from reports.formats import MINUS, number
 from reports.load import Json
 from reports.quantities import estimate, phrase, sigma
 
@@ -116,7 +116,7 @@ def _of_page(session: Session, page: Page) -> dict[str, Any]:
 def _readings(page: Page) -> list[dict[str, Any]]:
     """Readings that do not count, or count by hand, and what a button makes of each."""
     out = [
-        _reading(it, f"{sigma(it.sigma)} sigma off, by the diagnosis", "Put back", "keep")
+        _reading(it, f"{sigma(it.sigma).replace('-', MINUS)} sigma off, by the diagnosis", "Put back", "keep")
         for it in page.set_aside
     ]
     for it in page.by_hand:
