@@ -1,8 +1,9 @@
 """Numbers of a material that may be right and are seldom so: asked about, never refused.
 
-Ranges: M. F. Ashby, Materials Selection in Mechanical Design, data for engineering materials. Young's modulus in GPa:
-PTFE 0.4 to 0.55, the softest of the plastics that carry loads; metals from 12 (lead) to 411 (tungsten), so that such a
-number in GPa lies below the limit; diamond 1050 to 1220. Poisson's ratio: concrete 0.1, lead and soft plastics 0.46.
+The limits are those of a question and of no result: round values about what handbooks commonly give. Young's modulus in
+GPa: PTFE 0.4 to 0.55, about the softest of the plastics that carry loads; metals from some 12 (lead) to some 410
+(tungsten), so that such a number in GPa lies below the limit; diamond 1050 to 1220. Poisson's ratio: concrete 0.1 to
+0.2, soft plastics 0.46.
 """
 
 from __future__ import annotations

@@ -2,6 +2,8 @@
 
 from pathlib import Path
 
+from pipeline.campaign import BadCampaign, read
+
 TOML = """schema = 1
 name = "bench-07"
 
@@ -89,3 +91,12 @@ def laid(folder: Path, toml: str = TOML, csv: str | bytes = CSV) -> Path:
     content = csv if isinstance(csv, bytes) else csv.encode()
     (folder / "measurements.csv").write_bytes(content)
     return folder
+
+
+def complaint(folder: Path, toml: str, csv: str) -> str:
+    """What is said of a campaign; empty if it is accepted."""
+    try:
+        read(laid(folder, toml, csv))
+    except BadCampaign as error:
+        return str(error)
+    return ""

@@ -5,7 +5,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from pipeline.campaign import BadCampaign, read
+from pipeline.campaign import read
 from pipeline.campaign.control import swings
 from pipeline.campaign.writing import write
 from pipeline.inference.estimated_sigmas import completed
@@ -13,7 +13,7 @@ from pipeline.inference.load_cases import load_cases
 from pipeline.inference.model import Model
 from pipeline.inference.prediction import predict
 from pipeline.init.command import init
-from tests.pipeline.campaign.example import laid
+from tests.pipeline.campaign.example import complaint, laid
 
 TOML = """schema = 1
 name = "pulled sideways"
@@ -36,12 +36,6 @@ control = { x = "force", y = "force", z = "held", rx = "force", ry = "force", rz
 CSV = "test,step,y_mm,fy_N\nq0,0,0,0\nq0,1,0.5,12\nq0,2,-0.5,-12\n"
 ZEROS = "test,step,y_mm,z_mm,fy_N\nq0,0,0,0,0\nq0,1,0.5,0,12\nq0,2,-0.5,0,-12\n"
 MOVED = TOML.replace('z = "held"', 'z = "displacement"').replace("[noise]", "[noise]\nz_mm = 1e-9")
-
-
-def complaint(folder: Path, toml: str, csv: str) -> str:
-    with pytest.raises(BadCampaign) as caught:
-        read(laid(folder, toml, csv))
-    return str(caught.value)
 
 
 def test_held_is_a_column_of_zeros_that_nobody_has_to_write(tmp_path: Path) -> None:

@@ -5,9 +5,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from pipeline.campaign import BadCampaign, BarRig, Gauge, ParallelogramRig, read
+from pipeline.campaign import BarRig, Gauge, ParallelogramRig, read
 from pipeline.campaign.control import swings
-from tests.pipeline.campaign.example import BAR, TOML, laid
+from tests.pipeline.campaign.example import BAR, TOML, complaint, laid
 from vjm import paper
 from vjm.mechanisms.bar import Bar
 from vjm.mechanisms.parallelogram import Parallelogram
@@ -33,15 +33,6 @@ control = { x = "displacement", y = "force", z = "force", rx = "force", ry = "fo
 HEAD = "test,step,x_mm,fx_N,fz_N\n"
 PUSH = HEAD + "t,1,0,0.4,\nt,2,-0.01,-440,\nt,3,-0.02,-880,\n"
 PULL = PUSH.replace("-", "")
-
-
-def complaint(folder: Path, toml: str, csv: str) -> str:
-    """What is said of a campaign; empty if it is accepted."""
-    try:
-        read(laid(folder, toml, csv))
-    except BadCampaign as error:
-        return str(error)
-    return ""
 
 
 CASES = {
