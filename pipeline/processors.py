@@ -44,6 +44,11 @@ def may_use(processors: int) -> None:
     _used = processors
 
 
+def used() -> int:
+    """So many this process may use: a process that is begun for its work may use them in its place."""
+    return _used
+
+
 def at_once(calls: Sequence[Callable[[], Out]]) -> list[Out]:
     """What the calls return, in their order; the first is computed here.
 

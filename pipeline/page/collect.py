@@ -15,6 +15,7 @@ from pipeline.callbacks import OnProgress
 from pipeline.campaign import Campaign
 from pipeline.inference.driving import column_name, unit_of
 from pipeline.inference.estimated_sigmas import completed
+from pipeline.inference.fit import Fit
 from pipeline.inference.load_cases import LoadCases, load_cases
 from pipeline.inference.model import Model, Term
 from pipeline.inference.model_file import Uncertainty
@@ -35,8 +36,8 @@ from vjm.effects.base import Effect
 class Subject:
     """What a page is about. uncertainty: of the model's numbers, as its file has it. answer: of a diagnosis that
     began with this model, if there was one; isolability, rivals: found with it. given: the campaign as it was
-    written, where the diagnosis took its readings otherwise. fitted: the model of the answer, where it is at hand with
-    all that was fitted beside its effects."""
+    written, where the diagnosis took its readings otherwise. fitted: the fit of the answer to the campaign, where it is
+    at hand, with all that was fitted beside its effects."""
 
     campaign: Campaign
     model: Model
@@ -46,7 +47,7 @@ class Subject:
     isolability: Isolability | None = None
     rivals: tuple[RivalPage, ...] = ()
     given: Campaign | None = None
-    fitted: Model | None = None
+    fitted: Fit | None = None
 
 
 def collect(it: Subject, commands: tuple[str, ...] = (), on_progress: OnProgress = lambda _: None) -> Page:
@@ -111,7 +112,7 @@ def _dossier(
     if it.answer is None or not cases.predicted.any():
         return None, ()
     on_progress("predicted against measured")
-    return dossier(it.campaign, model)
+    return dossier(it.campaign, model, it.fitted)
 
 
 def _catalogue(effects: list[Effect]) -> tuple[EffectPage, ...]:
@@ -132,7 +133,7 @@ def shown_model(it: Subject) -> Model:
     """As saved, or as a diagnosis leaves it."""
     if it.answer is None:
         return it.model
-    return it.fitted or proposed(it.model, it.answer, it.known)
+    return proposed(it.model, it.answer, it.known) if it.fitted is None else it.fitted.model
 
 
 def proposed(model: Model, answer: Answer, known: Known) -> Model:

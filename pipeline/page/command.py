@@ -149,7 +149,7 @@ def of_diagnosis(it: Subject, found: Diagnosis, sets: tuple[Possible, ...]) -> S
         alike,
         pages_of(sets),
         it.campaign,
-        first.model,
+        first.fit,
     )
 
 

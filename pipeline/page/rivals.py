@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from pipeline.answer.of_diagnosis import answered
 from pipeline.answer.record import Answer
 from pipeline.callbacks import OnProgress
-from pipeline.inference.model import Model
+from pipeline.inference.fit import Fit
 from pipeline.page.record import RivalPage
 from pipeline.selection.diagnosis import Diagnosis
 
@@ -17,10 +17,10 @@ MOST = 4
 
 @dataclass(frozen=True, eq=False)
 class Possible:
-    """One set: its record, and its fitted model."""
+    """One set: its record, and its fit."""
 
     answer: Answer
-    model: Model
+    fit: Fit
 
 
 def possible(
@@ -31,7 +31,7 @@ def possible(
     answer: that of the diagnosis, which is the first of them. Each of the others is the diagnosis with its
     own set as the first.
     """
-    first = Possible(answer, found.model)
+    first = Possible(answer, found.fit)
     if found.verdict != "ambiguous":
         return (first,)
     return (first, *(_with(found, names, on_progress) for names in found.sets[1:most]))
@@ -47,4 +47,4 @@ def _with(found: Diagnosis, names: tuple[str, ...], on_progress: OnProgress) -> 
     """The answer with another set as the first."""
     on_progress(" + ".join(names))
     about = found.about(names)
-    return Possible(answered(about), about.model)
+    return Possible(answered(about), about.fit)

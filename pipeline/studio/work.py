@@ -146,7 +146,7 @@ def _diagnosed(task: Task, subject: Subject, on_progress: OnProgress) -> Done:
     sets = possible(found, answered(found), on_progress)
     zero = found.decision.zero
     seen = of_diagnosis(subject, found, sets)
-    shown = [replace(seen, answer=each.answer, fitted=each.model) for each in sets]
+    shown = [replace(seen, answer=each.answer, fitted=each.fit) for each in sets]
     return Done(
         "diagnose",
         answer=sets[0].answer,

@@ -6,8 +6,11 @@ from dataclasses import dataclass
 from multiprocessing import get_context
 from multiprocessing.connection import Connection
 from multiprocessing.process import BaseProcess
+from weakref import finalize
 
 from pipeline.errors import InputError
+from pipeline.memory import keep_freed
+from pipeline.processors import may_use, used
 from pipeline.studio.work import Done, Task, do
 
 FAILED = "the numerics failed: "
@@ -60,22 +63,30 @@ class Worker:
 
     def close(self) -> None:
         """End the process."""
-        self._process.terminate()
-        self._process.join(5.0)
-        if self._process.is_alive():
-            self._process.kill()
+        self._end()
         self._ours.close()
 
     def _start(self) -> None:
         context = get_context("spawn")
         self._ours, theirs = context.Pipe()
-        self._process: BaseProcess = context.Process(target=serve, args=(theirs,), daemon=True)
+        # No daemon: one may have no processes beside it, and a diagnosis uses all processors. So it is ended here.
+        self._process: BaseProcess = context.Process(target=serve, args=(theirs, used()), daemon=False)
         self._process.start()
+        self._end = finalize(self, _ended, self._process)
         theirs.close()
 
 
-def serve(pipe: Connection) -> None:
-    """Do tasks until the other side is gone."""
+def _ended(process: BaseProcess) -> None:
+    process.terminate()
+    process.join(5.0)
+    if process.is_alive():
+        process.kill()
+
+
+def serve(pipe: Connection, processors: int) -> None:
+    """Do tasks until the other side is gone, on so many processors."""
+    keep_freed()
+    may_use(processors)
     try:
         while True:
             task = pipe.recv()

@@ -38,19 +38,18 @@ def session(tmp_path: Path) -> Iterator[Session]:
 
 
 @cache
-def found(names: tuple[str, ...]) -> tuple[Answer, Model]:
+def found(names: tuple[str, ...]) -> Answer:
     known = known_effects().effects
-    made = add(bench("modulus_error.scale", 0.95), Model(), [known[name] for name in names])
-    return made.answer, made.model
+    return add(bench("modulus_error.scale", 0.95), Model(), [known[name] for name in names]).answer
 
 
 def proposal(names: tuple[str, ...], verdict: str, rivals: tuple[RivalPage, ...] = ()) -> Proposal:
     """As a diagnosis makes one, of a set that was fitted."""
-    answer, model = found(names)
+    answer = found(names)
     said = f"{verdict}: {' + '.join(names)}; the error falls."
     answer = answer.model_copy(update={"verdict": verdict, "sentences": (said,)})
     campaign = bench("modulus_error.scale", 0.95)
-    subject = Subject(campaign, Model(), known_effects(), {}, answer, rivals=rivals, fitted=model)
+    subject = Subject(campaign, Model(), known_effects(), {}, answer, rivals=rivals)
     return Proposal(collect(subject), " + ".join(names), "kept", answer)
 
 
