@@ -4,7 +4,6 @@ import io
 
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from matplotlib.patheffects import withStroke
 
 from reports.curves import Panel, panels
 from reports.formats import fixed, symbol
@@ -54,7 +53,7 @@ def force_deflection(result: Json) -> bytes:
     found = panels(result)
     rows = list(dict.fromkeys(p.q_deg for p in found))
     columns = max(sum(p.q_deg == q for p in found) for q in rows)
-    figure = Figure(figsize=(4.6 * columns, 3.9 * len(rows)))
+    figure = Figure(figsize=(5.8 * columns, 3.9 * len(rows)))
     grid = figure.subplots(len(rows), columns, squeeze=False)
     for line, q in zip(grid, rows, strict=True):
         here = [p for p in found if p.q_deg == q]
@@ -85,19 +84,17 @@ def draw(ax: Axes, panel: Panel) -> None:
         ax.plot(line.x, line.y, color=line.colour, ls=styles[line.dash], lw=0.75 * line.width, label=label)
     for level in panel.levels:
         ax.axhline(level.load, color=level.colour, lw=0.9, ls=(0, (5, 3)))
-    for load, text in panel.level_labels():
+    for place, text in panel.level_labels():
         ax.annotate(
             text,
-            (1.0, load),
+            (1.0, place),
             xycoords=("axes fraction", "data"),
-            xytext=(0, 2),
+            xytext=(4, 0),
             textcoords="offset points",
-            ha="right",
-            va="bottom",
+            ha="left",
+            va="center",
             fontsize=7.5,
             color=INK,
-            # Where curves pass below a label it stays readable.
-            path_effects=[withStroke(linewidth=3.0, foreground="white")],
         )
     ax.set_xlim(*panel.x_range)
     ax.set_ylim(*panel.y_range)

@@ -10,6 +10,9 @@ from reports.formats import held_label, number
 from reports.load import Json
 from reports.style import colour_of, model_label
 
+LABEL = 0.05
+"""Height of a label as part of that of a panel."""
+
 
 @dataclass(frozen=True)
 class Line:
@@ -36,6 +39,12 @@ class Level:
     colour: str
     load: float
 
+    @property
+    def text(self) -> str:
+        """As it stands beside its line."""
+        sense = " tension" if self.load < 0 else ""
+        return f"{number(abs(self.load), 4)} kN{sense}: {self.label}"
+
 
 @dataclass(frozen=True)
 class Panel:
@@ -52,7 +61,7 @@ class Panel:
 
     @property
     def x_range(self) -> tuple[float, float]:
-        """Range of the abscissa, with a margin for the labels."""
+        """Range of the abscissa."""
         return padded([v for line in self.lines for v in line.x])
 
     @property
@@ -63,17 +72,24 @@ class Panel:
         return padded(bent + [level.load for level in self.levels])
 
     def level_labels(self) -> list[tuple[float, str]]:
-        """Labels of the critical loads; loads too near to each other to be labelled apart share one label."""
+        """Labels of the critical loads, kN, and the ordinates beside which they stand right of the panel: at their
+        loads, and where loads are too near to each other one above the other about their mean."""
         low, high = self.y_range
-        merged: list[tuple[float, list[str]]] = []
+        gap = LABEL * (high - low)
+        groups: list[list[Level]] = []
         for level in sorted(self.levels, key=lambda item: item.load):
-            sense = " tension" if level.load < 0 else ""
-            text = f"{level.label} {number(abs(level.load), 4)} kN{sense}"
-            if merged and level.load - merged[-1][0] < 0.05 * (high - low):
-                merged[-1] = (level.load, [*merged[-1][1], text])
-            else:
-                merged.append((level.load, [text]))
-        return [(load, "; ".join(texts)) for load, texts in merged]
+            groups.append([level])
+            while len(groups) > 1 and _places(groups[-1], gap)[0] - _places(groups[-2], gap)[-1] < gap:
+                groups[-2:] = [[*groups[-2], *groups[-1]]]
+        return [
+            (place, it.text) for each in groups for place, it in zip(_places(each, gap), each, strict=True)
+        ]
+
+
+def _places(levels: Sequence[Level], gap: float) -> list[float]:
+    """So far apart, about the mean of the loads."""
+    middle = sum(it.load for it in levels) / len(levels)
+    return [middle + gap * (k - (len(levels) - 1) / 2) for k in range(len(levels))]
 
 
 def padded(numbers: Sequence[float]) -> tuple[float, float]:

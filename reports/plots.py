@@ -13,6 +13,8 @@ from reports.style import ACCENT, CYCLE, FAINT, GRID, INK, colour_of, model_labe
 from reports.tables_linkage import groups
 
 FONT = {"family": "system-ui, -apple-system, 'Segoe UI', Roboto, sans-serif", "size": 13, "color": INK}
+LABELS = 250
+"""Pixels right of the curves, for the labels of the critical loads."""
 SYMBOLS = ("circle", "square", "triangle-up", "diamond", "triangle-down", "cross", "x", "star")
 
 
@@ -155,7 +157,7 @@ def force_deflection(result: Json, q_deg: float) -> go.Figure:
     figure.update_xaxes(title="shortening −x, mm", range=list(found[0].x_range))
     figure.update_yaxes(title="compression −F<sub>x</sub>, kN", range=list(found[0].y_range))
     menu = {"buttons": buttons, "x": 0, "xanchor": "left", "y": 1.02, "yanchor": "bottom", "showactive": True}
-    return style(figure, 560, updatemenus=[menu], margin={"l": 70, "r": 20, "t": 60, "b": 60})
+    return style(figure, 560, updatemenus=[menu], margin={"l": 70, "r": LABELS, "t": 60, "b": 60})
 
 
 def add_panel(figure: go.Figure, panel: Panel) -> None:
@@ -185,12 +187,13 @@ def add_panel(figure: go.Figure, panel: Panel) -> None:
     labels = panel.level_labels()
     figure.add_scatter(
         x=[high] * len(labels),
-        y=[load for load, _ in labels],
+        y=[place for place, _ in labels],
         text=[escape(text) for _, text in labels],
         mode="markers+text",
-        marker={"size": 7, "opacity": 0},
-        textposition="top left",
+        marker={"size": 3, "opacity": 0},
+        textposition="middle right",
         textfont={"size": 11},
+        cliponaxis=False,
         showlegend=False,
         hoverinfo="skip",
     )
