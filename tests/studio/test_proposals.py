@@ -92,7 +92,7 @@ def test_what_is_proposed_is_shown_and_back_shows_what_was(session: Session) -> 
 @pytest.mark.long
 def test_an_ambiguous_verdict_offers_every_set_and_no_single_one(session: Session) -> None:
     rivals = tuple(
-        RivalPage(effects=names, error=found(names)[0].error[-1], parameters=found(names)[0].parameters)
+        RivalPage(effects=names, error=found(names).error[-1], parameters=found(names).parameters)
         for names in SETS
     )
     diagnosed(session, *(proposal(names, "ambiguous", rivals) for names in SETS))
