@@ -262,12 +262,13 @@ def plan(
     model: ModelFile = None,
     effects_from: EffectsFrom = None,
     json: Json = None,
+    full: Annotated[bool, typer.Option("--full", help="Every parameter and pair, however many.")] = False,
     quiet: Annotated[bool, typer.Option("--quiet", help="Only the next test.")] = False,
 ) -> None:
     """Which effects these tests can show and tell apart, measured or not yet, and the next test worth doing."""
     from pipeline.plan.command import plan_campaign
 
-    guarded(lambda: plan_campaign(campaign, model, effects_from or [], json, quiet))
+    guarded(lambda: plan_campaign(campaign, model, effects_from or [], json, quiet, full))
 
 
 @app.command()

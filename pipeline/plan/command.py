@@ -114,8 +114,10 @@ def plan_campaign(
     effects_from: Sequence[Path] = (),
     json: Path | None = None,
     quiet: bool = False,
+    full: bool = False,
 ) -> Plan:
-    """Look at the plan of a campaign with the model it has. InputError for bad input."""
+    """Look at the plan of a campaign with the model it has. full: print every parameter and pair. InputError for bad
+    input."""
     campaign = read(folder)
     model, known = starting_model(campaign, folder, model_file, known_effects(effects_from))
     if json is not None:
@@ -124,5 +126,5 @@ def plan_campaign(
         plan = plan_of(campaign, model, known.effects, stage.say)
     if json is not None:
         plan.write(json)
-    show(plan, quiet)
+    show(plan, quiet, full=full)
     return plan

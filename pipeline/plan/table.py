@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
+import numpy as np
 from rich.console import Console
 from rich.markup import escape
 from rich.table import Table
 from rich.text import Text
+from scipy.sparse.csgraph import connected_components
 
 from pipeline.plan.record import Plan, Size
 from pipeline.terminal import WIDTH, blocks, cell, lean, one_line, terminal
@@ -18,15 +20,14 @@ PARAMETER, UNIT, RIVAL, EFFECT = 21, 10, 16, 29
 """Cells of names and units; longer ones go on below."""
 
 
-def show(plan: Plan, quiet: bool, console: Console | None = None) -> None:
-    """One line of headline, sizes, the isolability matrix, the next test."""
+def show(plan: Plan, quiet: bool, console: Console | None = None, full: bool = False) -> None:
+    """One line of headline, what these tests do not show or tell apart, the next test. full: all sizes, the isolability
+    matrix, and why an effect cannot be looked for."""
     out = terminal(console)
     if not quiet:
         out.print(Text(f"{headline(plan)}\n"))
-        for table in tables(plan, out.width):
-            out.print(table, "")
-        for name, why in plan.refused.items():
-            out.print(escape(f"{name} cannot be looked for: {why}"))
+        for part in _whole(plan, out.width) if full else _open(plan):
+            out.print(part)
     for said in (plan.untested, *(f"{each}." for each in plan.not_done)):
         if said:
             out.print(escape(said))
@@ -47,24 +48,57 @@ def headline(plan: Plan) -> str:
     return one_line(f"{plan.campaign}: {said}", said)
 
 
+def _whole(plan: Plan, width: int) -> Iterator[Table | str]:
+    for table in tables(plan, width):
+        yield table
+        yield ""
+    for name, why in plan.refused.items():
+        yield escape(f"{name} cannot be looked for: {why}")
+
+
+def _open(plan: Plan) -> Iterator[Table | str]:
+    """What is worth a look: sizes that are not enough, pairs that can hardly be told apart."""
+    if missed := [
+        size for size in plan.sizes if not (_enough(size.detected, size) and _enough(size.apart, size))
+    ]:
+        yield _sizes(missed, "parameters that these tests do not show, or not apart, at typical size")
+        yield ""
+    for group in _alike(plan):
+        yield escape(
+            f"Hardly to be told from another of these, {100 * ALIKE:.0f} % alike and more: {', '.join(group)}."
+        )
+    if plan.refused:
+        yield escape(f"Not looked for here: {', '.join(plan.refused)}.")
+    yield f"Every parameter and pair{', and why not' if plan.refused else ''}: see --full."
+    yield ""
+
+
+def _alike(plan: Plan) -> list[list[str]]:
+    """Groups of effects, each of them like another one of its group."""
+    count, group = connected_components(np.array(plan.alike) >= ALIKE) if plan.names else (0, np.array([]))
+    every = ([plan.names[k] for k in np.flatnonzero(group == number)] for number in range(count))
+    return [names for names in every if len(names) > 1]
+
+
 def tables(plan: Plan, width: int = WIDTH) -> tuple[Table, ...]:
     """Sizes, and the isolability matrix in as many tables as it takes."""
-    return (_sizes(plan), *_matrix(plan, width))
+    title = f"{plan.campaign}: smallest sizes that these tests show, from null"
+    return (_sizes(plan.sizes, title), *_matrix(plan, width))
 
 
-def _sizes(plan: Plan) -> Table:
+def _sizes(sizes: Sequence[Size], title: str) -> Table:
     table = lean(
         "parameter",
         "typical",
         "detected",
         "told\napart",
-        title=f"{plan.campaign}: smallest sizes that these tests show, from null",
+        title=title,
     )
     table.add_column("unit", overflow="fold")
     table.add_column("hardest rival", overflow="fold")
     table.add_column("ρ", justify="right", overflow="fold")
     effect = ""
-    for size in plan.sizes:
+    for size in sizes:
         if size.effect != effect:
             effect = size.effect
             table.add_row(cell(effect, PARAMETER, "bold"))
@@ -86,7 +120,11 @@ def _sizes(plan: Plan) -> Table:
 
 def _number(value: float | None, size: Size) -> str:
     text = short(value, 2)
-    return text if value is None or value <= size.typical else f"[bold]{text}[/bold]"
+    return text if value is None or _enough(value, size) else f"[bold]{text}[/bold]"
+
+
+def _enough(value: float | None, size: Size) -> bool:
+    return value is not None and value <= size.typical
 
 
 def _matrix(plan: Plan, width: int = WIDTH) -> Iterator[Table]:

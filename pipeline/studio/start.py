@@ -20,7 +20,7 @@ def start(actions: Actions) -> None:
             html.H2("See how it works")
             html.Div(
                 "A bench of two bars and four hinges, 19 tests, 456 load steps. It is opened and what is missing in "
-                "its model is looked for, in some ten seconds.",
+                "its model is looked for, in some twenty seconds.",
                 classes="push",
             )
             v3.VBtn("Open the example", click=actions["example"], disabled=("!!busy",), id="example", **MAIN)

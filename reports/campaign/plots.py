@@ -115,7 +115,7 @@ def _shades() -> dict[str, Any]:
     """From noise to a thousand sigmas, the same for every campaign."""
     shown = [1.0, ATTENTION, 10.0, 100.0, TOP]
     bar = {
-        "title": {"text": "misfit,<br>sigma"},
+        "title": {"text": "misfit,<br>sigma<br> "},
         "thickness": 12,
         "outlinewidth": 1,
         "outlinecolor": "#8a949e",

@@ -275,7 +275,7 @@ def plans(draw: st.DrawFn) -> Plan:
 @given(plans())
 def test_any_plan_fits_and_its_matrix_is_whole(plan: Plan) -> None:
     out = console()
-    show_plan(plan, False, out)
+    show_plan(plan, False, out, full=True)
     text = text_of(out)
     assert_fits(text)
     assert [line.rstrip() for line in text.splitlines()[:2]] == [plan_headline(plan), ""]
@@ -285,6 +285,24 @@ def test_any_plan_fits_and_its_matrix_is_whole(plan: Plan) -> None:
         assert stands(size.parameter, text), size
     shown = sum(line.split().count(str(k + 1)) for k in range(len(plan.names)) for line in text.splitlines())
     assert shown >= len(plan.names)
+
+
+@SETTINGS
+@given(plans())
+def test_a_plan_says_first_what_its_tests_do_not_show(plan: Plan) -> None:
+    out = console()
+    show_plan(plan, False, out)
+    text = text_of(out)
+    assert_fits(text)
+    assert [line.rstrip() for line in text.splitlines()[:2]] == [plan_headline(plan), ""]
+    missed = {s.parameter for s in plan.sizes if not all(v and v <= s.typical for v in (s.detected, s.apart))}
+    for name in missed:
+        assert stands(name, text), name
+    for k, name in enumerate(plan.names):
+        if any(max(plan.alike[k][j], plan.alike[j][k]) >= 0.95 for j in range(len(plan.names)) if j != k):
+            assert squeezed(name) in squeezed(text), name
+    for name in plan.refused:
+        assert squeezed(name) in squeezed(text), name
 
 
 def test_the_catalogue_fits() -> None:
