@@ -18,9 +18,9 @@ from pipeline.inference.estimated_sigmas import completed
 from pipeline.inference.fit import Fit
 from pipeline.inference.load_cases import load_cases
 from pipeline.inference.model import Model, at_bound
-from pipeline.inference.solvers import WORK, allowance
 from pipeline.inference.suitable import check_suitable, scale_for, sized_model
 from pipeline.selection.adequacy.judgement import Judgement, judge
+from pipeline.selection.allotted import for_faults
 from pipeline.selection.certain import certain
 from pipeline.selection.confusability import Likeness, likenesses
 from pipeline.selection.correlated_rows import NONE, AlikeRows, alike_rows
@@ -38,7 +38,6 @@ from pipeline.selection.verdict import UNSURE_OF_TABLE, Decision
 from vjm.effects.base import Effect
 from vjm.effects.sensor_fault import SensorFault
 from vjm.effects.sized import all_sized
-from vjm.work import at_most
 
 
 @dataclass(frozen=True, eq=False)
@@ -195,10 +194,7 @@ def diagnose(
 
 
 def _at_fault(done: Settled, kinds: Iterable[Effect], again: Again) -> Settled:
-    """With faults of sensors. TooMuch where that takes more work than fits of those that are looked at, beside the best
-    set and beside nothing, each with all that a fit may take."""
-    cache = done.it.found.cache
-    with at_most(2 * cache.criteria.faults_looked_at * WORK * allowance(cache.whole)):
+    with for_faults(done.it.found.cache):
         return with_faults(done, kinds, again)
 
 

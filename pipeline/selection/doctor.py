@@ -27,6 +27,7 @@ from pipeline.inference.prior import implausibility
 from pipeline.inference.residual import residual
 from pipeline.inference.solvers import Effort
 from pipeline.inference.suitable import scale_for
+from pipeline.selection.allotted import KINKED, MISTAKES, TWO, until
 from pipeline.selection.criteria import Criteria
 from pipeline.selection.faulty_sensor import least_with_a_fault
 from pipeline.selection.fit_cache import FitCache, Names
@@ -43,13 +44,6 @@ Array = NDArray[np.float64]
 T = TypeVar("T")
 
 
-KINKED = 3.0
-"""Times the work of a search that the look for effects with kinks may take which explain as much as a mistake: it
-takes up to 2.2 (an axis that was not zeroed). The look for mistakes may take one, that for two smooth effects another;
-both together take up to 1.1 in tables that have one, 0.34 in right ones of the tests, 0.02 in benches of the
-challenge."""
-
-
 @dataclass(frozen=True)
 class Suspicion:
     """A mistake that explains most. before, after: chi-square that is left with the best single effect, without and
@@ -64,18 +58,18 @@ class Suspicion:
 def suspicions(cache: FitCache) -> tuple[Suspicion, ...]:
     """The mistake of the table that explains most, with those that explain as much; none where none does. TooMuch where
     that takes more work than a few searches may."""
-    with at_most(cache.work):
+    with until(cache, MISTAKES):
         table = _table(cache)
         found = [] if table is None else _mended(table, cache)
     if table is None or not found:
         return ()
-    with at_most(cache.work):
+    with until(cache, TWO):
         found = _better_than_two(table, found)
     if not found:
         return ()
     criteria, noise, share = cache.criteria, max(table.fit.degrees, 1), _share(table, cache)
     # A column of which the model predicts little is silenced by a factor: effects with kinks explain it too.
-    with at_most(KINKED * cache.work):
+    with until(cache, KINKED):
         enough = [max(it.after, noise) * criteria.doctor_factor / share for it in found]
         kinked = _least_with_kinks(cache, table, enough)
     found = [it for it in found if not kinked.clears(it.after / share, noise / share, criteria.doctor_factor)]
