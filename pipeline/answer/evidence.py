@@ -116,6 +116,8 @@ class Evidence(Record):
     """Why nothing can be tested."""
     because: str = ""
     """Why the best set explains the misfit and is not named all the same."""
+    unlooked: str = ""
+    """Why sets of several effects were not looked for."""
     zero: str = ""
     """The question whether a sensor was zeroed."""
     law: str = ""

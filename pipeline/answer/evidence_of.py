@@ -59,6 +59,7 @@ def _plain(it: Diagnosis, attempts: Attempts) -> dict[str, Any]:
         "sets": it.sets,
         "untested": it.untested,
         "because": it.decision.because,
+        "unlooked": it.decision.unlooked,
         "zero": "" if zero is None else zero.words,
         "law": it.decision.law or "",
         "failed_checks": tuple(

@@ -29,7 +29,7 @@ from pipeline.selection.cross_validation import agreement
 from pipeline.selection.doctor import Suspicion, suspicions
 from pipeline.selection.fit_cache import FitCache, Names
 from pipeline.selection.next_test import NextTest, best_next_test
-from pipeline.selection.noise_rounds import Again, Settled, settled, with_faults
+from pipeline.selection.noise_rounds import Again, Settled, as_declared, settled, with_faults
 from pipeline.selection.reading_noise import AS_DECLARED, Readings
 from pipeline.selection.rivals import Found
 from pipeline.selection.searched import beginning
@@ -153,11 +153,13 @@ def diagnose(
     if doctor:
         return _unsettled(cache, doctor, refused, attempts, _since(begin))
     again = partial(_cache_of, model, known)
-    done, kinds = (
-        settled(cache, again, attempts),
-        all_sized(dict(sorted(known.items())), scale_for(campaign)).values(),
-    )
-    done = done.attempts.get("whether a sensor is at fault", partial(_at_fault, done, kinds, again), done)
+    if unlooked:
+        # Where a mistake of the table may be left nothing is named: what explains most alone is enough to show.
+        done = as_declared(cache, attempts)
+    else:
+        done = settled(cache, again, attempts)
+        kinds = all_sized(dict(sorted(known.items())), scale_for(campaign)).values()
+        done = done.attempts.get("whether a sensor is at fault", partial(_at_fault, done, kinds, again), done)
     it, attempts, cache = done.it, done.attempts, done.it.found.cache
     whole = cache.whole.campaign
     if it.untested:
@@ -165,7 +167,7 @@ def diagnose(
         return Diagnosis(
             whole, found, it.decision, judgement, {}, None, refused, it.untested, (), _since(begin)
         )
-    found, decision = it.found, it.decision.withheld(UNSURE_OF_TABLE) if unlooked else it.decision
+    found, decision = it.found, it.decision.of_one(UNSURE_OF_TABLE) if unlooked else it.decision
     next_test = attempts.get("the next test", lambda: _next_test(cache, decision), None)
     on_progress("what is certain")
     doubted = {it.effect for it in decision.instead}

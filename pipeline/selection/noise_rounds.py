@@ -76,6 +76,12 @@ def settled(cache: FitCache, again: Again, attempts: Attempts, single: bool = Fa
     return _without_seen(Settled(it, readings, given, with_all, alone, attempts), first.it, again, single)
 
 
+def as_declared(cache: FitCache, attempts: Attempts) -> Settled:
+    """What explains most alone, with all readings as they were declared."""
+    it = chosen(cache, attempts, alone=True)
+    return Settled(it, AS_DECLARED, cache.whole, it.decision.verdict, True, attempts)
+
+
 def _without_seen(here: Settled, seen: Readings, again: Again, single: bool) -> Settled:
     """Where nothing explains all: without the single bad readings that were seen beside one effect, where that leaves
     noise beside which they are bad as well. Beside a play, which takes up one at a turn, they are not seen."""

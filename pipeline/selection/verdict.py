@@ -35,7 +35,7 @@ class Decision:
 
     at_bound: numbers of the first set that end at their bound. out: sets that only an implausible size excludes.
     because: why the best set is not named though it explains all. law: a law beyond the catalogue that explains as
-    much as the sets, in words.
+    much as the sets, in words. unlooked: why sets of several effects were not looked for.
     """
 
     verdict: Verdict
@@ -48,10 +48,15 @@ class Decision:
     out: tuple[Names, ...] = ()
     because: str = ""
     law: str = ""
+    unlooked: str = ""
 
     def withheld(self, because: str) -> Decision:
         """Without the name, where one is given."""
         return self if self.verdict != "identified" else replace(self, verdict="unknown", because=because)
+
+    def of_one(self, because: str) -> Decision:
+        """Of single effects alone: without the name, and with why no more was looked for."""
+        return replace(self.withheld(because), unlooked=because)
 
 
 def ruled(found: Found, judgement: Judgement, attempts: Attempts) -> Decision:

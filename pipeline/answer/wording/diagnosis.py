@@ -65,12 +65,19 @@ def _verdict(it: Answer, evidence: Evidence) -> Iterator[str]:
     elif evidence.because:
         yield f"unknown: {asked}{_and(best)} would explain the misfit, {fall}, but {evidence.because}."
     elif best:
-        rest = "what is left is no noise and nothing known explains it"
+        rest = f"what is left is no noise {_unexplained(evidence)}"
         yield f"unknown: {asked}{_and(best)} {'helps' if len(best) == 1 else 'help'}, {fall}, but {rest}."
     elif evidence.zero:
         yield f"unknown: {asked}Nothing is named before that is settled; the misfit is {sigma(rms)} sigma."
     else:
-        yield f"unknown: the misfit of {sigma(rms)} sigma is no noise, and nothing known explains it."
+        yield f"unknown: the misfit of {sigma(rms)} sigma is no noise, {_unexplained(evidence)}."
+
+
+def _unexplained(evidence: Evidence) -> str:
+    """What was found of misfit that is no noise."""
+    if evidence.unlooked:
+        return f"and no single effect explains it; sets of them were not looked for: {evidence.unlooked}"
+    return "and nothing known explains it"
 
 
 def _surely(it: Answer) -> str:

@@ -46,7 +46,7 @@ def test_nothing_is_named_where_the_table_was_not_looked_at_to_the_end(
 
     assert diagnose(plain(), Model(), KNOWN).verdict == "identified"
     monkeypatch.setattr(diagnosis, "suspicions", too_long)
-    # With a knocked reading a second search follows, and the sentence is still there.
+    # A knocked reading beside it is left as it is, and the reason is still there.
     for table in (plain(), knocked(plain())):
         it = answered(diagnose(table, Model(), KNOWN))
         assert it.verdict == "unknown" and it.added
