@@ -295,7 +295,11 @@ def test_a_plan_says_first_what_its_tests_do_not_show(plan: Plan) -> None:
     text = text_of(out)
     assert_fits(text)
     assert [line.rstrip() for line in text.splitlines()[:2]] == [plan_headline(plan), ""]
-    missed = {s.parameter for s in plan.sizes if not all(v and v <= s.typical for v in (s.detected, s.apart))}
+    missed = {
+        s.parameter
+        for s in plan.sizes
+        if not all(v is not None and v <= s.typical for v in (s.detected, s.apart))
+    }
     for name in missed:
         assert stands(name, text), name
     for k, name in enumerate(plan.names):
