@@ -1,5 +1,7 @@
 """What of the documentation is generated: a mark `<!-- made: NAME -->` in a page is replaced by the text of that name.
 
+A line that says that a page is a source, for those who read it as one, is left out.
+
 Every module beside this one that has `PIECES` belongs to it: texts in MyST Markdown by the names in the marks.
 """
 
@@ -14,6 +16,7 @@ from typing import Any
 
 Piece = Callable[[], str]
 _MARK = re.compile(r"<!-- made: (?P<name>.+?) -->")
+_SOURCE = re.compile(r"^> This is the source of a page.*\n(>.*\n)*\n", re.MULTILINE)
 
 
 @cache
@@ -30,7 +33,7 @@ def pieces() -> Mapping[str, Piece]:
 
 def expanded(page: str) -> str:
     """A page with its marks replaced. ValueError for a name that no module makes."""
-    return _MARK.sub(_made, page)
+    return _MARK.sub(_made, _SOURCE.sub("", page))
 
 
 def _made(mark: re.Match[str]) -> str:

@@ -135,6 +135,13 @@ def test_every_mark_of_a_page_is_made_and_everything_made_is_shown() -> None:
         expanded("<!-- made: no such thing -->")
 
 
+def test_a_page_that_is_read_as_its_source_says_where_the_built_one_is() -> None:
+    for name, text in PAGES.items():
+        said = f"filled in by `make docs`, which writes\n> `build/docs/{name.removesuffix('.md')}.html`.\n"
+        assert (said in text) == ("<!-- made: " in text), name
+        assert "This is the source of a page" not in expanded(text), name
+
+
 def test_every_command_has_all_its_options() -> None:
     text, runner = reference()["reference/commands.md"], CliRunner()
     sections = dict(zip(command_names(), text.split("\n(command-")[1:], strict=True))
