@@ -70,7 +70,9 @@ def _of_curve(at: Array, curve: Array) -> list[str]:
             said.append("less and less steep")
         else:
             said.append("steeper and steeper")
-        up, down = float(np.abs(slopes[far & (at > 0)]).mean()), float(np.abs(slopes[far & (at < 0)]).mean())
-        if abs(up - down) > LOPSIDED * (up + down):
-            said.append("not the same in both directions")
+        ends = [np.abs(slopes[far & side]) for side in (at > 0, at < 0)]
+        if all(end.size for end in ends):
+            up, down = (float(end.mean()) for end in ends)
+            if abs(up - down) > LOPSIDED * (up + down):
+                said.append("not the same in both directions")
     return said or ["curved"]
