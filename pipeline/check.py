@@ -57,7 +57,8 @@ def _examined(campaign: Campaign) -> Iterator[str]:
         yield f"Doctor: {doctor_sentence(it.mistakes)}"
         yield from mends(it.mistakes)
         return
-    yield "Doctor: no unit, sign, exchange or order that would explain most of the misfit."
+    if not campaign.table_checked:
+        yield "Doctor: no unit, sign, exchange or order that would explain most of the misfit."
     if it.zero is not None:
         yield f"Doctor: {it.zero.words}"
     for begin in it.begins:

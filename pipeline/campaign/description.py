@@ -48,7 +48,8 @@ def describe(text: str, complaints: Complaints, folder: FilePath | None = None) 
     if rig is None or complaints.found:
         return Draft(None, names, sources)
     asked = tuple(dict.fromkeys(reader.questions))
-    return Draft(Description(top.name, rig, noise, gauges, heads, sources, known, asked), names, sources)
+    told = Description(top.name, rig, noise, gauges, heads, sources, known, asked, top.table_checked)
+    return Draft(told, names, sources)
 
 
 class _Reader:

@@ -37,7 +37,7 @@ class Description:
     nothing is said.
 
     sources: of files that are read as they are declared; none where measurements.csv is as the contract has it.
-    questions: about numbers of the rigs that are accepted and seldom right.
+    questions: about numbers of the rigs that are accepted and seldom right. table_checked: as of a campaign.
     """
 
     name: str
@@ -48,6 +48,7 @@ class Description:
     sources: tuple[Source, ...] = ()
     tolerance: dict[str, float] | None = None
     questions: tuple[str, ...] = ()
+    table_checked: bool = False
 
     @property
     def rigs(self) -> tuple[Rig, ...]:

@@ -97,7 +97,7 @@ class Campaign:
 
     remarks: sentences on what was accepted but may deserve a look. digests: (name, SHA-256) of each file it was read
     from. tolerance: standard deviations of what is written about the rig, by key (`vjm.tolerances`); what has none is
-    exact.
+    exact. table_checked: whether its table was looked up, so that no mistake of it is looked for.
     """
 
     name: str
@@ -109,6 +109,7 @@ class Campaign:
     remarks: tuple[str, ...] = ()
     digests: tuple[tuple[str, str], ...] = ()
     tolerance: Mapping[str, float] = field(default_factory=dict)
+    table_checked: bool = False
 
     @property
     def rigs(self) -> tuple[Rig, ...]:

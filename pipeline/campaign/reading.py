@@ -34,6 +34,7 @@ from pipeline.typed import command
 DESCRIPTION, MEASUREMENTS = "campaign.toml", "measurements.csv"
 LARGEST = {DESCRIPTION: 2**24, MEASUREMENTS: 2**30}
 """Bytes."""
+CHECKED = "table_checked: no mistake of the table is looked for"
 BY_ROWS = "no column is the step: of each test the rows that are read are its steps, the first is step 0"
 
 
@@ -72,6 +73,7 @@ def read(folder: Path, instead: str | None = None) -> Campaign:
     first.check()
     known, said = _tolerance(description)
     asked = [f"{DESCRIPTION}, {said}" for said in description.questions]
+    asked += [f"{DESCRIPTION}, {CHECKED}"] if description.table_checked else []
     remarks = [*asked, *_sigma_remarks(description, tests), *said, *_by_hand_remarks(tests), *remarks]
     shorter = [thinned(test, noise, description.gauges) for test in tests]
     tests = tuple(test for test, _ in shorter)
@@ -89,6 +91,7 @@ def read(folder: Path, instead: str | None = None) -> Campaign:
         tuple(remarks),
         digests,
         known,
+        description.table_checked,
     )
 
 

@@ -49,6 +49,9 @@ class Top(Table):
     """Coordinates that are computed from several columns, by the name of the coordinate: x, y, z, rx, ry or rz."""
     tests: Annotated[list[dict[str, Any]], Field(min_length=1)]
     """The tests, one table each, in the order in which they were done."""
+    table_checked: Annotated[bool, Field(strict=True)] = False
+    """Whether units, signs, zeros, order and columns were looked up and are right: then no mistake of the table is
+    looked for, and what looks like one is a misfit of the model."""
 
     _name = field_validator("name")(printable)
 

@@ -82,7 +82,8 @@ def _named_files(campaign: Campaign) -> dict[str, bytes]:
 
 def description_text(campaign: Campaign) -> str:
     """campaign.toml."""
-    document: dict[str, Any] = {"schema": 1, "name": campaign.name, "rig": rig_table(campaign.rig)}
+    checked = {"table_checked": True} if campaign.table_checked else {}
+    document: dict[str, Any] = {"schema": 1, "name": campaign.name, **checked, "rig": rig_table(campaign.rig)}
     document["noise"] = noise_table(campaign)
     known = tolerance_table(campaign.tolerance, campaign.rig.written)
     document["tolerance"] = {

@@ -56,8 +56,11 @@ class Suspicion:
 
 
 def suspicions(cache: FitCache) -> tuple[Suspicion, ...]:
-    """The mistake of the table that explains most, with those that explain as much; none where none does. TooMuch where
+    """The mistake of the table that explains most, with those that explain as much; none where none does, or
+    the table was checked by hand. TooMuch where
     that takes more work than a few searches may."""
+    if cache.whole.campaign.table_checked:
+        return ()
     with until(cache, MISTAKES):
         table = _table(cache)
         found = [] if table is None else _mended(table, cache)

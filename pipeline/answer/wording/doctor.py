@@ -7,6 +7,11 @@ from collections.abc import Iterable
 from pipeline.answer.record import DoctorFinding
 from reports.quantities import short
 
+RIGHT = (
+    "If the table was looked up and is right: write table_checked = true above [rig] in campaign.toml, and what is "
+    "left is looked for in the model."
+)
+
 
 def doctor_sentence(found: tuple[DoctorFinding, ...]) -> str:
     """What the table seems to have, and how much of the misfit that is."""
@@ -20,8 +25,9 @@ def doctor_sentence(found: tuple[DoctorFinding, ...]) -> str:
 
 
 def mends(found: tuple[DoctorFinding, ...]) -> tuple[str, ...]:
-    """What mends each."""
-    return tuple(f"If {it.hypothesis}: {it.mend}." for it in found)
+    """What mends each, and what says that there is nothing to mend."""
+    every = (f"If {it.hypothesis}: {it.mend}." for it in found)
+    return (*every, RIGHT) if found else ()
 
 
 def lines_aside(cells: Iterable[tuple[str, int, str]]) -> str:

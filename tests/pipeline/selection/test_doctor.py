@@ -13,7 +13,7 @@ from pipeline.answer.of_diagnosis import answer_of, answered
 from pipeline.answer.record import FoundNoise
 from pipeline.assessment.virtual.bench import measure
 from pipeline.assessment.virtual.plan import SENSORS, bench_plan
-from pipeline.campaign import Campaign, Data
+from pipeline.campaign import Campaign, Data, read, write
 from pipeline.check import _examined
 from pipeline.compare.models import compare_models
 from pipeline.compare.table import sentence
@@ -53,6 +53,20 @@ WRONG = {
     "q_deg is in radians": made.angles_in_radians,
     "width and height of the bars' section are exchanged": made.section_turned,
 }
+
+
+def test_who_checked_the_table_is_asked_about_none(tmp_path: Path) -> None:
+    """What looks like a mistake is a misfit of the model then, and the description keeps that it was checked."""
+    table = WRONG["all forces are in kgf"](bench(*LACKS, ids=FEW))
+    asked = answered(diagnose(table, Model(), {"modulus_error": catalogue()["modulus_error"]}))
+    assert asked.doctor and any("write table_checked = true" in said for said in asked.sentences)
+    write(tmp_path / "bench", replace(table, table_checked=True))
+    right = read(tmp_path / "bench")
+    assert right.table_checked and any("table_checked" in said for said in right.remarks)
+    it = answered(diagnose(right, Model(), {"modulus_error": catalogue()["modulus_error"]}))
+    assert not it.doctor and it.effects == ("modulus_error",)
+    assert not any("kgf" in said for said in it.sentences)
+    assert not any("no unit, sign" in said for said in _examined(right))
 
 
 def test_exchanged_columns_with_empty_cells_are_told() -> None:
@@ -171,7 +185,7 @@ def test_a_sigma_is_proposed_only_for_a_sensor_that_is_no_better(monkeypatch: py
     """With a bar of 4000 mm instead of 400 each dial seems to scatter by a millimetre."""
     noise = (FoundNoise(column="y_mm", declared=0.003, found=1.32),)
     monkeypatch.setattr(check, "examined", lambda *_: Examination((), judged=True, noise=noise))
-    *_, said = _examined(None)  # type: ignore[arg-type]
+    *_, said = _examined(bench())
     assert (
         "y_mm = 1.32 under [noise] if the sensor is no better; if it is, look at the numbers of [rig]" in said
     )
