@@ -60,7 +60,9 @@ def looked(it: Diagnosis, on_progress: OnProgress = lambda _: None) -> Looked:
 
 def _asked(it: Diagnosis) -> bool:
     """Whether anything is to be found by laws: not before the table is settled."""
-    if it.untested or it.doctor or it.decision.zero is not None or it.verdict == "nothing_tested":
+    if it.untested or it.doctor or it.decision.unlooked or it.decision.zero is not None:
+        return False
+    if it.verdict == "nothing_tested":
         return False
     return bool(it.cache.whole.fitted.any())
 

@@ -171,7 +171,9 @@ def diagnose(
     next_test = attempts.get("the next test", lambda: _next_test(cache, decision), None)
     on_progress("what is certain")
     doubted = {it.effect for it in decision.instead}
-    sure = attempts.get("what is certain", lambda: certain(found, decision.sets, doubted), ())
+    sure: tuple[str, ...] = ()
+    if not unlooked:
+        sure = attempts.get("what is certain", lambda: certain(found, decision.sets, doubted), ())
     stable = attempts.get("whether folds of the tests agree", lambda: _agreements(cache, found.best), {})
     alike = attempts.get("whether rows are alike", lambda: alike_rows(cache, decision), NONE)
     return Diagnosis(

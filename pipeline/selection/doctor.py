@@ -56,9 +56,8 @@ class Suspicion:
 
 
 def suspicions(cache: FitCache) -> tuple[Suspicion, ...]:
-    """The mistake of the table that explains most, with those that explain as much; none where none does, or
-    the table was checked by hand. TooMuch where
-    that takes more work than a few searches may."""
+    """The mistake of the table that explains most, with those that explain as much; none where none does, or the table
+    was checked by hand. TooMuch where that takes more work than a few searches may."""
     if cache.whole.campaign.table_checked:
         return ()
     with until(cache, MISTAKES):

@@ -55,8 +55,11 @@ class Decision:
         return self if self.verdict != "identified" else replace(self, verdict="unknown", because=because)
 
     def of_one(self, because: str) -> Decision:
-        """Of single effects alone: without the name, and with why no more was looked for."""
-        return replace(self.withheld(because), unlooked=because)
+        """Of single effects alone, with why no more was looked for: without a name, and without names of which one is
+        said to be right."""
+        if self.verdict not in ("identified", "ambiguous"):
+            return replace(self, unlooked=because)
+        return replace(self, verdict="unknown", sets=self.sets[:1], because=because, unlooked=because)
 
 
 def ruled(found: Found, judgement: Judgement, attempts: Attempts) -> Decision:

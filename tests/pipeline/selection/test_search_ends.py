@@ -6,6 +6,7 @@ import pytest
 
 from pipeline.answer.of_diagnosis import answered
 from pipeline.assessment.coverage.trial import campaign
+from pipeline.discover.beyond_catalogue import with_laws
 from pipeline.inference.model import Model
 from pipeline.selection import diagnosis
 from pipeline.selection.criteria import CRITERIA
@@ -24,8 +25,10 @@ def found(most: float) -> Diagnosis:
 
 
 @pytest.mark.long
-def test_what_was_not_compared_with_all_is_not_named() -> None:
+def test_what_was_not_compared_with_all_is_not_named(monkeypatch: pytest.MonkeyPatch) -> None:
     whole = found(CRITERIA.search_work)
+    # Its table is right: the look for mistakes, which takes of the same work, is not what ends.
+    monkeypatch.setattr(diagnosis, "suspicions", lambda _: ())
     assert whole.verdict == "identified" and not whole.found.ended
     for most in (0.0, 50.0):
         it = found(most)
@@ -48,12 +51,24 @@ def test_nothing_is_named_where_the_table_was_not_looked_at_to_the_end(
     monkeypatch.setattr(diagnosis, "suspicions", too_long)
     # A knocked reading beside it is left as it is, and the reason is still there.
     for table in (plain(), knocked(plain())):
-        it = answered(diagnose(table, Model(), KNOWN))
-        assert it.verdict == "unknown" and it.added
+        it = answered(with_laws(diagnose(table, Model(), KNOWN)))
+        assert not it.laws
+        assert it.verdict == "unknown" and it.added and not it.certain
         assert UNSURE_OF_TABLE in it.sentences[0]
         assert any(
             "the look for mistakes of the table could not be worked out" in said for said in it.not_done
         )
+
+
+def test_single_effects_that_explain_a_table_which_was_not_looked_at_are_no_alternatives() -> None:
+    """One of them would be said to be right, and the table may be wrong."""
+    here = diagnose(plain(), Model(), KNOWN)
+    first = here.decision.sets[0]
+    two = replace(here.decision, verdict="ambiguous", sets=(first, frozenset({"axis_flexibility"})))
+    it = two.of_one(UNSURE_OF_TABLE)
+    assert (it.verdict, it.sets, it.because) == ("unknown", (first,), UNSURE_OF_TABLE)
+    left = replace(here.decision, verdict="unknown").of_one(UNSURE_OF_TABLE)
+    assert not left.because and left.unlooked == UNSURE_OF_TABLE
 
 
 def test_no_second_search_is_begun_once_the_work_of_one_is_done(monkeypatch: pytest.MonkeyPatch) -> None:
