@@ -28,7 +28,7 @@ def cache(play: float) -> FitCache:
 
 @pytest.mark.long
 def test_a_kink_in_one_set_alone_asks_for_more() -> None:
-    it = cache(6e-4)
+    it = cache(1e-3)
     assert needed(it, CONTACT, SOFT) == CRITERIA.exclusion
     choices = it.fit(PLAY).residual
     assert choices.spread > 0.0 < choices.doubt
@@ -37,16 +37,23 @@ def test_a_kink_in_one_set_alone_asks_for_more() -> None:
 
 
 @pytest.mark.long
-@pytest.mark.parametrize(("play", "plain"), [(6e-4, False), (6e-3, True)])
+@pytest.mark.parametrize(("play", "plain"), [(1e-3, False), (6e-3, True)])
 def test_a_play_is_not_excluded_by_what_looks_like_it(play: float, plain: bool) -> None:
     """Nor does one near the noise exclude that; one of six times the noise does."""
     it = cache(play)
+    assert it.fit(PLAY).model.values.size
     assert not excluded(it, PLAY, CONTACT) and excluded(it, CONTACT, PLAY) == plain
 
 
 def test_a_play_twenty_times_the_noise_is_told() -> None:
     it = cache(2e-2)
     assert excluded(it, CONTACT, PLAY) and not excluded(it, PLAY, CONTACT)
+
+
+def test_a_play_that_no_size_helps_is_absent() -> None:
+    """One of 0.6 times the noise: without a number its rows choose no sides, and it is no harder to exclude."""
+    found = cache(6e-4).fit(PLAY)
+    assert not found.model.values.size and found.residual.spread == found.residual.doubt == 0.0
 
 
 @pytest.mark.long

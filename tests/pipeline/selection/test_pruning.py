@@ -142,7 +142,8 @@ def test_what_leaves_less_than_noise_needs_nothing_by_far() -> None:
 @pytest.mark.long
 def test_friction_and_play_under_coarse_sensors_name_nothing_else() -> None:
     """Loads of a tenth, sensors ten times coarser: fits of friction and play end up to 60 of chi-square apart, by the
-    sides that rows chose, and one with a stiffening contact of no size ended below those without it."""
+    sides that rows chose, and one with a stiffening contact of no size ended below those without it. The geometric
+    stiffness of the bars is not seen at such loads, and gauges read their bent axes without it."""
     rig = bench_rig()
     coarse = {name: 10.0 * getattr(SENSORS, name) for name in ("displacement", "wrench", "gauges")}
     hidden = {
@@ -154,4 +155,4 @@ def test_friction_and_play_under_coarse_sensors_name_nothing_else() -> None:
     campaign = measure("coarse", rig, plan, replace(SENSORS, **coarse), hidden, 5, GAUGES)
     found = diagnose(campaign, Model(), catalogue())
     assert found.verdict == "identified"
-    assert set(found.sets[0]) == {"bar_geometric_nonlinearity", "joint_clearance", "joint_friction"}
+    assert set(found.sets[0]) == {"joint_clearance", "joint_friction"}

@@ -61,8 +61,9 @@ def test_beside_a_play_friction_is_seen_about_the_fit_of_the_play_alone() -> Non
 
 @pytest.mark.long
 def test_near_an_explanation_a_play_that_alone_finds_nothing_is_in_no_pair() -> None:
-    """Unknown, for bars that bend under the load are left out of the candidates; fits with a play take longest."""
-    plan: tuple[PlannedTest, ...] = scaled(bench_plan(), bench_rig(), 0.1)
+    """Unknown, for bars that bend under the load are left out of the candidates and a third of the loads shows them: a
+    tenth does not, where gauges between the ends of a lumped bar read its bent axis. Fits with a play take longest."""
+    plan: tuple[PlannedTest, ...] = scaled(bench_plan(), bench_rig(), 0.3)
     campaign = measure("plain", bench_rig(), plan, COARSE, {"load_offset.y_mm": 9.0}, 5, GAUGES)
     it = found(campaign, (BASE, "material_yield"))
     assert it.verdict == "unknown" and it.fit.rms < 1.3
