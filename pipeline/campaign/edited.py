@@ -41,6 +41,13 @@ def changed(text: str, changes: Sequence[Change]) -> tuple[str, tuple[str, ...]]
     return tomlkit.dumps(document), tuple(dict.fromkeys(line for line in lines if line))
 
 
+def checked(text: str) -> str:
+    """The text with `table_checked = true` above its tables. InputError for what is no TOML."""
+    document = parsed(text)
+    document["table_checked"] = True
+    return tomlkit.dumps(document)
+
+
 Counts = Literal["set_aside", "keep", "as it is"]
 
 

@@ -7,11 +7,14 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from pipeline.campaign import Campaign, read
-from pipeline.campaign.edited import Change, changed, same
+from pipeline.campaign.edited import Change, changed, checked, same
 from pipeline.campaign.reading import DESCRIPTION
 from pipeline.errors import InputError
 from pipeline.selection.doctor import Suspicion
 from pipeline.selection.unknown_zeros import Zero
+
+RIGHT = "the table was looked up and is right"
+"""Then it may have what looks like a mistake, and what is left is looked for in the model."""
 
 
 @dataclass(frozen=True)
@@ -26,7 +29,7 @@ class Mend:
 def mends(folder: Path, found: Sequence[Suspicion], zero: Zero | None) -> tuple[Mend, ...]:
     """Of what was found in a campaign's folder, and of a sensor that was not zeroed, those that its description can
     say. A line is none where the file, read with it, is not as the doctor has mended it: a load cell that is turned, a
-    header that names another unit. Nothing is written."""
+    header that names another unit. Last, where a mistake was found, that the table is right. Nothing is written."""
     campaign, text = read(folder), (folder / DESCRIPTION).read_bytes().decode("utf-8-sig")
     return tuple(_mends(campaign, folder, text, found, zero))
 
@@ -43,6 +46,8 @@ def _mends(
         it = _tried(folder, text, zero.words.removesuffix(': zero = "fitted"?'), fitted)
         if it is not None:
             yield it
+    if found:
+        yield Mend(RIGHT, ("table_checked = true",), checked(text))
 
 
 def _tried(folder: Path, text: str, words: str, changes: Sequence[Change]) -> Mend | None:

@@ -61,7 +61,8 @@ def test_a_lost_sign_is_written_as_a_line_and_the_table_is_explained(
     session: Session, tmp_path: Path
 ) -> None:
     folder = diagnosed(session, "n_e_flip", tmp_path)
-    (it,) = panel(session)["mends"]
+    it, right = panel(session)["mends"]
+    assert right == {"words": "the table was looked up and is right", "lines": ["table_checked = true"]}
     assert it["words"] == "all forces have the wrong sign" and it["lines"][0].startswith("[columns] fx_N = ")
     left = session.page.error[-1].fit if session.page is not None else 0.0
     session.mend(0)

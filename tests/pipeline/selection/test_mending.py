@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -9,7 +10,7 @@ import pytest
 from pipeline.campaign import read, write
 from pipeline.campaign.edited import same
 from pipeline.selection.doctor import Suspicion
-from pipeline.selection.mending import Mend, mends
+from pipeline.selection.mending import RIGHT, Mend, mends
 from pipeline.selection.mistakes import possible
 from pipeline.selection.mistakes.base import Mistake
 from tests.pipeline.bench import bench
@@ -22,7 +23,10 @@ def mistakes(folder: Path) -> dict[str, Mistake]:
 
 
 def offered(folder: Path, words: str) -> tuple[Mend, ...]:
-    return mends(folder, [Suspicion(mistakes(folder)[words], 1.0, 0.0, frozenset())], None)
+    """What mends that mistake; the last offer, that there is none, is looked at by a test of its own."""
+    *found, last = mends(folder, [Suspicion(mistakes(folder)[words], 1.0, 0.0, frozenset())], None)
+    assert last.words == RIGHT
+    return tuple(found)
 
 
 WRONG = {
@@ -55,6 +59,17 @@ def test_what_the_columns_of_the_contract_have_wrong_is_a_line(words: str, tmp_p
     now = read(tmp_path / "rig")
     assert same(now, right) or "zeroed" in words
     assert not same(now, wrong(right))
+
+
+def test_that_the_table_is_right_is_a_line_too(tmp_path: Path) -> None:
+    write(tmp_path, made.over(-1.0, *made.FORCES)(bench("modulus_error.scale", 0.95)))
+    given = read(tmp_path)
+    it = mends(tmp_path, [Suspicion(next(iter(possible(given))), 1.0, 0.0, frozenset())], None)[-1]
+    assert it.lines == ("table_checked = true",)
+    (tmp_path / "campaign.toml").write_text(it.text, encoding="utf-8")
+    now = read(tmp_path)
+    assert now.table_checked and not given.table_checked and same(replace(now, table_checked=False), given)
+    assert mends(tmp_path, [], None) == ()
 
 
 def test_a_unit_is_a_line_where_the_header_names_none(tmp_path: Path) -> None:
