@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, replace
 from functools import partial
 from time import perf_counter
@@ -28,6 +28,7 @@ from pipeline.selection.criteria import CRITERIA, Criteria
 from pipeline.selection.cross_validation import agreement
 from pipeline.selection.doctor import Suspicion, suspicions
 from pipeline.selection.fit_cache import FitCache, Names
+from pipeline.selection.named_faults import with_named_faults
 from pipeline.selection.next_test import NextTest, best_next_test
 from pipeline.selection.noise_rounds import Again, Settled, as_declared, settled, with_faults
 from pipeline.selection.reading_noise import AS_DECLARED, Readings
@@ -159,7 +160,7 @@ def diagnose(
     else:
         done = settled(cache, again, attempts)
         kinds = all_sized(dict(sorted(known.items())), scale_for(campaign)).values()
-        done = done.attempts.get("whether a sensor is at fault", partial(_at_fault, done, kinds, again), done)
+        done = _of_sensors(done, kinds, again)
     it, attempts, cache = done.it, done.attempts, done.it.found.cache
     whole = cache.whole.campaign
     if it.untested:
@@ -197,9 +198,21 @@ def diagnose(
     )
 
 
-def _at_fault(done: Settled, kinds: Iterable[Effect], again: Again) -> Settled:
+def _of_sensors(done: Settled, kinds: Iterable[Effect], again: Again) -> Settled:
+    """With faults of sensors: in the place of what is not explained, then of each effect that one explains as well."""
+    for what, look in (
+        ("whether a sensor is at fault", partial(with_faults, again=again)),
+        ("which fault of a sensor explains as much", with_named_faults),
+    ):
+        done = done.attempts.get(what, partial(_within_its_share, look, done, kinds), done)
+    return done
+
+
+def _within_its_share(
+    look: Callable[[Settled, Iterable[Effect]], Settled], done: Settled, kinds: Iterable[Effect]
+) -> Settled:
     with for_faults(done.it.found.cache):
-        return with_faults(done, kinds, again)
+        return look(done, kinds)
 
 
 def _next_test(cache: FitCache, decision: Decision) -> NextTest | None:

@@ -21,6 +21,7 @@ from pipeline.campaign import Campaign
 from pipeline.inference.fit import Fit
 from pipeline.inference.linear_prediction import predict_linear
 from pipeline.inference.load_cases import LoadCases, load_cases
+from pipeline.inference.model import at_bound
 from pipeline.inference.multistart import best_fit
 from pipeline.inference.predicted import Prediction
 from pipeline.inference.prior import implausibility
@@ -266,11 +267,17 @@ def _shows(mended: Table, mistake: Mistake) -> bool:
 
 def _explained(found: Fit, mistake: Mistake, criteria: Criteria) -> bool:
     """Whether the model explains the columns of a mistake, where it predicts them and they read more than noise: a
-    factor that silences a column explains nothing."""
+    factor that silences a column explains nothing, nor does a model that is far off in one of them, or that has a
+    number at the bound of what it may be."""
     parts = list(_signals(found, mistake))
+    if at_bound(found.model):
+        return False
     if not parts:
         return True
     loud = [(signal, left) for signal, left, count in parts if signal > criteria.doctor_explains * count]
+    # As far off as what is of the same size and has nothing to do with it.
+    if any(left > 2.0 * signal for signal, left in loud):
+        return False
     signal, left = sum(s for s, _ in loud), sum(x for _, x in loud)
     return bool(loud) and left * criteria.doctor_factor < signal
 

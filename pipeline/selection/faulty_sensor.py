@@ -48,12 +48,12 @@ def _most(campaign: Campaign, share: float) -> dict[str, float]:
     return out
 
 
-def with_promising_faults(cache: FitCache, known: Iterable[Effect], best: Names) -> FitCache | None:
-    """The same with the faults that promise most beside the effects; None where none promises anything."""
+def with_promising_faults(cache: FitCache, known: Iterable[Effect], sets: Iterable[Names]) -> FitCache | None:
+    """The same with the faults that promise most beside one of the sets; None where none promises anything."""
     every = faults_of(known, cache.whole.campaign, cache.criteria)
     every = {name: it for name, it in every.items() if name not in cache.candidates}
     criteria, chosen = cache.criteria, list[str]()
-    for names in dict.fromkeys([best, frozenset[str]()]):
+    for names in dict.fromkeys(sets):
         beside = {name: cache.candidates[name] for name in cache.order(names)}
         gains = _gains(cache.with_candidates({**beside, **every}), names, every)
         enough = entry_for(cache, 1, len(every))

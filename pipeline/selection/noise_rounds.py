@@ -120,7 +120,7 @@ def with_faults(before: Settled, known: Iterable[Effect], again: Again) -> Settl
         return before
     if judge(cache.fit(best), cache.criteria).noise:
         return before
-    more = with_promising_faults(cache, known, best)
+    more = with_promising_faults(cache, known, (best, frozenset()))
     if more is None:
         return before
     cache.on_progress("whether a sensor is at fault")

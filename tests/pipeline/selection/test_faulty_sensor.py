@@ -109,9 +109,9 @@ def test_two_sensors_at_fault_at_once_are_no_name() -> None:
 def test_one_bad_reading_promises_no_fault(sigmas: float) -> None:
     known, base = some(), Model().with_effects([catalogue()[ALWAYS]])
     cache = cached_fits(knocked(read({}), sigmas), base, known)
-    assert with_promising_faults(cache, known.values(), frozenset()) is None
+    assert with_promising_faults(cache, known.values(), (frozenset(),)) is None
     faulty = cached_fits(knocked(read({f"{QUICK}.size": 15.0}), sigmas), base, known)
-    there = with_promising_faults(faulty, known.values(), frozenset())
+    there = with_promising_faults(faulty, known.values(), (frozenset(),))
     assert there is not None and QUICK in there.candidates
 
 
@@ -145,14 +145,24 @@ def test_only_one_fault_of_a_sensor_may_be_named() -> None:
     ],
 )
 def test_cross_talk_is_no_turn_of_the_cell(column: str, named: str) -> None:
-    """Into fy it is one with a turn of the cell about z, where no side force is large: then both are told."""
-    found = diagnose(read({f"sensor_cross_talk@{column}.share": 0.005}), Model(), some())
-    assert found.sets == ((ALWAYS, named),)
-    told = [fault.words for fault in found.instead]
+    """Into fy it is one with a turn of the cell about z, where no side force is large: then both are told, with their
+    numbers."""
+    fault = f"sensor_cross_talk@{column}"
+    found = diagnose(read({f"{fault}.share": 0.005}), Model(), some())
+    assert found.sets[0] == (ALWAYS, named) and not found.instead
     if named == "load_misalignment":
-        assert found.verdict == "ambiguous" and told == ["fy answers to fx"]
+        assert found.verdict == "ambiguous" and found.sets[1:] == ((ALWAYS, fault),)
+        (share,) = found.about(found.sets[1]).fit.model.values
+        assert share == pytest.approx(0.005, rel=0.1)
     else:
-        assert found.verdict == "identified" and not told
+        assert found.verdict == "identified" and found.sets == ((ALWAYS, fault),)
+
+
+def test_a_pattern_that_is_no_fault_of_the_catalogue_stays_in_words() -> None:
+    known = {name: it for name, it in some().items() if name != "sensor_cross_talk"}
+    found = diagnose(read({"sensor_cross_talk@fy_N<fx_N.share": 0.005}), Model(), known)
+    assert found.verdict == "ambiguous" and found.sets == ((ALWAYS, "load_misalignment"),)
+    assert [it.words for it in found.instead] == ["fy answers to fx"]
 
 
 @pytest.mark.long
