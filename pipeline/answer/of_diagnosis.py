@@ -134,14 +134,14 @@ def _other_noise(it: Diagnosis) -> Iterator[FoundNoise]:
 
 
 def _correlated(it: Diagnosis) -> Iterator[FoundNoise]:
-    """Sensors whose noise is correlated from row to row, of the sigmas that count."""
+    """Sensors whose noise is correlated from row to row, with the sigmas that count."""
     sigmas, names = sigmas_of(it.campaign), columns_of(it.campaign)
+    declared = sigmas if it.given is None else sigmas_of(it.given)
     for each in it.alike_rows.sensors:
-        here = float(sigmas[each.channel])
         yield FoundNoise(
             column=names[each.channel],
-            declared=here,
-            found=here,
+            declared=float(declared[each.channel]),
+            found=float(sigmas[each.channel]),
             relative_error=each.error / each.correlation,
             correlation=each.correlation,
         )

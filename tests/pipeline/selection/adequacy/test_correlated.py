@@ -108,6 +108,16 @@ def test_it_is_told_beside_a_verdict_that_stands() -> None:
     assert any("fz_N (0.7" in each and "times as wide" in each for each in answered(it).sentences)
 
 
+def test_the_sigma_beside_it_is_that_of_the_file_and_what_was_found() -> None:
+    it = replace(read((FZ,), 0.4, {}), tolerance={"length_mm": 0.05})
+    half = replace(it, noise=replace(it.noise, wrench=0.5 * it.noise.wrench))
+    known = {name: catalogue()[name] for name in (ALWAYS, "modulus_error")}
+    rows = [each for each in answer_of(diagnose(half, Model(), known)).noise if each.column == "fz_N"]
+    assert [each.correlation is not None for each in rows] == [False, True]
+    assert {each.declared for each in rows} == {float(half.noise.wrench[2])}
+    assert all(1.5 < each.found / each.declared < 2.5 for each in rows)
+
+
 @pytest.mark.long
 def test_it_is_one_explanation_where_nothing_known_explains_the_rest() -> None:
     """Helpers that order along the load paths let in are not beside it."""
