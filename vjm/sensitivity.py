@@ -8,7 +8,7 @@ of fourth order their error, about the fourth power of the relative step, is at 
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import TypeVar
 
@@ -60,20 +60,33 @@ class Sensitivity:
         return np.sum([self.unknowns[..., place, :] for place in places], axis=0)
 
 
+def _none(_: float) -> Mapping[str, Array]:
+    return {}
+
+
 @dataclass(frozen=True, eq=False)
 class Direction:
     """One parameter p of the mechanism: `build(value)` is the mechanism of the state.
 
-    size: typical size of p; differences reach 2e-3 of it to either side.
+    size: typical size of p; differences reach 2e-3 of it to either side. inputs(value): those
+    inputs, by name, that p moves; they broadcast against the batch.
     """
 
     build: Callable[[float], Mechanism]
     value: float
     size: float
+    inputs: Callable[[float], Mapping[str, Array]] = _none
 
     def moved(self, state: Equilibrium, change: float) -> Equilibrium:
         """The unknowns of the state in what a change of p makes of the mechanism."""
-        return replace(state, mechanism=self.build(self.value + change))
+        value = self.value + change
+        mechanism = self.build(value)
+        place, drives = lagrangian.layout(mechanism), state.drives
+        for name, there in self.inputs(value).items():
+            number = place.drives.index(name)
+            drives = drives if drives is not state.drives else drives.copy()
+            drives[..., number] = there - place.defaults[number]
+        return replace(state, mechanism=mechanism, drives=drives)
 
 
 @dataclass(frozen=True, eq=False)

@@ -6,7 +6,7 @@ Units N, mm, rad, temperatures in °C, base frame.
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, ClassVar
@@ -20,13 +20,14 @@ from pipeline.campaign.usual_tests import UsualTest
 from vjm.effects.base import Rig as Bench
 from vjm.effects.sized import Scale
 from vjm.manipulator.posed import Posed
+from vjm.manipulator.standing import Standing
 from vjm.parts import Leg
 from vjm.sensors import DeadWeight, Sensor, TrueMoment
 
 Array = NDArray[np.float64]
 LARGE_TURN = 1.0
 """rad. No parallelogram turns its platform so far; a slender bar's tip may, but degrees are more likely."""
-Solvable = Bench | Posed
+Solvable = Bench | Posed | Standing
 """A mechanism that effects can change."""
 Mistakes = list[tuple[str, str]]
 """Keys of a table, each with what is wrong with it."""
@@ -151,6 +152,19 @@ class Rig(ABC):
     @abstractmethod
     def mechanism(self, gauges: tuple[Gauge, ...]) -> Solvable:
         """The plain mechanism: lumped springs (Eq. 1), known weights, sensors that read true moments."""
+
+    def stands_as(self, other: Rig) -> bool:
+        """Whether it differs from another rig by no more than where the unloaded platform stands: tests of both are
+        solved together."""
+        return self is other
+
+    def mechanism_of(self, rigs: tuple[Rig, ...], gauges: tuple[Gauge, ...]) -> Solvable:
+        """The plain mechanism of tests on rigs (T,) that stand as this one."""
+        return self.mechanism(gauges)
+
+    def inputs_of(self, mechanism: Solvable, rigs: tuple[Rig, ...]) -> Mapping[str, Array]:
+        """(T,) of each input by which such a mechanism stands where the rig of a test does."""
+        return {}
 
     @abstractmethod
     def nominal_pose(self, q: Array) -> Array:

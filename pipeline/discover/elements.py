@@ -119,7 +119,7 @@ def _of_mechanism(found: Fit, flat: Callable[[Array], Array], roots: Array) -> I
 
 def _bench(found: Fit, group: Group) -> Rig:
     """The mechanism of a fit on the rig of some tests. NoSites where that is no bar and no parallelogram."""
-    mechanism = found.model.mechanism(group.rig, found.residual.load_cases.campaign.gauges)
+    mechanism = found.model.mechanism(group, found.residual.load_cases.campaign.gauges)
     if not isinstance(mechanism, Bar | Parallelogram):
         raise NoSites(f"sites of laws are those of a bar or a parallelogram, not of a {group.rig.kind}")
     return mechanism

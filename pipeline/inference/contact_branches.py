@@ -126,7 +126,7 @@ def begun(model: Model, cases: LoadCases, start: Prediction | None) -> Array | N
     if start is None:
         return None
     if remembering(model):
-        own = [model.mechanism(group.rig, cases.campaign.gauges) for group in cases.groups]
+        own = [model.mechanism(group, cases.campaign.gauges) for group in cases.groups]
         pairs = zip(own, start.states, strict=True)
         if any(initial_memory(rig).size != state.memory.shape[-1] for rig, state in pairs):
             return None

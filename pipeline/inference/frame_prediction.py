@@ -98,7 +98,8 @@ def _of_a_manipulator(
     values, by_inputs = np.zeros((rows, channels)), np.zeros((rows, channels, INPUTS))
     for group in load_cases.groups:
         place, real = load_cases.rows_of(group), group.real
-        predicted, own = _constant(group, _stiffness(group.rig))
+        each = {rig: _stiffness(rig) for rig in dict.fromkeys(group.rigs)}
+        predicted, own = _constant(group, np.stack([each[rig] for rig in group.rigs]))
         values[place] = predicted[real]
         by_inputs[place, :, :6] = np.broadcast_to(own[:, None], (*real.shape, channels, 6))[real]
     empty = np.zeros((rows, channels, 0)), np.zeros((rows, INPUTS)), no_stops(rows), no_slides(rows)
@@ -117,6 +118,7 @@ def _constant(group: Group, stiffness: Array) -> tuple[Array, Array]:
     """Readings (T, S, 12), displacements and forces, and their derivative (T, 12, 6) by what is prescribed.
 
     Of each coordinate one of the two is given; the manipulator carries the force read and the known weight.
+    stiffness: (T, 6, 6).
     """
     weight = np.zeros(6)
     if group.rig.down is not None:
@@ -124,14 +126,14 @@ def _constant(group: Group, stiffness: Array) -> tuple[Array, Array]:
     given = group.targets - np.where(group.channels < 6, group.nominal[:, 0], 0.0)[:, None]
     tangent = np.zeros((len(group.numbers), 12, 6))
     constant = np.zeros((len(group.numbers), 12))
-    for test, channels in enumerate(group.channels):
+    for test, (channels, own) in enumerate(zip(group.channels, stiffness, strict=True)):
         held, free = np.flatnonzero(channels < 6), np.flatnonzero(channels >= 6)
         moved = tangent[test, :6]
         moved[held, held] = 1.0
-        inner = stiffness[np.ix_(free, free)]
+        inner = own[np.ix_(free, free)]
         moved[free[:, None], free] = np.linalg.inv(inner)
-        moved[free[:, None], held] = -np.linalg.solve(inner, stiffness[np.ix_(free, held)])
-        tangent[test, 6:] = stiffness @ moved
+        moved[free[:, None], held] = -np.linalg.solve(inner, own[np.ix_(free, held)])
+        tangent[test, 6:] = own @ moved
         constant[test, free] = np.linalg.solve(inner, weight[free])
-        constant[test, 6:] = stiffness @ constant[test, :6] - weight
+        constant[test, 6:] = own @ constant[test, :6] - weight
     return np.einsum("tci,tsi->tsc", tangent, given) + constant[:, None], tangent

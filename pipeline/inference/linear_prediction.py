@@ -7,8 +7,8 @@ import numpy as np
 from pipeline.inference.load_cases import INPUTS, Group, LoadCases
 from pipeline.inference.model import Model
 from pipeline.inference.predicted import Prediction, no_slides, no_stops, zeroed
+from vjm.effects.thermal_expansion import DRIVE
 from vjm.equilibrium import equilibrium
-from vjm.lagrangian import layout
 from vjm.reasons import Reason
 from vjm.sensitivity import by_targets
 
@@ -39,12 +39,14 @@ def predict_linear(load_cases: LoadCases) -> Prediction:
 
 def _group(load_cases: LoadCases, group: Group) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Readings (T, S, C), tangents (T, C, 6) and why there is none (T,)."""
-    mechanism = Model().mechanism(group.rig, load_cases.campaign.gauges)
+    mechanism = Model().mechanism(group, load_cases.campaign.gauges)
     if load_cases.campaign.gauges:
         mechanism = mechanism.changed(mechanism.view.refined())
     nominal = group.nominal[:, 0]
     free = np.where(group.channels < 6, nominal, 0.0)
-    drives = {"q": group.q} if "q" in layout(mechanism).drives else {}
+    inputs = group.inputs(mechanism)
+    # At the reference temperature.
+    drives = {name: value[:, 0] for name, value in inputs.items() if name != DRIVE}
     state = equilibrium(mechanism, free, group.channels, drives=drives)
     tangent = by_targets(state)
     change = group.targets - free[:, None]

@@ -8,10 +8,12 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from pipeline.campaign import Campaign, Test
+from pipeline.campaign import Campaign, Gauge, Test
 from pipeline.campaign import Rig as Described
 from pipeline.campaign.names import DISPLACEMENT, FORCE, SUPPORT, channel_columns
+from pipeline.campaign.rig import Solvable
 from vjm.effects.sensor_fault import Rows
+from vjm.effects.thermal_expansion import DRIVE
 from vjm.lagrangian import layout
 from vjm.work import UNKNOWNS
 
@@ -26,13 +28,15 @@ LOST = 30.0
 
 @dataclass(frozen=True, eq=False)
 class Group:
-    """Tests of one rig, filled up to equal numbers of steps with their last one.
+    """Tests on one rig, or on rigs that stand as it (`Rig.stands_as`), filled up to equal numbers of steps with their
+    last one.
 
-    numbers: (T,) of the tests in the campaign. lengths: (T,) steps. targets: (T, S, 6) as `vjm.equilibrium`
-    takes them. channels: (T, 6). q: (T,) rad. rise: (T, S) K above the reference temperature.
+    rigs: (T,), the first one `rig`. numbers: (T,) of the tests in the campaign. lengths: (T,) steps. targets:
+    (T, S, 6) as `vjm.equilibrium` takes them. channels: (T, 6). q: (T,) rad. rise: (T, S) K above the reference
+    temperature.
     """
 
-    rig: Described
+    rigs: tuple[Described, ...]
     numbers: np.ndarray
     lengths: np.ndarray
     targets: Array
@@ -41,9 +45,32 @@ class Group:
     rise: Array
 
     @property
+    def rig(self) -> Described:
+        """Of the first test: the others differ by where they stand alone."""
+        return self.rigs[0]
+
+    @property
     def nominal(self) -> Array:
         """(T, 1, 6) pose from which displacements count."""
-        return self.rig.nominal_pose(self.q)[:, None, :]
+        if all(rig is self.rig for rig in self.rigs):
+            return self.rig.nominal_pose(self.q)[:, None, :]
+        return np.stack([rig.nominal_pose(q) for rig, q in zip(self.rigs, self.q, strict=True)])[:, None, :]
+
+    def mechanism(self, gauges: tuple[Gauge, ...]) -> Solvable:
+        """The plain mechanism of all of them."""
+        return self.rig.mechanism_of(self.rigs, gauges)
+
+    def inputs(self, mechanism: Solvable) -> dict[str, Array]:
+        """(T, 1) or (T, S) of each input of a mechanism, made of the plain one, by what a test prescribes: its angle,
+        its temperature, where its rig stands."""
+        drives = layout(mechanism).drives
+        given = {"q": self.q[:, None], DRIVE: self.rise}
+        out = {name: value for name, value in given.items() if name in drives}
+        return out | self.standing(mechanism)
+
+    def standing(self, mechanism: Solvable) -> dict[str, Array]:
+        """(T, 1) of the inputs by which it stands where the rig of each test does."""
+        return {name: value[:, None] for name, value in self.rig.inputs_of(mechanism, self.rigs).items()}
 
     def turned(self, angle: float) -> Group:
         """The tests with the unloaded linkage turned to further angles, rad, from where displacements count."""
@@ -63,7 +90,7 @@ class Group:
         """Every real step as a test of its own, without filling; numbers are those of their tests."""
         test, step = np.nonzero(self.real)
         return Group(
-            self.rig,
+            tuple(self.rigs[k] for k in test),
             self.numbers[test],
             np.ones(test.size, dtype=int),
             self.targets[test, step][:, None],
@@ -128,8 +155,8 @@ class LoadCases:
     @cached_property
     def unknowns(self) -> float:
         """Of all rigs together, each solved by itself, in those of a parallelogram; at least one."""
-        rigs = (group.rig.mechanism(self.campaign.gauges) for group in self.groups)
-        return max(1.0, sum(layout(it).size for it in rigs) / UNKNOWNS)
+        every = (group.mechanism(self.campaign.gauges) for group in self.groups)
+        return max(1.0, sum(layout(it).size for it in every) / UNKNOWNS)
 
     @cached_property
     def unweighted(self) -> np.ndarray:
@@ -228,7 +255,7 @@ def load_cases(campaign: Campaign) -> LoadCases:
     np.put_along_axis(predicted, channels, False, axis=1)
     groups: dict[int, list[int]] = {}
     for k, test in enumerate(tests):
-        same = next((n for n in groups if tests[n].rig is test.rig), k)
+        same = next((n for n in groups if tests[n].rig.stands_as(test.rig)), k)
         groups.setdefault(same, []).append(k)
     return LoadCases(
         campaign,
@@ -244,21 +271,20 @@ def load_cases(campaign: Campaign) -> LoadCases:
 
 def _group(campaign: Campaign, numbers: np.ndarray) -> Group:
     tests = [campaign.tests[n] for n in numbers]
-    rig = tests[0].rig
     lengths = np.array([t.data.steps.size for t in tests])
     longest = int(lengths.max())
     q = np.array([t.q for t in tests])
     channels = np.array([_channels(t.control, [g.name for g in campaign.gauges]) for t in tests])
     targets, rise = np.zeros((len(tests), longest, 6)), np.zeros((len(tests), longest))
-    reference = rig.reference_temperature
+    reference = tests[0].rig.reference_temperature
     for k, test in enumerate(tests):
         inputs = test.inputs(campaign.gauges)
-        inputs = inputs + np.where(channels[k] < 6, rig.nominal_pose(q[k]), 0.0)
+        inputs = inputs + np.where(channels[k] < 6, test.rig.nominal_pose(q[k]), 0.0)
         targets[k] = inputs[np.minimum(np.arange(longest), lengths[k] - 1)]
         if test.data.temperature is not None and reference is not None:
             warm = np.nan_to_num(test.data.temperature - reference)
             rise[k] = warm[np.minimum(np.arange(longest), lengths[k] - 1)]
-    return Group(rig, numbers, lengths, targets, channels, q, rise)
+    return Group(tuple(t.rig for t in tests), numbers, lengths, targets, channels, q, rise)
 
 
 def _by_displacement(test: Test) -> Test:

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field, fields, replace
+from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
-from pipeline.campaign import Gauge, Rig
+from pipeline.campaign import Gauge
 from pipeline.campaign.rig import Solvable
 from pipeline.inference.rounding import AT_BOUND
 from pipeline.parameter_names import path_of
@@ -20,6 +21,13 @@ Array = NDArray[np.float64]
 START = 3e-3
 """A parameter stays at least this part of its typical size inside its bounds: there it has a derivative to both
 sides, and an effect whose null is a bound is there, while what it does is far below any noise."""
+
+
+class Built(Protocol):
+    """What is built of a rig, or of the rigs of several tests."""
+
+    def mechanism(self, gauges: tuple[Gauge, ...]) -> Solvable:
+        """Plain, for effects to change."""
 
 
 @dataclass(frozen=True)
@@ -120,11 +128,11 @@ class Model:
         """The model without one of its effects."""
         return replace(self, terms=tuple(term for term in self.terms if term.effect.name != name))
 
-    def mechanism(self, rig: Rig, gauges: tuple[Gauge, ...]) -> Solvable:
-        """The mechanism of a rig. ValueError for an effect that this rig cannot have."""
+    def mechanism(self, rig: Built, gauges: tuple[Gauge, ...]) -> Solvable:
+        """The mechanism of a rig, or of tests on rigs alike. ValueError for an effect that this rig cannot have."""
         return self._built((*self.nominals, *self.terms), rig.mechanism(gauges))
 
-    def reads_alone(self, free: Free, value: float, rig: Rig, gauges: tuple[Gauge, ...]) -> bool:
+    def reads_alone(self, free: Free, value: float, rig: Built, gauges: tuple[Gauge, ...]) -> bool:
         """Whether another value of this number changes what sensors read, and nothing else.
 
         The effects before its own and itself are asked. Those of the catalogue that come after it make no difference by

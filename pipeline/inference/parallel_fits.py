@@ -47,4 +47,4 @@ def _fit(model: Model, numbers: Numbers, load_cases: LoadCases) -> Fit:
 
 
 def _state(model: Model, load_cases: LoadCases, group: Group, bare: Bare) -> Equilibrium:
-    return Equilibrium(model.mechanism(group.rig, load_cases.campaign.gauges), *bare)
+    return Equilibrium(model.mechanism(group, load_cases.campaign.gauges), *bare)

@@ -142,7 +142,7 @@ def _group(
     held: bool,
     bent: bool,
 ) -> _Part:
-    mechanism, rows = model.mechanism(group.rig, load_cases.campaign.gauges), load_cases.rows_of(group)
+    mechanism, rows = model.mechanism(group, load_cases.campaign.gauges), load_cases.rows_of(group)
     if held or not initial_memory(mechanism).size:
         # Filling would be solved for nothing; it gets the state that it repeats.
         alone = group.by_steps
@@ -166,9 +166,8 @@ def _solved(
     bent: bool,
 ) -> _Part:
     """rows: (T, S) of the steps of the group in the load cases."""
-    drives = layout(mechanism).drives
-    inputs = {"q": np.broadcast_to(group.q[:, None], group.rise.shape), DRIVE: group.rise}
-    inputs = {name: value for name, value in inputs.items() if name in drives}
+    drives, shape = layout(mechanism).drives, group.rise.shape
+    inputs = {name: np.broadcast_to(value, shape) for name, value in group.inputs(mechanism).items()}
     count = len(model.free) if slopes else 0
     moving = in_mechanism(model)[:count]
     asked: list[AnyDirection] = []
@@ -296,13 +295,13 @@ def _direction(model: Model, number: int, group: Group, load_cases: LoadCases) -
     def moved(other: float) -> Solvable:
         values = model.values
         values[number] = other
-        return model.at(values).mechanism(group.rig, gauges)
+        return model.at(values).mechanism(group, gauges)
 
     # As far as differences go, and no further: bounds are near.
     *_, (change, _) = differences(1, size)
-    if model.reads_alone(each, value + change, group.rig, gauges):
+    if model.reads_alone(each, value + change, group, gauges):
         return SensorDirection(lambda other: moved(other).sensors, value, size)
-    return Direction(moved, value, size)
+    return Direction(moved, value, size, lambda other: group.standing(moved(other)))
 
 
 def coordinate_names(load_cases: LoadCases) -> tuple[str, ...]:

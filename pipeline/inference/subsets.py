@@ -42,7 +42,7 @@ def rows_in(cases: LoadCases, other: LoadCases) -> Rows | None:
 def carried(found: Prediction, cases: LoadCases, other: LoadCases) -> Prediction | None:
     """A prediction of other load cases at the rows of cases; None where some are not there, or of another rig."""
     rows = rows_in(cases, other)
-    known = all(any(group.rig is one.rig for one in other.groups) for group in cases.groups)
+    known = all(any(group.rig.stands_as(one.rig) for one in other.groups) for group in cases.groups)
     return None if rows is None or not known else at_rows(found, other, cases, rows)
 
 
@@ -50,7 +50,7 @@ def states_at(found: Prediction, cases: LoadCases, part: LoadCases, rows: Rows) 
     """The states of a prediction of all cases at these rows (R,)."""
     out = []
     for group in part.groups:
-        number = next(k for k, one in enumerate(cases.groups) if one.rig is group.rig)
+        number = next(k for k, one in enumerate(cases.groups) if one.rig.stands_as(group.rig))
         whole, state = cases.groups[number], found.states[number]
         names = [cases.campaign.tests[n].id for n in whole.numbers]
         width, length = whole.rise.shape[1], group.rise.shape[1]
@@ -75,7 +75,7 @@ def states_with(
     """The states of a prediction of all cases, with those of `some` (N,) of these rows from one of them alone."""
     out = list(found.states)
     for group, state in zip(part.groups, other.states, strict=True):
-        number = next(k for k, one in enumerate(cases.groups) if one.rig is group.rig)
+        number = next(k for k, one in enumerate(cases.groups) if one.rig.stands_as(group.rig))
         names = [cases.campaign.tests[n].id for n in cases.groups[number].numbers]
         for k, own in enumerate(group.numbers):
             test = names.index(part.campaign.tests[own].id)
@@ -119,7 +119,7 @@ def _joined_states(
     out: Equilibrium | None = None
     for _, part, found in pieces:
         for inner, state in zip(part.groups, found.states, strict=True):
-            if inner.rig is not group.rig:
+            if not inner.rig.stands_as(group.rig):
                 continue
             mine = np.array([names.index(part.campaign.tests[n].id) for n in inner.numbers])
             last = np.minimum(steps, inner.rise.shape[1] - 1)

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
-from functools import cached_property
+from collections.abc import Mapping
+from dataclasses import dataclass, fields, replace
+from functools import cached_property, lru_cache
 from pathlib import Path
 from typing import Any, Literal
 
@@ -11,7 +12,7 @@ import numpy as np
 from pydantic import field_validator
 
 from pipeline.campaign.gauge import Gauge, Vector
-from pipeline.campaign.rig import Array, Mistakes, Rig
+from pipeline.campaign.rig import Array, Mistakes, Rig, Solvable
 from pipeline.campaign.rig_table import RigTable
 from pipeline.manipulator.description import read as read_manipulator
 from pipeline.toml.fields import Text
@@ -21,6 +22,7 @@ from vjm.manipulator.machine import machine
 from vjm.manipulator.parts import Manipulator
 from vjm.manipulator.posed import Posed
 from vjm.manipulator.posture import Postures, postures
+from vjm.manipulator.standing import Standing, stacked
 from vjm.parts import Actuator, Elastic, Leg
 
 
@@ -78,6 +80,19 @@ class ManipulatorRig(Rig):
         down = self.manipulator.gravity if self.down is None else self.down
         return Posed(replace(self.manipulator, sensors=self.sensors, gravity=down), self.posture)
 
+    def stands_as(self, other: Rig) -> bool:
+        if not isinstance(other, ManipulatorRig) or self.manipulator is not other.manipulator:
+            return False
+        names = {it.name for it in fields(self)} - {"at", "manipulator"}
+        return all(getattr(self, name) == getattr(other, name) for name in names)
+
+    def mechanism_of(self, rigs: tuple[Rig, ...], gauges: tuple[Gauge, ...]) -> Standing:
+        return Standing(self.mechanism(gauges).manipulator, _together(rigs))
+
+    def inputs_of(self, mechanism: Solvable, rigs: tuple[Rig, ...]) -> Mapping[str, Array]:
+        assert isinstance(mechanism, Standing)
+        return replace(mechanism, at=_together(rigs)).inputs
+
     def nominal_pose(self, q: Array) -> Array:
         pose = np.zeros((*np.shape(q), 6))
         pose[..., :3] = self.posture.pose[:3] if self.at is None else self.at
@@ -103,6 +118,12 @@ class ManipulatorRig(Rig):
 
     def keys(self) -> dict[str, Any]:
         return {"file": self.file, **self.common_keys()}
+
+
+@lru_cache(maxsize=64)
+def _together(rigs: tuple[Rig, ...]) -> Postures:
+    """(T,) where the joints of each stand; the same object each time."""
+    return stacked([rig.posture for rig in rigs if isinstance(rig, ManipulatorRig)])
 
 
 class _Unread(ManipulatorRig):

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import pickle
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -11,6 +14,7 @@ from pipeline.inference.linear_prediction import predict_linear
 from pipeline.inference.load_cases import LoadCases, load_cases
 from pipeline.inference.model import Model, Term
 from pipeline.inference.prediction import predict
+from pipeline.inference.subsets import carried
 from pipeline.manipulator.table import vjm_stiffness
 from tests.pipeline.inference import manipulators
 from tests.pipeline.inference.manipulators import LOADS, POINTS, STEPS, WAY
@@ -19,6 +23,7 @@ from vjm.effects import catalogue
 from vjm.manipulator.posture import postures
 
 KNOWN = catalogue()
+SPRUNG = {"stiffness_Nmm_per_rad": 2000.0}
 SCALE = np.array([1e-3, 1e-3, 1e-3, 1e-5, 1e-5, 1e-5, 1.0, 1.0, 1.0, 50.0, 50.0, 50.0])
 """About the noise of each channel."""
 
@@ -37,9 +42,48 @@ def model(**values: dict[str, float]) -> Model:
     return Model(tuple(Term(KNOWN[name], own) for name, own in values.items()))
 
 
-def test_tests_of_one_posture_are_a_group(cases: LoadCases) -> None:
-    assert [group.numbers.tolist() for group in cases.groups] == [[0, 1], [2]]
-    np.testing.assert_array_equal(cases.groups[1].nominal[0, 0], [*POINTS[1], 0.0, 0.0, 0.0])
+def test_tests_of_all_postures_are_a_group(small: Campaign, cases: LoadCases) -> None:
+    (group,) = cases.groups
+    assert group.numbers.tolist() == [0, 1, 2]
+    np.testing.assert_array_equal(group.nominal[2, 0], [*POINTS[1], 0.0, 0.0, 0.0])
+    other = replace(small.tests[2], rig=replace(small.tests[2].rig, gravity=(0.0, 0.0, -1.0)))
+    apart = load_cases(replace(small, tests=(*small.tests[:2], other)))
+    assert [it.numbers.tolist() for it in apart.groups] == [[0, 1], [2]]
+    sent = pickle.loads(pickle.dumps(small))
+    assert [it.numbers.tolist() for it in load_cases(sent).groups] == [[0, 1, 2]]
+
+
+@pytest.mark.parametrize("name", ["joint_friction", "bar_length_mismatch"])
+def test_postures_together_are_each_by_itself(cases: LoadCases, name: str) -> None:
+    """A part of a campaign is another batch, and where it begins is a state of the whole."""
+    turned = {"bar_length_mismatch": {"mismatch_mm": 0.05}, "joint_torsional_stiffness": SPRUNG}
+    every = {"joint_friction": {"torque_Nmm": 50.0, "presliding_rad": 1e-5}, **turned}
+    one = model(**{k: v for k, v in every.items() if (k == "joint_friction") == (name == "joint_friction")})
+    whole = predict(one, cases)
+    for rows in (np.arange(8), np.arange(8, 12)):
+        part = cases.only(rows)
+        for start in (None, carried(whole, part, cases)):
+            alone = predict(one, part, start=start)
+            np.testing.assert_allclose(alone.values / SCALE, whole.values[rows] / SCALE, atol=1e-7)
+            np.testing.assert_allclose(alone.by_free, whole.by_free[rows], rtol=1e-5, atol=1e-7)
+
+
+def test_hinges_relaxed_where_unequal_bars_turn_them_follow_the_bars(cases: LoadCases) -> None:
+    """The turns are inputs of a posture that a number of the model moves: the derivative has their part."""
+
+    def values(mismatch: float) -> Model:
+        return model(
+            bar_length_mismatch={"mismatch_mm": mismatch},
+            joint_torsional_stiffness={k: 100.0 * v for k, v in SPRUNG.items()},
+        )
+
+    found = predict(values(0.5), cases)
+    ends = [predict(values(0.5 + side), cases, slopes=False).values for side in (5e-3, -5e-3)]
+    slope = (ends[0] - ends[1]) / 1e-2
+    assert np.max(np.abs(slope) / SCALE) > 1.0
+    np.testing.assert_allclose(
+        found.by_free[..., 0] / SCALE, slope / SCALE, atol=1e-4 * np.max(np.abs(slope) / SCALE)
+    )
 
 
 def test_readings_are_the_equilibria_of_the_manipulator(small: Campaign, cases: LoadCases) -> None:
