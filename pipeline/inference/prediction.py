@@ -166,8 +166,7 @@ def _solved(
     bent: bool,
 ) -> _Part:
     """rows: (T, S) of the steps of the group in the load cases."""
-    drives, shape = layout(mechanism).drives, group.rise.shape
-    inputs = {name: np.broadcast_to(value, shape) for name, value in group.inputs(mechanism).items()}
+    drives, inputs = layout(mechanism).drives, _whole(group, mechanism)
     count = len(model.free) if slopes else 0
     moving = in_mechanism(model)[:count]
     asked: list[AnyDirection] = []
@@ -231,6 +230,12 @@ def _inputs(slopes: Array, heated: bool) -> Array:
     return np.concatenate([slopes[..., :6], warm], axis=-1)
 
 
+def _whole(group: Group, mechanism: Solvable) -> dict[str, Array]:
+    """(T, S) of each input of a mechanism."""
+    shape = group.rise.shape
+    return {name: np.broadcast_to(value, shape) for name, value in group.inputs(mechanism).items()}
+
+
 def _branched(mechanism: Solvable, group: Group, inputs: dict[str, Array], state: Equilibrium) -> Equilibrium:
     """Rows that a gauge drives and that were lost, once more from bowed bars: straight ones bend only past a
     bifurcation, and from rest no load moves the gauge."""
@@ -239,7 +244,7 @@ def _branched(mechanism: Solvable, group: Group, inputs: dict[str, Array], state
         return state
     slight = DIFFERENCES.slight * mechanism.length
     bowed = BarInitialBow().apply(mechanism, {"bow_y_mm": slight, "bow_z_mm": slight})
-    bent = equilibrium(bowed, group.targets, group.channels[:, None], drives=inputs)
+    bent = equilibrium(bowed, group.targets, group.channels[:, None], drives=_whole(group, bowed))
     if bent.unknowns.shape != state.unknowns.shape:
         return state
     again = equilibrium(
@@ -268,7 +273,8 @@ def _begin(
     bare = mechanism.changed(tight(mechanism.view))
     fits = start is not None and start.unknowns.shape[-1] == layout(bare).size
     near = replace(start, mechanism=bare) if start is not None and fits else None
-    state = equilibrium(bare, group.targets, group.channels[:, None], near, drives=inputs)
+    # Its coordinates have other numbers, by which inputs are named.
+    state = equilibrium(bare, group.targets, group.channels[:, None], near, drives=_whole(group, bare))
     return with_slides(replace(state, drives=drive_values(mechanism, inputs)), mechanism)
 
 

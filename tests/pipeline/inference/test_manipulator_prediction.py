@@ -53,12 +53,13 @@ def test_tests_of_all_postures_are_a_group(small: Campaign, cases: LoadCases) ->
     assert [it.numbers.tolist() for it in load_cases(sent).groups] == [[0, 1, 2]]
 
 
-@pytest.mark.parametrize("name", ["joint_friction", "bar_length_mismatch"])
+@pytest.mark.parametrize("name", ["joint_friction", "bar_length_mismatch", "joint_clearance"])
 def test_postures_together_are_each_by_itself(cases: LoadCases, name: str) -> None:
     """A part of a campaign is another batch, and where it begins is a state of the whole."""
     turned = {"bar_length_mismatch": {"mismatch_mm": 0.05}, "joint_torsional_stiffness": SPRUNG}
-    every = {"joint_friction": {"torque_Nmm": 50.0, "presliding_rad": 1e-5}, **turned}
-    one = model(**{k: v for k, v in every.items() if (k == "joint_friction") == (name == "joint_friction")})
+    rough = {"joint_friction": {"torque_Nmm": 50.0, "presliding_rad": 1e-5}}
+    loose = {"joint_clearance": {"play_mm": 0.02}, **turned}
+    one = model(**{"joint_friction": rough, "joint_clearance": loose}.get(name, turned))
     whole = predict(one, cases)
     for rows in (np.arange(8), np.arange(8, 12)):
         part = cases.only(rows)

@@ -71,7 +71,7 @@ def test_that_the_work_ran_out_is_sent_and_the_fit_not_begun_again(
     two: None, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     assert not any(each.ended for each in fits())
-    monkeypatch.setattr("pipeline.inference.levenberg_marquardt.WORK", 0.0)
+    monkeypatch.setattr("pipeline.inference.fit.WORK", 0.0)
     assert all(each.ended for each in fits())
     # At its bound it would be looked for a second time.
     model = Model().with_effects([catalogue()[name] for name in (BASE, "joint_torsional_stiffness")])
