@@ -28,11 +28,11 @@ from pipeline.inference.prior import implausibility
 from pipeline.inference.residual import residual
 from pipeline.inference.solvers import Effort
 from pipeline.inference.suitable import scale_for
-from pipeline.selection.allotted import KINKED, MISTAKES, TWO, until
+from pipeline.selection.allotted import BESIDE, KINKED, MISTAKES, TWO, until
 from pipeline.selection.criteria import Criteria
 from pipeline.selection.faulty_sensor import least_with_a_fault
 from pipeline.selection.fit_cache import FitCache, Names
-from pipeline.selection.mended_table import Left, Table
+from pipeline.selection.mended_table import Left, Table, prescribed
 from pipeline.selection.mistakes import possible
 from pipeline.selection.mistakes.base import Mistake, columns_of, with_readings
 from pipeline.selection.signatures import look
@@ -71,14 +71,22 @@ def suspicions(cache: FitCache) -> tuple[Suspicion, ...]:
     if not found:
         return ()
     criteria, noise, share = cache.criteria, max(table.fit.degrees, 1), _share(table, cache)
-    # A column of which the model predicts little is silenced by a factor: effects with kinks explain it too.
-    with until(cache, KINKED):
-        enough = [max(it.after, noise) * criteria.doctor_factor / share for it in found]
-        kinked = _least_with_kinks(cache, table, enough)
-    found = [it for it in found if not kinked.clears(it.after / share, noise / share, criteria.doctor_factor)]
+    if not any(_sure(it, noise, criteria) for it in found):
+        # A column of which the model predicts little is silenced by a factor: effects with kinks explain it too.
+        with until(cache, KINKED):
+            enough = [max(it.after, noise) * criteria.doctor_factor / share for it in found]
+            kinked = _least_with_kinks(cache, table, enough)
+        found = [
+            it for it in found if not kinked.clears(it.after / share, noise / share, criteria.doctor_factor)
+        ]
     least = max(min((it.after for it in found), default=0.0), noise)
     kept = [it for it in found if it.after < least + criteria.doctor_tie * least / noise]
     return tuple(sorted(kept, key=lambda it: (it.after, len(it.mistake.columns))))
+
+
+def _sure(it: Suspicion, noise: float, criteria: Criteria) -> bool:
+    """Whether a mistake leaves hardly more than noise of what without it is far more."""
+    return it.after < criteria.doctor_factor * noise and it.before > criteria.doctor_sure * it.after
 
 
 def _table(cache: FitCache) -> Table | None:
@@ -157,17 +165,23 @@ def _found(table: Table, promising: list[Mistake], fault: float) -> list[Suspici
         raise TooMuch("it would take too long")
     kinds = {it.mistake.kind for it in out}
     alike = [mistake for mistake in promising[count:] if mistake.kind in kinds]
-    return [*out, *_looked_at(table, alike[:count], fault)[0]]
+    return [*out, *_looked_at(table, alike[:count], fault, out)[0]]
 
 
-def _looked_at(table: Table, mistakes: list[Mistake], fault: float) -> tuple[list[Suspicion], bool]:
+def _looked_at(
+    table: Table, mistakes: list[Mistake], fault: float, known: Sequence[Suspicion] = ()
+) -> tuple[list[Suspicion], bool]:
     """Those that are enough, to first order, then fitted, and whether one was not looked at for want of work. Fits far
-    from an explanation are slow, so that they are made of the table as it is and of what may be right alone."""
+    from an explanation are slow, so that they are made of the table as it is and of what may be right alone. known:
+    those that were found before, of which one that leaves far more is no tie."""
     criteria, enough, skipped = table.cache.criteria, list[tuple[Mistake, Table]](), False
+    share, near = 1.0 / criteria.doctor_fitted, criteria.doctor_factor * max(table.fit.degrees, 1)
     for mistake in mistakes:
         table.cache.on_progress(f"whether {mistake.words}")
         mended = table.mended(mistake)
-        left = _within_its_share(mended, attrgetter("first_order"))
+        if any(it.after < near for it in known) or any(it.first_order < near for _, it in enough):
+            share = BESIDE
+        left = _within_its_share(mended, attrgetter("first_order"), share)
         skipped |= left is None
         if left is not None and left * criteria.doctor_factor < min(table.first_order, fault):
             enough.append((mistake, mended))
@@ -179,9 +193,12 @@ def _looked_at(table: Table, mistakes: list[Mistake], fault: float) -> tuple[lis
     if before < criteria.doctor_sure * least or table.leaves_bounds:
         before = min(before, table.left[0])
     for mistake, mended in sorted(enough, key=lambda it: it[1].first_order):
-        if out and mended.first_order > criteria.doctor_far * min(it.after for it in out):
+        there = [it.after for it in (*known, *out)]
+        if there and mended.first_order > criteria.doctor_far * min(there):
             continue
-        told = _within_its_share(mended, partial(_is_enough, mistake=mistake, before=before))
+        told = _within_its_share(
+            mended, partial(_is_enough, mistake=mistake, before=before), 1.0 / criteria.doctor_fitted
+        )
         skipped |= told is None
         if told:
             out.append(Suspicion(mistake, before, *mended.left))
@@ -196,11 +213,11 @@ def _is_enough(mended: Table, mistake: Mistake, before: float) -> bool:
     return _explained(mended.cache.fit(mended.left[1]), mistake, criteria)
 
 
-def _within_its_share(mended: Table, look: Callable[[Table], T]) -> T | None:
-    """What a look at one mistake says; None where that takes more than its share of the work: a column that is as good
-    as silenced is fitted in vain, and would leave the others no work."""
+def _within_its_share(mended: Table, look: Callable[[Table], T], share: float) -> T | None:
+    """What a look at one mistake says; None where that takes more than its share of a search's work: a column that is
+    as good as silenced is fitted in vain, and would leave the others no work."""
     try:
-        with at_most(mended.cache.work / mended.cache.criteria.doctor_fitted):
+        with at_most(share * mended.cache.work):
             return look(mended)
     except TooMuch:
         return None
@@ -255,7 +272,7 @@ def _near(found: Fit, criteria: Criteria) -> bool:
 def _shows(mended: Table, mistake: Mistake) -> bool:
     """Whether what is prescribed in the columns of a mistake has to be there: with zeros more would be left."""
     names = np.isin(columns_of(mended.cache.whole.campaign), mistake.columns)
-    if not np.any(np.isin(mended.cache.whole.channels, np.flatnonzero(names))):
+    if not prescribed(mended.cache.whole, mistake):
         return True
 
     def silenced(campaign: Campaign) -> Campaign:
@@ -278,8 +295,11 @@ def _explained(found: Fit, mistake: Mistake, criteria: Criteria) -> bool:
     # As far off as what is of the same size and has nothing to do with it.
     if any(left > 2.0 * signal for signal, left in loud):
         return False
+    if not loud:
+        # What is read of them is noise; where they prescribe, `_shows` has looked.
+        return prescribed(found.residual.load_cases, mistake)
     signal, left = sum(s for s, _ in loud), sum(x for _, x in loud)
-    return bool(loud) and left * criteria.doctor_factor < signal
+    return left * criteria.doctor_factor < signal
 
 
 def _signals(found: Fit, mistake: Mistake) -> Iterator[tuple[float, float, int]]:

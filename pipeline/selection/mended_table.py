@@ -15,19 +15,25 @@ import numpy as np
 
 from pipeline.inference.declared_sigmas import trusted
 from pipeline.inference.fit import Fit
-from pipeline.inference.load_cases import load_cases
+from pipeline.inference.load_cases import LoadCases, load_cases
 from pipeline.inference.prior import in_tails
 from pipeline.selection.cost import misfit
 from pipeline.selection.criteria import Criteria
 from pipeline.selection.first_order import FirstOrder
 from pipeline.selection.first_order_costs import estimates
 from pipeline.selection.fit_cache import FitCache, Names
-from pipeline.selection.mistakes.base import Mistake
+from pipeline.selection.mistakes.base import Mistake, columns_of
 
 
 def usual(found: Fit, criteria: Criteria) -> bool:
     """Whether all effects have usual sizes."""
     return not in_tails(found.model.free, found.model.values, criteria.plausible)
+
+
+def prescribed(cases: LoadCases, mistake: Mistake) -> bool:
+    """Whether a column of a mistake prescribes anything."""
+    names = np.isin(columns_of(cases.campaign), mistake.columns)
+    return bool(np.any(np.isin(cases.channels, np.flatnonzero(names))))
 
 
 @dataclass(frozen=True)
@@ -141,12 +147,12 @@ class Table:
         return out
 
     def mended(self, mistake: Mistake) -> Table:
-        """The table without a mistake, with the sigmas that its scatter then allows."""
-        cache = self.cache
-        cases = load_cases(trusted(mistake.mended(cache.whole.campaign), cache.base))
-        return replace(
-            self,
-            cache=FitCache(
-                cases, cache.base, cache.candidates, cache.on_progress, cache.criteria, before=cache
-            ),
+        """The table without a mistake, with the sigmas that its scatter then allows. Where it prescribes otherwise no
+        state and no number of the table as it is is near."""
+        it = self.cache
+        cases = load_cases(trusted(mistake.mended(it.whole.campaign), it.base))
+        before = None if prescribed(it.whole, mistake) else it
+        new = FitCache(
+            cases, it.base, it.candidates, it.on_progress, it.criteria, before=before, since=it.since
         )
+        return replace(self, cache=new)
