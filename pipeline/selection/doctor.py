@@ -26,6 +26,7 @@ from pipeline.inference.multistart import best_fit
 from pipeline.inference.predicted import Prediction
 from pipeline.inference.prior import implausibility
 from pipeline.inference.residual import residual
+from pipeline.inference.rounding import ROUNDING
 from pipeline.inference.solvers import Effort
 from pipeline.inference.suitable import scale_for
 from pipeline.selection.allotted import BESIDE, KINKED, MISTAKES, TWO, until
@@ -48,12 +49,14 @@ T = TypeVar("T")
 @dataclass(frozen=True)
 class Suspicion:
     """A mistake that explains most. before, after: chi-square that is left with the best single effect, without and
-    with it mended. beside: the set with that effect, with it mended."""
+    with it mended. beside: the set with that effect, with it mended. larger: whether its columns read no less once it
+    is mended: then what is left of them is not silenced."""
 
     mistake: Mistake
     before: float
     after: float
     beside: Names
+    larger: bool = False
 
 
 def suspicions(cache: FitCache) -> tuple[Suspicion, ...]:
@@ -85,8 +88,9 @@ def suspicions(cache: FitCache) -> tuple[Suspicion, ...]:
 
 
 def _sure(it: Suspicion, noise: float, criteria: Criteria) -> bool:
-    """Whether a mistake leaves hardly more than noise of what without it is far more."""
-    return it.after < criteria.doctor_factor * noise and it.before > criteria.doctor_sure * it.after
+    """Whether a mistake leaves hardly more than noise of what without it is far more, and silences nothing."""
+    explained = it.after < criteria.doctor_factor * noise and it.before > criteria.doctor_sure * it.after
+    return it.larger and explained
 
 
 def _table(cache: FitCache) -> Table | None:
@@ -196,21 +200,31 @@ def _looked_at(
         there = [it.after for it in (*known, *out)]
         if there and mended.first_order > criteria.doctor_far * min(there):
             continue
+        larger = _size(mended, mistake) >= (1.0 - ROUNDING) * _size(table, mistake)
         told = _within_its_share(
-            mended, partial(_is_enough, mistake=mistake, before=before), 1.0 / criteria.doctor_fitted
+            mended,
+            partial(_is_enough, mistake=mistake, before=before, larger=larger),
+            1.0 / criteria.doctor_fitted,
         )
         skipped |= told is None
         if told:
-            out.append(Suspicion(mistake, before, *mended.left))
+            out.append(Suspicion(mistake, before, *mended.left, larger))
     return out, skipped
 
 
-def _is_enough(mended: Table, mistake: Mistake, before: float) -> bool:
+def _is_enough(mended: Table, mistake: Mistake, before: float, larger: bool) -> bool:
     """Whether a mistake that is mended leaves so much less than was left before, and the model what it is of."""
     criteria = mended.cache.criteria
     if not _shows(mended, mistake) or mended.left[0] * criteria.doctor_factor > before:
         return False
-    return _explained(mended.cache.fit(mended.left[1]), mistake, criteria)
+    return _explained(mended.cache.fit(mended.left[1]), mistake, criteria, larger)
+
+
+def _size(table: Table, mistake: Mistake) -> float:
+    """Root mean square of the columns of a mistake, in what they are read in."""
+    cases = table.cache.whole
+    names = np.isin(columns_of(cases.campaign), mistake.columns)
+    return float(np.sqrt(np.nansum(cases.measured[:, names] ** 2)))
 
 
 def _within_its_share(mended: Table, look: Callable[[Table], T], share: float) -> T | None:
@@ -282,7 +296,7 @@ def _shows(mended: Table, mistake: Mistake) -> bool:
     return silent.first_order > mended.first_order + mended.cache.criteria.doctor_explains
 
 
-def _explained(found: Fit, mistake: Mistake, criteria: Criteria) -> bool:
+def _explained(found: Fit, mistake: Mistake, criteria: Criteria, larger: bool = False) -> bool:
     """Whether the model explains the columns of a mistake, where it predicts them and they read more than noise: a
     factor that silences a column explains nothing, nor does a model that is far off in one of them, or that has a
     number at the bound of what it may be."""
@@ -296,8 +310,8 @@ def _explained(found: Fit, mistake: Mistake, criteria: Criteria) -> bool:
     if any(left > 2.0 * signal for signal, left in loud):
         return False
     if not loud:
-        # What is read of them is noise; where they prescribe, `_shows` has looked.
-        return prescribed(found.residual.load_cases, mistake)
+        # What is read of them is noise; where they prescribe no less than before, `_shows` has looked.
+        return larger and prescribed(found.residual.load_cases, mistake)
     signal, left = sum(s for s, _ in loud), sum(x for _, x in loud)
     return left * criteria.doctor_factor < signal
 
