@@ -76,6 +76,11 @@ predict: $(STAMP)
 sensitivity: $(STAMP)
 	$(PYTHON) -m pipeline.assessment.sensitivity
 
+# Twelve kinds of mistakes of a table, and right ones, on benches of the challenge: hours, to be stopped and started too.
+.PHONY: mistaken
+mistaken: $(STAMP)
+	$(PYTHON) -m pipeline.assessment.mistaken
+
 # The shipped campaign, measured again on the virtual bench; what it hides stands here and in its sealed answer.
 example: $(STAMP)
 	rm -f examples/bench/campaign.toml examples/bench/measurements.csv examples/bench.sealed.json

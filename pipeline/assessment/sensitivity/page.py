@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Sequence
 
-from pipeline.assessment.sensitivity.trial import FACTORS, UNTOUCHED, Change, Trial, varied
+from pipeline.assessment.sensitivity.trial import FACTORS, UNASKED, UNTOUCHED, Change, Trial, varied
 from pipeline.selection.criteria import CRITERIA, Criterion
 
 WRONG = ("wrong", "false alarm")
@@ -40,6 +40,8 @@ def page(found: Sequence[Trial]) -> str:
         "",
         *(line for each in CRITERIA.of() for line in _meaning(each)),
         f"Those of the groups {' and '.join(UNTOUCHED)} change no set of effects and are not in the study.",
+        f"Nor are those of {', '.join(UNASKED)}: they ask, before a search and after it,",
+        "whether tables, readings and what was written are as declared; on these benches they are.",
         "",
     ]
     return "\n".join(lines)
