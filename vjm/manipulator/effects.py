@@ -20,6 +20,7 @@ from vjm.mechanisms.assembly import Alteration, as_built
 from vjm.mechanisms.parallelogram import Parallelogram as Bench
 from vjm.mechanisms.sites import Place
 from vjm.parts import Frame, Leg, Part
+from vjm.sensors import Sensor
 
 
 def with_effect(manipulator: Manipulator, effect: Effect, values: Values, site: str = "") -> Manipulator:
@@ -42,6 +43,16 @@ class Shown:
     def view(self) -> Bench:
         """What effects see of it."""
         return view_of(self.manipulator)
+
+    @property
+    def length(self) -> float:
+        """A characteristic length, mm."""
+        return self.manipulator.length
+
+    @property
+    def sensors(self) -> tuple[Sensor, ...]:
+        """From true pose and load to what is read."""
+        return self.manipulator.sensors
 
     def changed(self, view: object) -> Self:
         """It as its view has been changed."""

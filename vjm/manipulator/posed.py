@@ -12,7 +12,6 @@ from vjm.manipulator.effects import Shown
 from vjm.manipulator.machine import machine, posture_inputs
 from vjm.manipulator.posture import Postures
 from vjm.mechanism import ElasticChain
-from vjm.sensors import Sensor
 
 
 @dataclass(frozen=True, eq=False)
@@ -37,13 +36,3 @@ class Posed(Shown):
     def unloaded_pose(self) -> Array:
         """(6,) nominal, base frame."""
         return self.at.pose
-
-    @property
-    def length(self) -> float:
-        """A characteristic length, mm."""
-        return self.manipulator.length
-
-    @property
-    def sensors(self) -> tuple[Sensor, ...]:
-        """From true pose and load to what is read."""
-        return self.manipulator.sensors

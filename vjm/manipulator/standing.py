@@ -18,7 +18,6 @@ from vjm.manipulator.effects import Shown
 from vjm.manipulator.machine import Machine, machine, posture_inputs
 from vjm.manipulator.posture import Postures
 from vjm.mechanism import ElasticChain
-from vjm.sensors import Sensor
 
 
 def stacked(one: Sequence[Postures]) -> Postures:
@@ -62,13 +61,3 @@ class Standing(Shown):
     def unloaded_pose(self) -> Array:
         """(6,) nominal, base frame, of the first posture."""
         return np.asarray(self.at.pose[0])
-
-    @property
-    def length(self) -> float:
-        """A characteristic length, mm."""
-        return self.manipulator.length
-
-    @property
-    def sensors(self) -> tuple[Sensor, ...]:
-        """From true pose and load to what is read."""
-        return self.manipulator.sensors
