@@ -84,7 +84,15 @@ def suspicions(cache: FitCache) -> tuple[Suspicion, ...]:
         ]
     least = max(min((it.after for it in found), default=0.0), noise)
     kept = [it for it in found if it.after < least + criteria.doctor_tie * least / noise]
-    return tuple(sorted(kept, key=lambda it: (it.after, len(it.mistake.columns))))
+    # Less than one of chi-square says nothing: then in the order of the columns.
+    names = columns_of(cache.whole.campaign)
+    return tuple(sorted(kept, key=lambda it: (int(it.after - least), *_place(it.mistake, names))))
+
+
+def _place(mistake: Mistake, names: Sequence[str]) -> tuple[int, int]:
+    """How many columns have a mistake, and where the first of them stands."""
+    places = [names.index(column) for column in mistake.columns if column in names]
+    return len(mistake.columns), min(places, default=0)
 
 
 def _sure(it: Suspicion, noise: float, criteria: Criteria) -> bool:
