@@ -340,10 +340,10 @@ class Criteria(LawCriteria):
         "between two models in a further test, beyond which more is of no use; half of it tells them",
     )
     fault_share: float = criterion(
-        0.5, SHARE, "sensors", "of the span that a sensor read, beyond which its zero does not move"
+        0.5, SHARE, "faults", "of the span that a sensor read, beyond which its zero does not move"
     )
     faults_looked_at: int = criterion(
-        3, COUNT, "sensors", "faults of sensors that promise most, beside the best set and beside none"
+        3, COUNT, "faults", "faults of sensors that promise most, beside the best set and beside none"
     )
     next_test_sets: int = criterion(3, COUNT, "plan", "rivals for which the next test is sought")
     name_deviations: float = criterion(

@@ -304,7 +304,7 @@ def _shows(mended: Table, mistake: Mistake) -> bool:
     return silent.first_order > mended.first_order + mended.cache.criteria.doctor_explains
 
 
-def _explained(found: Fit, mistake: Mistake, criteria: Criteria, larger: bool = False) -> bool:
+def _explained(found: Fit, mistake: Mistake, criteria: Criteria, larger: bool) -> bool:
     """Whether the model explains the columns of a mistake, where it predicts them and they read more than noise: a
     factor that silences a column explains nothing, nor does a model that is far off in one of them, or that has a
     number at the bound of what it may be."""

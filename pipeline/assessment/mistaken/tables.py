@@ -38,7 +38,7 @@ class Made:
 Make = Callable[[Campaign, np.random.Generator], Made | None]
 
 
-def _written(campaign: Campaign, change: Callable[[Array], Array]) -> Campaign:
+def written(campaign: Campaign, change: Callable[[Array], Array]) -> Campaign:
     """Twelve columns (N, 12) of each test written otherwise."""
 
     def data(old: Data) -> Data:
@@ -48,10 +48,34 @@ def _written(campaign: Campaign, change: Callable[[Array], Array]) -> Campaign:
     return replace(campaign, tests=tuple(replace(test, data=data(test.data)) for test in campaign.tests))
 
 
-def _over(divisor: float, columns: Sequence[str], words: str) -> Make:
+def over(campaign: Campaign, divisor: float, columns: Sequence[str]) -> Campaign:
     """Columns written in a unit of that many."""
-    factors = np.array([1.0 / divisor if name in columns else 1.0 for name in COLUMNS])
-    return lambda campaign, _: Made(_written(campaign, lambda values: values * factors), words)
+    factors = np.where(np.isin(COLUMNS, columns), 1.0 / divisor, 1.0)
+    return written(campaign, lambda values: values * factors)
+
+
+def shifted(campaign: Campaign, by: float, column: str) -> Campaign:
+    """A column that was not zeroed."""
+    more = np.where(np.isin(COLUMNS, column), by, 0.0)
+    return written(campaign, lambda values: values + more)
+
+
+def exchanged(campaign: Campaign, one: str, other: str) -> Campaign:
+    """Two columns under each other's names."""
+    order = list(range(len(COLUMNS)))
+    a, b = COLUMNS.index(one), COLUMNS.index(other)
+    order[a], order[b] = b, a
+    return written(campaign, lambda values: values[:, order])
+
+
+def in_radians(campaign: Campaign) -> Campaign:
+    """The angle of every test in radians."""
+    tests = (replace(test, q_deg=float(np.radians(test.q_deg))) for test in campaign.tests)
+    return replace(campaign, tests=tuple(tests))
+
+
+def _unit(divisor: float, columns: Sequence[str], words: str) -> Make:
+    return lambda campaign, _: Made(over(campaign, divisor, columns), words)
 
 
 def _loud(campaign: Campaign, among: Sequence[str]) -> list[str]:
@@ -72,8 +96,7 @@ def _sign(among: Sequence[str]) -> Make:
         if not some:
             return None
         name = str(generator.choice(some))
-        factors = np.where(np.isin(COLUMNS, name), -1.0, 1.0)
-        return Made(_written(campaign, lambda values: values * factors), f"{name} has the wrong sign")
+        return Made(over(campaign, -1.0, [name]), f"{name} has the wrong sign")
 
     return make
 
@@ -85,11 +108,8 @@ def _exchanged(campaign: Campaign, generator: np.random.Generator) -> Made | Non
     name = str(generator.choice(some))
     alike = next(group for group in (SHIFTS, FORCES, MOMENTS) if name in group)
     other = str(generator.choice([it for it in alike if it != name]))
-    one, two = sorted((COLUMNS.index(name), COLUMNS.index(other)))
-    order = list(range(12))
-    order[one], order[two] = two, one
-    words = f"{COLUMNS[one]} and {COLUMNS[two]} are exchanged"
-    return Made(_written(campaign, lambda values: values[:, order]), words)
+    one, two = sorted((name, other), key=COLUMNS.index)
+    return Made(exchanged(campaign, one, two), f"{one} and {two} are exchanged")
 
 
 def _not_zeroed(campaign: Campaign, generator: np.random.Generator) -> Made | None:
@@ -99,28 +119,26 @@ def _not_zeroed(campaign: Campaign, generator: np.random.Generator) -> Made | No
     name = str(generator.choice(some))
     readings = np.vstack([test.data.readings for test in campaign.tests])[:, COLUMNS.index(name)]
     away = float(generator.uniform(1.0, FARTHEST)) * float(np.ptp(readings[np.isfinite(readings)]))
-    more = np.where(np.isin(COLUMNS, name), away, 0.0)
     words = f"{name} was not zeroed: absolute positions or loads"
-    return Made(_written(campaign, lambda values: values + more), words)
+    return Made(shifted(campaign, away, name), words)
 
 
 def _radians(campaign: Campaign, _: np.random.Generator) -> Made | None:
     if max(abs(test.q_deg) for test in campaign.tests) < LEAST_TURN:
         return None
-    tests = (replace(test, q_deg=float(np.radians(test.q_deg))) for test in campaign.tests)
-    return Made(replace(campaign, tests=tuple(tests)), "q_deg is in radians")
+    return Made(in_radians(campaign), "q_deg is in radians")
 
 
 KINDS: Mapping[str, Make] = {
-    "forces in kgf": _over(9.80665, FORCES, "all forces are in kgf"),
-    "forces in lbf": _over(4.4482216, FORCES, "all forces are in lbf"),
-    "forces converted twice": _over(
+    "forces in kgf": _unit(9.80665, FORCES, "all forces are in kgf"),
+    "forces in lbf": _unit(4.4482216, FORCES, "all forces are in lbf"),
+    "forces converted twice": _unit(
         1.0 / 9.80665, FORCES, "all forces were converted to kgf the wrong way round or twice"
     ),
-    "moments in N·m": _over(1000.0, MOMENTS, "all moments are in N·m"),
-    "displacements in inches": _over(25.4, SHIFTS, "all displacements are in in"),
-    "displacements in m": _over(1000.0, SHIFTS, "all displacements are in m"),
-    "rotations in degrees": _over(float(np.radians(1.0)), TURNS, "all rotations are in degrees"),
+    "moments in N·m": _unit(1000.0, MOMENTS, "all moments are in N·m"),
+    "displacements in inches": _unit(25.4, SHIFTS, "all displacements are in in"),
+    "displacements in m": _unit(1000.0, SHIFTS, "all displacements are in m"),
+    "rotations in degrees": _unit(float(np.radians(1.0)), TURNS, "all rotations are in degrees"),
     "sign of a force or moment": _sign((*FORCES, *MOMENTS)),
     "sign of a displacement or rotation": _sign((*SHIFTS, *TURNS)),
     "two columns exchanged": _exchanged,

@@ -18,9 +18,9 @@ FACTORS = (0.5, 2.0)
 UNTOUCHED = ("plan", GROUP)
 """Groups of the criteria that no set of effects depends on: those of planned tests, and those of laws, which are looked
 for after the answer."""
-UNASKED = ("nominals", "certain", "noise", "bad readings", "doctor")
+UNASKED = ("nominals", "certain", "noise", "bad readings", "doctor", "faults")
 """Groups that one search does not ask: what comes before it and after it, of tables and readings that are not as they
-were declared. The benches of the challenge are exact."""
+were declared and of sensors at fault. The benches of the challenge are exact."""
 
 
 class Verdict(Record):

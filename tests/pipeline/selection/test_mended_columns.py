@@ -27,14 +27,14 @@ def forces() -> Mistake:
 
 
 def test_a_model_that_follows_the_columns_explains_them() -> None:
-    assert _explained(found(), forces(), CRITERIA)
+    assert _explained(found(), forces(), CRITERIA, True)
 
 
 def test_a_number_at_its_bound_explains_nothing() -> None:
     it = found()
     (free,) = it.model.free
     for bound in free.bounds:
-        assert not _explained(replace(it, model=it.model.at([bound])), forces(), CRITERIA)  # type: ignore[arg-type]
+        assert not _explained(replace(it, model=it.model.at([bound])), forces(), CRITERIA, True)  # type: ignore[arg-type]
 
 
 def test_a_column_that_is_predicted_far_off_is_not_made_good_by_a_louder_one() -> None:
@@ -45,5 +45,5 @@ def test_a_column_that_is_predicted_far_off_is_not_made_good_by_a_louder_one() -
     values = it.prediction.values.copy()
     values[:, 7] *= 3.0
     off = replace(it, prediction=replace(it.prediction, values=values))
-    assert not _explained(off, forces(), CRITERIA)
-    assert _explained(off, replace(forces(), columns=("fx_N", "fz_N")), CRITERIA)
+    assert not _explained(off, forces(), CRITERIA, True)
+    assert _explained(off, replace(forces(), columns=("fx_N", "fz_N")), CRITERIA, True)

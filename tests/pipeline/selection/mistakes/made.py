@@ -8,56 +8,33 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from pipeline.campaign import Campaign, Data
+from pipeline.assessment.mistaken import tables
+from pipeline.campaign import Campaign
 
 Floats = NDArray[np.float64]
 Wrong = Callable[[Campaign], Campaign]
-COLUMNS = [
-    *("x_mm", "y_mm", "z_mm", "rx_rad", "ry_rad", "rz_rad"),
-    *("fx_N", "fy_N", "fz_N", "mx_Nmm", "my_Nmm", "mz_Nmm"),
-]
-FORCES, MOMENTS = ("fx_N", "fy_N", "fz_N"), ("mx_Nmm", "my_Nmm", "mz_Nmm")
-
-
-def changed(campaign: Campaign, change: Callable[[Floats], Floats]) -> Campaign:
-    """Twelve columns (N, 12) of each test changed."""
-
-    def data(old: Data) -> Data:
-        new = change(np.hstack([old.displacement, old.wrench]))
-        return replace(old, displacement=new[:, :6], wrench=new[:, 6:])
-
-    return replace(campaign, tests=tuple(replace(test, data=data(test.data)) for test in campaign.tests))
+FORCES, MOMENTS = tables.FORCES, tables.MOMENTS
+angles_in_radians, changed = tables.in_radians, tables.written
 
 
 def over(divisor: float, *columns: str) -> Wrong:
     """Columns in a unit of that many."""
-    factors = np.array([1.0 / divisor if name in columns else 1.0 for name in COLUMNS])
-    return lambda campaign: changed(campaign, lambda values: values * factors)
+    return lambda campaign: tables.over(campaign, divisor, columns)
 
 
 def exchanged(one: str, other: str) -> Wrong:
     """Two columns under each other's names."""
-    order = list(range(12))
-    a, b = COLUMNS.index(one), COLUMNS.index(other)
-    order[a], order[b] = b, a
-    return lambda campaign: changed(campaign, lambda values: values[:, order])
+    return lambda campaign: tables.exchanged(campaign, one, other)
 
 
 def shifted(by: float, column: str) -> Wrong:
     """A column that was not zeroed."""
-    more = np.array([by if name == column else 0.0 for name in COLUMNS])
-    return lambda campaign: changed(campaign, lambda values: values + more)
+    return lambda campaign: tables.shifted(campaign, by, column)
 
 
 def backwards(campaign: Campaign) -> Campaign:
     """The last step first."""
     return changed(campaign, lambda values: values[::-1])
-
-
-def angles_in_radians(campaign: Campaign) -> Campaign:
-    """q_deg of every test in radians."""
-    tests = (replace(test, q_deg=float(np.radians(test.q_deg))) for test in campaign.tests)
-    return replace(campaign, tests=tuple(tests))
 
 
 def with_bars(campaign: Campaign, stiffness: Floats) -> Campaign:
