@@ -14,6 +14,7 @@ from joblib import Parallel, delayed, parallel_config
 
 from pipeline.errors import InputError
 from pipeline.memory import keep_freed
+from pipeline.processors import alone
 from pipeline.system import require
 from vjm.effects import USERS
 
@@ -43,7 +44,9 @@ def pool(workers: int = 1, dask: str | None = None) -> Iterator[Pool]:
         with _dask(workers, dask), parallel_config("dask"):
             yield _each
     elif workers == 1:
-        yield one_after_another
+        # One worker is one process: what many of them would take can be compared with it.
+        with alone():
+            yield one_after_another
     else:
         # Arrays go as copies: a call may write into its own.
         with parallel_config(

@@ -11,8 +11,8 @@ import ctypes
 import os
 import signal
 import sys
-from collections.abc import Callable, Sequence
-from contextlib import suppress
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager, suppress
 from multiprocessing import get_context
 from multiprocessing.connection import Connection
 from multiprocessing.context import ForkProcess
@@ -42,6 +42,17 @@ def may_use(processors: int) -> None:
     if processors < 1:
         raise ValueError(f"processors are {processors}, allowed are 1 or more")
     _used = processors
+
+
+@contextmanager
+def alone() -> Iterator[None]:
+    """This process uses no other within it."""
+    before = used()
+    may_use(1)
+    try:
+        yield
+    finally:
+        may_use(before)
 
 
 def used() -> int:
@@ -76,9 +87,10 @@ def at_once(calls: Sequence[Callable[[], Out]]) -> list[Out]:
         return [found[k] if k in found else call() for k, call in enumerate(calls)]
     finally:
         for process, answer in forks:
-            answer.close()
+            # Ended before its pipe is closed: one that is just writing would tell of a broken pipe.
             process.terminate()
             process.join()
+            answer.close()
 
 
 def _fork(calls: Sequence[Callable[[], Any]], taken: Synchronized[int]) -> tuple[ForkProcess, Connection]:

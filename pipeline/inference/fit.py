@@ -196,6 +196,18 @@ def as_it_is(model: Model, load_cases: LoadCases, start: Prediction) -> Fit:
     return Fit(model, there.prediction, there.residual, there.rounds)
 
 
+def unmoved(found: Fit, cases: LoadCases) -> Fit | None:
+    """The same fit beside other readings of tests that were held out; None where those of fitted ones are others."""
+    before = found.residual.load_cases
+    if not np.array_equal(cases.fitted, before.fitted):
+        return None
+    pairs = ((cases.measured, before.measured), (cases.spread, before.spread))
+    rows = cases.fitted
+    if not all(np.array_equal(one[rows], other[rows], equal_nan=True) for one, other in pairs):
+        return None
+    return replace(found, residual=residual(cases, found.prediction), evaluations=0)
+
+
 def with_own_line(
     found: Fit, load_cases: LoadCases, plausible: float = np.inf, solver: Solver = levenberg_marquardt
 ) -> Fit:

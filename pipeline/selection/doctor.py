@@ -11,7 +11,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
-from operator import attrgetter
+from operator import attrgetter, itemgetter
 from typing import TypeVar
 
 import numpy as np
@@ -49,14 +49,14 @@ T = TypeVar("T")
 @dataclass(frozen=True)
 class Suspicion:
     """A mistake that explains most. before, after: chi-square that is left with the best single effect, without and
-    with it mended. beside: the set with that effect, with it mended. larger: whether its columns read no less once it
-    is mended: then what is left of them is not silenced."""
+    with it mended. beside: the set with that effect, with it mended. heard: whether its columns say something once it
+    is mended: then it does not silence them."""
 
     mistake: Mistake
     before: float
     after: float
     beside: Names
-    larger: bool = False
+    heard: bool = False
 
 
 def suspicions(cache: FitCache) -> tuple[Suspicion, ...]:
@@ -98,7 +98,7 @@ def _place(mistake: Mistake, names: Sequence[str]) -> tuple[int, int]:
 def _sure(it: Suspicion, noise: float, criteria: Criteria) -> bool:
     """Whether a mistake leaves hardly more than noise of what without it is far more, and silences nothing."""
     explained = it.after < criteria.doctor_factor * noise and it.before > criteria.doctor_sure * it.after
-    return it.larger and explained
+    return it.heard and explained
 
 
 def _table(cache: FitCache) -> Table | None:
@@ -133,8 +133,10 @@ def _mended(table: Table, cache: FitCache) -> list[Suspicion]:
 def _better_than_two(table: Table, found: list[Suspicion]) -> list[Suspicion]:
     """Of these those that explain more than two smooth effects: a table may be right and the rig lack two, of which
     neither alone explains most."""
-    two, noise = table.left_by_two({it.beside for it in found}), max(table.fit.degrees, 1)
-    factor = table.cache.criteria.doctor_factor
+    noise, criteria = max(table.fit.degrees, 1), table.cache.criteria
+    factor = criteria.doctor_factor
+    rival = factor * criteria.doctor_far * max(noise, min(it.after for it in found))
+    two = table.beside_rival(rival).left_by_two({it.beside for it in found})
     return [it for it in found if not two.clears(it.after, noise, factor)]
 
 
@@ -188,10 +190,11 @@ def _looked_at(
     those that were found before, of which one that leaves far more is no tie."""
     criteria, enough, skipped = table.cache.criteria, list[tuple[Mistake, Table]](), False
     share, near = 1.0 / criteria.doctor_fitted, criteria.doctor_factor * max(table.fit.degrees, 1)
-    for mistake in mistakes:
-        table.cache.on_progress(f"whether {mistake.words}")
-        mended = table.mended(mistake)
+    plain = _without_buckling(table, mistakes, share)
+    for alone, mistake, mended in plain:
         if any(it.after < near for it in known) or any(it.first_order < near for _, it in enough):
+            if alone > criteria.doctor_far * plain[0][0]:
+                continue
             share = BESIDE
         left = _within_its_share(mended, attrgetter("first_order"), share)
         skipped |= left is None
@@ -203,29 +206,60 @@ def _looked_at(
     before = min(table.first_order, table.plain.first_order, fault)
     least = min(mended.first_order for _, mended in enough)
     if before < criteria.doctor_sure * least or table.leaves_bounds:
+        table = table.beside_rival(criteria.doctor_factor * criteria.doctor_far * max(least, near))
         before = min(before, table.left[0])
     for mistake, mended in sorted(enough, key=lambda it: it[1].first_order):
         there = [it.after for it in (*known, *out)]
         if there and mended.first_order > criteria.doctor_far * min(there):
             continue
-        larger = _size(mended, mistake) >= (1.0 - ROUNDING) * _size(table, mistake)
         told = _within_its_share(
             mended,
-            partial(_is_enough, mistake=mistake, before=before, larger=larger),
+            partial(_suspicion, mistake=mistake, before=before, table=table),
             1.0 / criteria.doctor_fitted,
         )
         skipped |= told is None
-        if told:
-            out.append(Suspicion(mistake, before, *mended.left, larger))
+        out += told or ()
     return out, skipped
 
 
-def _is_enough(mended: Table, mistake: Mistake, before: float, larger: bool) -> bool:
-    """Whether a mistake that is mended leaves so much less than was left before, and the model what it is of."""
+def _without_buckling(
+    table: Table, mistakes: Sequence[Mistake], share: float
+) -> list[tuple[float, Mistake, Table]]:
+    """What is left where each is mended, least first, to first order beside nothing that is there or not: loads that
+    would buckle bars take longest, and are none of a table that is right."""
+    out = list[tuple[float, Mistake, Table]]()
+    for mistake in mistakes:
+        table.cache.on_progress(f"whether {mistake.words}")
+        mended = table.mended(mistake)
+        left = _within_its_share(mended.plain, attrgetter("first_order"), share)
+        out.append((np.inf if left is None else left, mistake, mended))
+    return sorted(out, key=itemgetter(0))
+
+
+def _suspicion(mended: Table, mistake: Mistake, before: float, table: Table) -> tuple[Suspicion, ...]:
+    """The mistake, where it leaves so much less than was left before, the model what it is of, and its columns are not
+    silenced; else none."""
     criteria = mended.cache.criteria
-    if not _shows(mended, mistake) or mended.left[0] * criteria.doctor_factor > before:
-        return False
-    return _explained(mended.cache.fit(mended.left[1]), mistake, criteria, larger)
+    prescribes = prescribed(mended.cache.whole, mistake)
+    # With zeros in its columns far more has to be left than with what they prescribe.
+    silent = _silenced(mended, mistake).first_order if prescribes else np.inf
+    if silent <= mended.first_order + criteria.doctor_explains:
+        return ()
+    if mended.left[0] * criteria.doctor_factor > before:
+        return ()
+    larger = _size(mended, mistake) >= (1.0 - ROUNDING) * _size(table, mistake)
+    heard = larger or (prescribes and silent > criteria.doctor_sure * mended.first_order)
+    if not _explained(mended.cache.fit(mended.left[1]), mistake, criteria, heard):
+        return ()
+    return (Suspicion(mistake, before, *mended.left, heard or _follows(mended, mistake)),)
+
+
+def _follows(mended: Table, mistake: Mistake) -> bool:
+    """Whether the model predicts what the columns of a mistake read, with no further number that could be fitted to
+    them: no kink makes a column a multiple of what it is."""
+    parts = list(_signals(mended.fit, mistake))
+    signal, left = sum(signal for signal, _, _ in parts), sum(left for _, left, _ in parts)
+    return left * mended.cache.criteria.doctor_sure < signal
 
 
 def _size(table: Table, mistake: Mistake) -> float:
@@ -291,20 +325,17 @@ def _near(found: Fit, criteria: Criteria) -> bool:
     return found.chi_square < criteria.doctor_factor * max(found.degrees, 1)
 
 
-def _shows(mended: Table, mistake: Mistake) -> bool:
-    """Whether what is prescribed in the columns of a mistake has to be there: with zeros more would be left."""
+def _silenced(mended: Table, mistake: Mistake) -> Table:
+    """The table with zeros in the columns of a mistake."""
     names = np.isin(columns_of(mended.cache.whole.campaign), mistake.columns)
-    if not prescribed(mended.cache.whole, mistake):
-        return True
 
     def silenced(campaign: Campaign) -> Campaign:
         return with_readings(campaign, lambda values: np.where(names, 0.0 * values, values))
 
-    silent = mended.mended(replace(mistake, mended=silenced))
-    return silent.first_order > mended.first_order + mended.cache.criteria.doctor_explains
+    return mended.mended(replace(mistake, mended=silenced))
 
 
-def _explained(found: Fit, mistake: Mistake, criteria: Criteria, larger: bool) -> bool:
+def _explained(found: Fit, mistake: Mistake, criteria: Criteria, heard: bool) -> bool:
     """Whether the model explains the columns of a mistake, where it predicts them and they read more than noise: a
     factor that silences a column explains nothing, nor does a model that is far off in one of them, or that has a
     number at the bound of what it may be."""
@@ -318,8 +349,8 @@ def _explained(found: Fit, mistake: Mistake, criteria: Criteria, larger: bool) -
     if any(left > 2.0 * signal for signal, left in loud):
         return False
     if not loud:
-        # What is read of them is noise; where they prescribe no less than before, `_shows` has looked.
-        return larger and prescribed(found.residual.load_cases, mistake)
+        # What is read of them is noise; where they prescribe, what is left without them was looked at.
+        return heard and prescribed(found.residual.load_cases, mistake)
     signal, left = sum(s for s, _ in loud), sum(x for _, x in loud)
     return left * criteria.doctor_factor < signal
 

@@ -9,7 +9,7 @@ from functools import cache, cached_property, partial
 import numpy as np
 
 from pipeline.callbacks import OnProgress
-from pipeline.inference.fit import Fit, at_null, fit, unfitted, with_own_line
+from pipeline.inference.fit import Fit, at_null, fit, unfitted, unmoved, with_own_line
 from pipeline.inference.load_cases import LoadCases
 from pipeline.inference.model import Model, Term
 from pipeline.inference.multistart import best_fit, height
@@ -65,6 +65,7 @@ class FitCache:
     known: FitCache | None = None
     before: FitCache | None = None
     since: float = field(default_factory=spent)
+    rival: float = np.inf
     at: Look = field(init=False)
 
     def __post_init__(self) -> None:
@@ -94,7 +95,7 @@ class FitCache:
     @property
     def effort(self) -> Effort:
         """What a further fit may take: one that stays far above the best that is known decides nothing."""
-        return Effort(known=min((it.chi_square for it in self.fits.values() if not it.lost), default=np.inf))
+        return Effort(known=min([self.rival, *(it.chi_square for it in self.fits.values() if not it.lost)]))
 
     def affords(self, names: Names) -> bool:
         """Whether a set has no more free numbers than there are readings to fit them to."""
@@ -330,6 +331,9 @@ class FitCache:
 
     def _fitted(self, names: Names, begin: Mapping[str, float]) -> Fit:
         effects = [self.candidates[name] for name in self.order(names)]
+        old = None if self.before is None else self.before.fits.get(names)
+        if old is not None and (same := unmoved(old, self.whole)) is not None:
+            return same
         model, start, known = self._begin(names)
         if not model.free:
             return unfitted(model, self.whole, start)

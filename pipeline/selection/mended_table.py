@@ -77,6 +77,10 @@ class Table:
         """Beside nothing."""
         return replace(self, root=frozenset())
 
+    def beside_rival(self, left: float) -> Table:
+        """The same, of which no further fit goes on that would stay far above what another table leaves."""
+        return replace(self, cache=replace(self.cache, rival=left))
+
     @cached_property
     def first_order(self) -> float:
         """What the best single effect leaves, to first order."""

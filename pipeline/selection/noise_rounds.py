@@ -13,7 +13,8 @@ from functools import partial
 from pipeline.answer.record import Verdict
 from pipeline.attempt import Attempts
 from pipeline.campaign import Campaign
-from pipeline.inference.load_cases import LoadCases
+from pipeline.inference.fit import unmoved
+from pipeline.inference.load_cases import LoadCases, load_cases
 from pipeline.selection.adequacy.bad_readings import bad_readings
 from pipeline.selection.adequacy.judgement import HELD_OUT, SERIES, judge
 from pipeline.selection.adequacy.untested import untested
@@ -66,7 +67,7 @@ def settled(cache: FitCache, again: Again, attempts: Attempts, single: bool = Fa
         if new.same(readings):
             break
         single = single or (it.found.cache.worn_out and _of_a_fault(it))
-        if it.found.cache.worn_out and (turn or not single):
+        if it.found.cache.worn_out and (turn or not single) and not _same_fits(it, new, given):
             # Beside it the readings are not as they were declared, and no work is left to choose again.
             it = replace(it, decision=it.decision.withheld(ENDED))
             break
@@ -102,6 +103,12 @@ def _without_seen(here: Settled, seen: Readings, again: Again, single: bool) -> 
         return here
     readings = seen.again(found, given, cache.criteria)
     return replace(here, it=other, readings=readings, attempts=attempts) if readings.same(seen) else here
+
+
+def _same_fits(it: Chosen, new: Readings, given: LoadCases) -> bool:
+    """Whether a search that came to its end finds the same with other readings: only those held out are others."""
+    cases = load_cases(new.applied(given.campaign))
+    return not it.found.ended and unmoved(it.decision.fit, cases) is not None
 
 
 def _of_a_fault(it: Chosen) -> bool:
@@ -196,10 +203,13 @@ def _readings(it: Chosen, before: Readings, given: LoadCases) -> Readings:
     cache, best = it.found.cache, it.decision.sets[0]
     criteria = cache.criteria
     for names in sorted((n for n in cache.fits if n < best), key=len):
-        new = before.again(cache.fit(names), given, criteria)
-        if new.bad and new.leaves_noise(cache.fit(names), given, criteria):
-            # A play or a friction shows most at a turn: what it explains beside that is no bad reading.
-            alone = sum(b.sigmas**2 for b in new.bad if b not in before.bad)
-            if misfit(cache, names) - misfit(cache, best) - alone < price(cache, best - names):
-                return new
+        found = cache.fit(names)
+        bad = before.single_bad(found, given, criteria) if before.may_be_asked(found, criteria) else ()
+        # A play or a friction shows most at a turn: what it explains beside that is no bad reading.
+        alone = sum(b.sigmas**2 for b in bad if b not in before.bad)
+        if misfit(cache, names) - misfit(cache, best) - alone >= price(cache, best - names):
+            continue
+        new = before.again(found, given, criteria)
+        if new.bad and new.leaves_noise(found, given, criteria):
+            return new
     return before.again(it.decision.fit, given, criteria)

@@ -14,7 +14,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from pipeline.campaign import Campaign
-from pipeline.inference.fit import Fit, fit, unfitted
+from pipeline.inference.fit import Fit, fit, unfitted, unmoved
 from pipeline.inference.load_cases import LoadCases, load_cases
 from pipeline.inference.subsets import carried
 from pipeline.selection.adequacy.bad_readings import BadReading, bad_readings, set_aside
@@ -58,8 +58,8 @@ class Readings:
         """What the readings are about another fit. given: all of them as they were declared."""
         if not self.may_be_asked(found, criteria):
             return self
+        bad = self.single_bad(found, given, criteria)
         whole = found if self.plain else _of(given, found)
-        bad = (*bad_readings(whole, criteria), *_held_out(whole, criteria))
         # A bad reading pulls a fit to itself, and what that leaves of its neighbours looks like long tails.
         rest = whole if not bad else self._beside(bad, found, given, criteria)
         about = whole if not bad else _of(given, rest)
@@ -69,6 +69,11 @@ class Readings:
         if tails is not None:
             return Readings(tails=tails, normal=without_tails(about, tails))
         return Readings(bad, tuple(_other(rest, criteria)))
+
+    def single_bad(self, found: Fit, given: LoadCases, criteria: Criteria) -> tuple[BadReading, ...]:
+        """Those of all readings, given as they were declared, that are single bad ones about a fit."""
+        whole = found if self.plain else _of(given, found)
+        return (*bad_readings(whole, criteria), *_held_out(whole, criteria))
 
     def _beside(self, bad: tuple[BadReading, ...], found: Fit, given: LoadCases, criteria: Criteria) -> Fit:
         """A model fitted without these readings; found: fitted to the readings as they are here."""
@@ -110,7 +115,9 @@ def _of(cases: LoadCases, found: Fit) -> Fit:
 
 
 def _refitted(cases: LoadCases, found: Fit, criteria: Criteria) -> Fit:
-    """A model fitted to other readings of the same tests."""
+    """A model fitted to other readings of the same tests; as it is where only those that were held out are others."""
+    if (same := unmoved(found, cases)) is not None:
+        return same
     start = carried(found.prediction, cases, found.residual.load_cases)
     return fit(found.model, cases, start, None, criteria.plausible)
 

@@ -13,6 +13,7 @@ from functools import partial
 import pytest
 
 from pipeline import processors
+from pipeline.pools import pool
 from pipeline.processors import at_once, available, may_use
 from vjm import work
 
@@ -83,6 +84,33 @@ def test_an_error_here_waits_for_nobody() -> None:
     with pytest.raises(RuntimeError, match="no equilibrium"):
         at_once([fails, partial(where, 1, 20.0), partial(where, 2, 20.0)])
     assert time.perf_counter() - begin < 10.0
+
+
+def test_a_fork_that_is_not_waited_for_says_nothing(
+    capfd: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """It is ended late, while it writes what it found: more than a pipe holds."""
+    end = processors.ForkProcess.terminate
+
+    def slowly(process: processors.ForkProcess) -> None:
+        time.sleep(0.3)
+        end(process)
+
+    def late() -> bytes:
+        time.sleep(0.5)
+        raise RuntimeError("no equilibrium")
+
+    monkeypatch.setattr(processors.ForkProcess, "terminate", slowly)
+    with pytest.raises(RuntimeError, match="no equilibrium"):
+        at_once([late, partial(bytes, 10**7), partial(bytes, 10**7)])
+    assert not capfd.readouterr().err
+
+
+def test_one_worker_is_one_process() -> None:
+    with pool(1) as computed:
+        calls = [partial(where, k, 0.0) for k in range(3)]
+        assert [process for _, process in next(computed([partial(at_once, calls)]))] == [os.getpid()] * 3
+    assert len({process for _, process in at_once([partial(where, k, 0.2) for k in range(3)])}) > 1
 
 
 def test_an_error_in_a_fork_is_raised_here() -> None:
