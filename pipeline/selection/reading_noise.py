@@ -18,7 +18,7 @@ from pipeline.inference.fit import Fit, fit, unfitted, unmoved
 from pipeline.inference.load_cases import LoadCases, load_cases
 from pipeline.inference.subsets import carried
 from pipeline.selection.adequacy.bad_readings import BadReading, bad_readings, set_aside
-from pipeline.selection.adequacy.judgement import HELD_OUT, ORDER, SIZE, judge
+from pipeline.selection.adequacy.judgement import HELD_OUT, SIZE, judge, ordered
 from pipeline.selection.adequacy.scatter import Scatter, scatters
 from pipeline.selection.adequacy.tails import Tails, tails_of, without_tails
 from pipeline.selection.adequacy.whiteness import white
@@ -52,7 +52,7 @@ class Readings:
     @staticmethod
     def may_be_asked(found: Fit, criteria: Criteria) -> bool:
         """Whether there is enough about a fit, and nothing of it has an order."""
-        return found.degrees >= criteria.few_readings and _ordered(found, criteria)
+        return found.degrees >= criteria.few_readings and not ordered(found, criteria)
 
     def again(self, found: Fit, given: LoadCases, criteria: Criteria) -> Readings:
         """What the readings are about another fit. given: all of them as they were declared."""
@@ -120,12 +120,6 @@ def _refitted(cases: LoadCases, found: Fit, criteria: Criteria) -> Fit:
         return same
     start = carried(found.prediction, cases, found.residual.load_cases)
     return fit(found.model, cases, start, None, criteria.plausible)
-
-
-def _ordered(found: Fit, criteria: Criteria) -> bool:
-    """Whether what is left has no order along the load paths."""
-    checks = judge(found, criteria).checks
-    return all(check.passed for check in checks if check.name == ORDER)
 
 
 def _other(found: Fit, criteria: Criteria) -> Iterator[Scatter]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from weakref import WeakKeyDictionary
 
 import numpy as np
 from numpy.typing import NDArray
@@ -58,8 +59,25 @@ class Judgement:
         return frozenset(check.name for check in self.checks if not check.passed)
 
 
+_judged: WeakKeyDictionary[Fit, dict[Criteria, Judgement]] = WeakKeyDictionary()
+"""Memo of `judge`: where tests that were held out are off the model is fitted once more, which takes as long as a fit,
+and the same fit is judged in many places."""
+
+
 def judge(found: Fit, criteria: Criteria = CRITERIA) -> Judgement:
     """The residual of a fit, of the fitted tests and of those held out."""
+    known = _judged.setdefault(found, {})
+    if criteria not in known:
+        known[criteria] = _judge(found, criteria)
+    return known[criteria]
+
+
+def ordered(found: Fit, criteria: Criteria = CRITERIA) -> bool:
+    """Whether what is left of the fitted tests has an order along the load paths."""
+    return not _order(found, criteria).passed
+
+
+def _judge(found: Fit, criteria: Criteria) -> Judgement:
     level = criteria.check_level
     size, order = _size(found, level), _order(found, criteria)
     scatter = 1.0
