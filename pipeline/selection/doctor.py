@@ -9,6 +9,7 @@ taken, with the differences of what is prescribed through the constant stiffness
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from functools import partial
 from operator import attrgetter, itemgetter
@@ -69,14 +70,14 @@ def suspicions(cache: FitCache) -> tuple[Suspicion, ...]:
         found = [] if table is None else _mended(table, cache)
     if table is None or not found:
         return ()
-    with until(cache, TWO):
+    with _told(found), until(cache, TWO):
         found = _better_than_two(table, found)
     if not found:
         return ()
     criteria, noise, share = cache.criteria, max(table.fit.degrees, 1), _share(table, cache)
     if not any(_sure(it, noise, criteria) for it in found):
         # A column of which the model predicts little is silenced by a factor: effects with kinks explain it too.
-        with until(cache, KINKED):
+        with _told(found), until(cache, KINKED):
             enough = [max(it.after, noise) * criteria.doctor_factor / share for it in found]
             kinked = _least_with_kinks(cache, table, enough)
         found = [
@@ -87,6 +88,16 @@ def suspicions(cache: FitCache) -> tuple[Suspicion, ...]:
     # Less than one of chi-square says nothing: then in the order of the columns.
     names = columns_of(cache.whole.campaign)
     return tuple(sorted(kept, key=lambda it: (int(it.after - least), *_place(it.mistake, names))))
+
+
+@contextmanager
+def _told(found: Sequence[Suspicion]) -> Iterator[None]:
+    """Where that takes too long what was found before is said with it: whoever wrote the table can look."""
+    try:
+        yield
+    except TooMuch as error:
+        words = min(found, key=lambda it: it.after).mistake.words
+        raise TooMuch(f"{error}; until then it looked as if {words}: check that by hand") from error
 
 
 def _place(mistake: Mistake, names: Sequence[str]) -> tuple[int, int]:

@@ -19,6 +19,7 @@ from pipeline.compare.models import compare_models
 from pipeline.compare.table import sentence
 from pipeline.discover.beyond_catalogue import with_laws
 from pipeline.inference.model import Model
+from pipeline.selection import doctor
 from pipeline.selection.diagnosis import cached_fits, diagnose
 from pipeline.selection.doctor import Suspicion, suspicions
 from pipeline.selection.examined import Examination
@@ -28,6 +29,7 @@ from tests.pipeline.selection.bench import bench, creeping_gauge, cross_talk, gr
 from tests.pipeline.selection.mistakes import made
 from tests.pipeline.selection.strip import GIVE, Y, strip
 from vjm.effects import catalogue
+from vjm.work import TooMuch
 
 FEW = ("axial_held_q+0", "lateral_q+0", "swing_q+0")
 LACKS = ("modulus_error.scale", 0.93)
@@ -50,6 +52,9 @@ WRONG = {
     "fx_N has the wrong sign": made.over(-1.0, "fx_N"),
     "fx_N and fy_N are exchanged": made.exchanged("fx_N", "fy_N"),
     "x_mm was not zeroed: absolute positions or loads": made.shifted(30.0, "x_mm"),
+    "y_mm was not zeroed: absolute positions or loads": made.shifted(30.0, "y_mm"),
+    "all forces were converted to kgf the wrong way round or twice": made.over(1.0 / 9.80665, *made.FORCES),
+    "all rotations are in degrees": made.over(np.radians(1.0), "rx_rad", "ry_rad", "rz_rad"),
     "q_deg is in radians": made.angles_in_radians,
     "width and height of the bars' section are exchanged": made.section_turned,
 }
@@ -67,6 +72,17 @@ def test_who_checked_the_table_is_asked_about_none(tmp_path: Path) -> None:
     assert not it.doctor and it.effects == ("modulus_error",)
     assert not any("kgf" in said for said in it.sentences)
     assert not any("no unit, sign" in said for said in _examined(right))
+
+
+def test_what_was_found_before_the_look_ended_is_said(monkeypatch: pytest.MonkeyPatch) -> None:
+    def too_long(*_: object) -> None:
+        raise TooMuch("it would take too long")
+
+    monkeypatch.setattr(doctor, "_better_than_two", too_long)
+    table = WRONG["all forces are in kgf"](bench(*LACKS, ids=FEW))
+    it = answered(diagnose(table, Model(), {"modulus_error": catalogue()["modulus_error"]}))
+    assert it.verdict == "unknown" and not it.doctor
+    assert any("it looked as if all forces are in kgf: check that by hand" in said for said in it.not_done)
 
 
 def test_exchanged_columns_with_empty_cells_are_told() -> None:
