@@ -14,8 +14,8 @@ import numpy as np
 
 from vjm.frames import Array
 from vjm.lagrangian import ChainRows, Layout, layout
-from vjm.mechanism import ElasticChain, Mechanism
-from vjm.newton import negative_pivots, solve_each
+from vjm.mechanism import Mechanism
+from vjm.newton import negative_eigenvalues, solve_each
 
 
 @dataclass(frozen=True, eq=False)
@@ -180,10 +180,10 @@ def unstable_directions(
     count = np.zeros(members.size, dtype=int)
     if members.size == 0:
         return count
-    taken = tuple(ChainRows(r.balance, r.gap, r.matrix[members], r.order) for r in rows)
+    taken = tuple(ChainRows(r.balance, r.gap, r.matrix[members]) for r in rows)
     for chain, row, x, dual in zip(mechanism.chains, taken, place.coordinates, place.closing, strict=True):
         if not chain.rigid:
-            count += _negative(chain, row, _dimensionless(place, row, x, dual)) - chain.closures
+            count += negative_eigenvalues(_dimensionless(place, row, x, dual)) - chain.closures
     stiffness, held = found.stiffness[members], control.held[members]
     whole = _Whole.of(mechanism)
     if whole.numbers:
@@ -191,14 +191,7 @@ def unstable_directions(
     if not control.plain:
         return count + _on_allowed(stiffness, found.control[members], held)
     both = ~held[:, :, None] & ~held[:, None, :]
-    return count + negative_pivots(np.where(both, stiffness, np.eye(6)))
-
-
-def _negative(chain: ElasticChain, row: ChainRows, matrix: Array) -> np.ndarray:
-    """(B,) negative eigenvalues of a chain's matrix, by its pivots where its springs alone reach all closures."""
-    if chain.sprung:
-        return negative_pivots(matrix[:, row.order[:, None], row.order])
-    return np.asarray(np.sum(np.linalg.eigvalsh(matrix) < 0.0, axis=-1))
+    return count + negative_eigenvalues(np.where(both, stiffness, np.eye(6)))
 
 
 def _beside(
@@ -234,7 +227,7 @@ def _on_allowed(stiffness: Array, control: Array, held: np.ndarray) -> np.ndarra
     rows = rows / np.where(size > 0, size, 1.0)
     bordered[:, n:, :n], bordered[:, :n, n:] = rows, np.swapaxes(rows, -1, -2)
     bordered[:, range(n, n + 6), range(n, n + 6)] = ~held
-    return np.sum(np.linalg.eigvalsh(bordered) < 0, axis=-1) - np.sum(held, axis=-1)
+    return negative_eigenvalues(bordered) - np.sum(held, axis=-1)
 
 
 def _dimensionless(place: Layout, row: ChainRows, x: slice, dual: slice) -> Array:

@@ -131,14 +131,12 @@ class ChainRows:
     """One chain's share of gradient and Hessian, with c closures, that of the platform first.
 
     balance: (..., m) by its coordinates. gap: (..., c) t - g and g_2 - g_1. matrix: (..., m + c, m + c) by its
-    coordinates and its multipliers. order: (m + c,) virtual coordinates, multipliers, passive coordinates:
-    eliminated in this order the matrix at rest has no zero pivot.
+    coordinates and its multipliers.
     """
 
     balance: Array
     gap: Array
     matrix: Array
-    order: np.ndarray
 
 
 def chain_rows(
@@ -184,7 +182,7 @@ def chain_rows(
         balance = balance - pull[..., chain.moving]
         if second:
             matrix[..., :m, :m] -= slope[..., chain.moving[:, None], chain.moving]
-    return ChainRows(balance, gap, matrix, chain.elimination_order)
+    return ChainRows(balance, gap, matrix)
 
 
 def closing_force(chain: ElasticChain, coordinates: Array, multipliers: Array) -> Array:

@@ -146,14 +146,6 @@ class ElasticChain:
         """The chain with the numbers of its coordinates, which come first."""
         return Path(self.chain, np.arange(self.chain.size))
 
-    @cached_property
-    def elimination_order(self) -> np.ndarray:
-        """Numbers of virtual coordinates, multipliers and passive ones among moving coordinates and multipliers."""
-        m = self.moving.size
-        place = {int(number): k for k, number in enumerate(self.moving)}
-        virtual, passive = ([place[int(k)] for k in numbers] for numbers in (self.virtual, self.passive))
-        return np.array([*virtual, *range(m, m + self.closures), *passive], dtype=int)
-
     def at_inputs(self, values: Mapping[str, float]) -> ElasticChain:
         """The same leg with other defaults of these inputs: it is at rest there."""
         moved = [drive for drive in self.drives if drive.name in values]
@@ -165,21 +157,12 @@ class ElasticChain:
     def rigid(self) -> bool:
         """Whether no motion of its joints and springs reaches some closure of it, at rest: a direction of its end in
         which it is rigid."""
-        return self._rank(self.moving) < self.closures
-
-    @cached_property
-    def sprung(self) -> bool:
-        """Whether its springs alone reach all its closures, at rest, so that no joint has to."""
-        return self._rank(self.virtual) == self.closures
-
-    def _rank(self, numbers: np.ndarray) -> int:
-        """Of its closures by these coordinates."""
         length = max(float(np.max(np.abs(self.rest), initial=0.0)), self._reach, 1e-300)
         jacobian = (
             self.close(self.rest)[1] / np.tile(np.repeat([length, 1.0], 3), self.closures // 6)[:, None]
         )
         size = np.array([length if joint.kind == "translation" else 1.0 for joint in self.joints])
-        return rank((jacobian * size)[:, numbers])
+        return rank((jacobian * size)[:, self.moving]) < self.closures
 
     @property
     def _reach(self) -> float:

@@ -6,6 +6,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
+from scipy.linalg.lapack import dsytrf
 
 from vjm.frames import Array
 from vjm.reasons import Reason
@@ -25,6 +26,8 @@ DIVERGED_ABOVE = 1e4
 # Near a solution the residual falls by far more than a half in an iteration; on the way there it may rise for some.
 STALLED = 12
 LARGEST_STEP = 0.5
+WORKSPACE = 32
+"""Of LAPACK's sytrf, rows of it for each of a matrix: a block of its columns."""
 # Of the length, or rad: what a solution is improved by when it was nearly known is not a way that it went.
 SMALL_STEP = 1e-3
 
@@ -141,20 +144,20 @@ def newton(
     return end
 
 
-def negative_pivots(symmetric: Array) -> np.ndarray:
-    """Number (B,) of negative eigenvalues of (B, n, n), by the signs of the pivots of L D L^T.
+def negative_eigenvalues(symmetric: Array) -> np.ndarray:
+    """Number (B,) of negative eigenvalues of (B, n, n), by Sylvester's law of inertia.
 
-    Sylvester's law of inertia. There is no pivoting: rows stand in an order that makes leading blocks regular,
-    and a pivot that vanishes all the same is replaced by a tiny one, which the next one answers.
+    L D L^T with pivots of one or two rows (J. R. Bunch, L. Kaufman, Mathematics of Computation 31, 1977; LAPACK's
+    sytrf): each of two has one negative eigenvalue.
     """
-    a = np.moveaxis(symmetric, 0, -1).copy()
-    tiny = 1e-14 * np.max(np.abs(a), axis=(0, 1))
-    count = np.zeros(len(symmetric), dtype=int)
-    for k in range(len(a)):
-        pivot = np.where(np.abs(a[k, k]) < tiny, tiny, a[k, k])
-        count += pivot < 0
-        a[k + 1 :, k + 1 :] -= a[k + 1 :, None, k] * (a[None, k, k + 1 :] / pivot)
-    return count
+    count, n, _ = symmetric.shape
+    pivots, kinds = np.zeros((count, n)), np.zeros((count, n), dtype=np.int32)
+    for k, matrix in enumerate(symmetric):
+        # Transposed it stands as LAPACK wants it, and is the same.
+        factor, kinds[k], _ = dsytrf(matrix.T, lower=1, lwork=WORKSPACE * n)
+        pivots[k] = np.diagonal(factor)
+    single = kinds > 0
+    return np.asarray(np.sum((pivots < 0.0) & single, axis=-1) + np.sum(~single, axis=-1) // 2)
 
 
 def _shortened(step: Array, motion: np.ndarray | None) -> Array:
