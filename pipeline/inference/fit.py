@@ -14,7 +14,7 @@ from pipeline.inference.load_cases import LoadCases
 from pipeline.inference.model import Model
 from pipeline.inference.nuisance_line import along_a_line, with_line
 from pipeline.inference.nuisances import beside, lined, nominals
-from pipeline.inference.objective import Objective
+from pipeline.inference.objective import Evaluation, Objective
 from pipeline.inference.predicted import Prediction
 from pipeline.inference.residual import Residual, residual
 from pipeline.inference.rounding import SQUARED, TINY
@@ -160,11 +160,11 @@ def _fit(
     (rows, own), *others = load_cases.by_role
     begin = start if start is None or not others else at_rows(start, load_cases, own, rows)
 
-    def solve(aim: Objective, begin: Prediction | None) -> End:
-        if aim.model.free:
-            return solver(aim, begin, watch, plausible, effort)
-        there = aim.at(aim.model.values, begin)
-        return End(there, there.rounds, ended=False)
+    def solve(begin: Evaluation) -> End:
+        if begin.objective.model.free:
+            return solver(begin, watch, plausible, effort)
+        there = begin.settle()
+        return End(there, there.rounds - begin.rounds, ended=False)
 
     LOG.info("fit of %s from %s", ", ".join(model.names) or "the plain model", model.values)
     with within(effort.share * WORK * allowance(own)):

@@ -10,8 +10,7 @@ from numpy.typing import NDArray
 from scipy.linalg import qr
 from scipy.optimize import lsq_linear
 
-from pipeline.inference.objective import Evaluation, Objective
-from pipeline.inference.predicted import Prediction
+from pipeline.inference.objective import Evaluation
 from pipeline.inference.solvers import Effort, End, Pulled, Watch, idle, nothing
 from vjm.effects.base import Parameter
 from vjm.work import over
@@ -45,22 +44,20 @@ PACE = 3
 TINY = 1e-12
 
 
-def levenberg_marquardt(
-    aim: Objective, start: Prediction | None, watch: Watch | None, plausible: float, effort: Effort
-) -> End:
-    """The least chi-square near the model's values: Levenberg-Marquardt in a box.
+def levenberg_marquardt(begin: Evaluation, watch: Watch | None, plausible: float, effort: Effort) -> End:
+    """The least chi-square near where an objective is evaluated: Levenberg-Marquardt in a box.
 
     Each step solves the linear problem within the bounds exactly (P. B. Stark, R. L. Parker, Computational
     Statistics 10, 1995), so that effects leave the bound where they begin at once. With residuals in sigmas the
     stop has a meaning: no step promises more than `PROMISE` of chi-square.
     """
+    aim, there, count = begin.objective, begin, 0
     bounds = np.array([each.bounds for each in aim.model.free]).T
     reach = np.array([_reach(each.parameter) for each in aim.model.free]).T
     pulled = Pulled.of(aim, plausible)
     scale, damping, least = pulled.scale, 0.0, 0.0
     refused, losses, past, given_up = np.inf, 0, list[float](), False
-    there = aim.at(np.clip(aim.model.values, *bounds), start, within=np.inf)
-    here, slopes, count = pulled.residuals(there), pulled.jacobian(there), there.rounds
+    here, slopes = pulled.residuals(there), pulled.jacobian(there)
     for left in reversed(range(STEPS)):
         step = _step(slopes, here, room := (bounds - there.values) / scale * reach, damping)
         promise = here @ here - np.sum((here + slopes @ step) ** 2)

@@ -98,6 +98,12 @@ class Model:
         by_name = {term.effect.name: term.values for term in self.terms}
         return np.array([by_name[each.effect][each.parameter.name] for each in self.free], dtype=float)
 
+    @property
+    def bounded(self) -> Array:
+        """(P,) the same, none beyond its bounds."""
+        lows, highs = ([each.bounds[k] for each in self.free] for k in (0, 1))
+        return np.clip(self.values, lows, highs)
+
     def at(self, values: Array) -> Model:
         """The model with other values (P,) of its free numbers."""
         new = {each.name: float(value) for each, value in zip(self.free, values, strict=True)}

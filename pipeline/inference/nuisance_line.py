@@ -22,7 +22,7 @@ from pipeline.inference.predicted import Prediction
 from pipeline.inference.settings import WRITTEN
 from pipeline.inference.solvers import ALL, Effort, End, idle
 
-Solve = Callable[[Objective, Prediction | None], End]
+Solve = Callable[[Evaluation], End]
 
 
 def along_a_line(
@@ -31,10 +31,12 @@ def along_a_line(
     """The end of a fit with what was written where it fits best, along the line of the prediction where it begins; near
     there where another model leaves far less."""
     model, cases = beside(model, cases, begin)
-    end = solve(Objective(model, cases), begin)
+    first = Objective(model, cases).at(model.bounded, begin, within=np.inf)
+    end = solve(first)
+    count = first.rounds + end.evaluations
     if cases.by_nominal is None:
-        return end
-    numbers, count = nominals(cases.campaign), end.evaluations
+        return replace(end, evaluations=count)
+    numbers = nominals(cases.campaign)
     for number in range(WRITTEN.rounds):
         there = end.there
         at = np.clip(there.residual.estimate, -WRITTEN.farthest, WRITTEN.farthest)
@@ -42,12 +44,11 @@ def along_a_line(
         if number > WRITTEN.chords:
             near = lined(moved, cases, near)
             cases, count = replace(cases, by_nominal=near.by_nominal), count + 2
-        aim = Objective(moved, cases)
-        new = aim.at(there.values, near)
+        new = Objective(moved, cases).at(there.values, near)
         count += new.rounds
         if end.ended or _same(there, new) or effort.beats(_total(new), new.residuals.size):
             return replace(end, there=new, evaluations=count)
-        end = solve(aim, new.prediction)
+        end = solve(new)
         count += end.evaluations
     return replace(end, evaluations=count)
 

@@ -12,7 +12,6 @@ from scipy.optimize import least_squares
 
 from pipeline.inference.load_cases import LoadCases
 from pipeline.inference.objective import Evaluation, Objective
-from pipeline.inference.predicted import Prediction
 from pipeline.inference.prior import away, residual, slope
 from vjm.work import over
 
@@ -97,29 +96,24 @@ ALL = Effort()
 
 
 class Solver(Protocol):
-    """Finds the least chi-square near the model's own values.
+    """Finds the least chi-square near where an objective is evaluated, within its bounds.
 
-    start: a prediction of a like model, from which equilibria are found sooner. plausible: see `fit`.
+    plausible: see `fit`. Its end counts the evaluations after that.
     """
 
-    def __call__(
-        self, aim: Objective, start: Prediction | None, watch: Watch | None, plausible: float, effort: Effort
-    ) -> End: ...
+    def __call__(self, begin: Evaluation, watch: Watch | None, plausible: float, effort: Effort) -> End: ...
 
 
-def trust_region(
-    aim: Objective, start: Prediction | None, watch: Watch | None, plausible: float, effort: Effort
-) -> End:
+def trust_region(begin: Evaluation, watch: Watch | None, plausible: float, effort: Effort) -> End:
     """The trust region reflective method of scipy (M. A. Branch, T. F. Coleman, Y. Li, SIAM J. Sci. Comput. 21, 1999).
 
     Every evaluation settles the true inputs, which takes longer than the own solver; it may be cut by its work only
     where it ends.
     """
+    aim, here, count = begin.objective, begin.settle(), 0
     bounds = np.array([each.bounds for each in aim.model.free]).T
     pulled = Pulled.of(aim, plausible)
     wide = np.clip((bounds - pulled.null) / pulled.scale, -LARGEST, LARGEST)
-    here = aim.at(np.clip(aim.model.values, *bounds), start)
-    count = here.rounds
 
     def there(x: Array) -> Evaluation:
         nonlocal here, count

@@ -42,6 +42,7 @@ class Kinked:
         jacobian = np.zeros((200, 1))
         jacobian[-1] = 1.0
         it = SimpleNamespace(
+            objective=self,
             values=values,
             residuals=residuals,
             jacobian=jacobian,
@@ -56,12 +57,12 @@ class Kinked:
 
 def test_no_step_is_tried_twice() -> None:
     aim = Kinked(kept=0.02)
-    levenberg_marquardt(aim, None, None, np.inf, ALL)  # type: ignore[arg-type]
+    levenberg_marquardt(aim.at(aim.model.values), None, np.inf, ALL)
     assert len(aim.tried) >= 2
     assert len(set(aim.tried)) == len(aim.tried)
 
 
 def test_a_step_that_keeps_what_it_promises_is_taken() -> None:
     aim = Kinked(kept=1.0)
-    end = levenberg_marquardt(aim, None, None, np.inf, ALL)  # type: ignore[arg-type]
+    end = levenberg_marquardt(aim.at(aim.model.values), None, np.inf, ALL)
     assert abs(end.there.values[0] + 2.0) < 1e-6
