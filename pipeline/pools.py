@@ -44,7 +44,7 @@ def pool(workers: int = 1, dask: str | None = None) -> Iterator[Pool]:
         with _dask(workers, dask), parallel_config("dask"):
             yield _each
     elif workers == 1:
-        # One worker is one process: what many of them would take can be compared with it.
+        # One worker is one process: its seconds compare with those of each of many.
         with alone():
             yield one_after_another
     else:

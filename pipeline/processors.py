@@ -46,7 +46,7 @@ def may_use(processors: int) -> None:
 
 @contextmanager
 def alone() -> Iterator[None]:
-    """This process uses no other within it."""
+    """This process uses no other within it; for all its threads."""
     before = used()
     may_use(1)
     try:
@@ -123,6 +123,7 @@ def _serve(
 ) -> None:
     # An interrupt from the keyboard reaches all processes; the one that started the others ends them.
     signal.signal(signal.SIGINT, signal.SIG_IGN)
+    signal.signal(signal.SIGTERM, signal.SIG_DFL)
     ctypes.CDLL(None).prctl(_DEATH_OF_PARENT, signal.SIGTERM)
     if os.getppid() != parent:
         return

@@ -46,6 +46,7 @@ PLAIN = frozenset({0.0, 1.0, 2.0, 3.0, 0.5, 6.0, 7.0, 12.0})
 THRESHOLDS_STAND_IN = (
     "pipeline/selection/criteria.py",
     "pipeline/selection/law_criteria.py",
+    "pipeline/selection/table_criteria.py",
     "pipeline/inference/settings.py",
     "pipeline/inference/solvers.py",
     "pipeline/inference/levenberg_marquardt.py",

@@ -15,7 +15,7 @@ import numpy as np
 from vjm.frames import Array
 from vjm.lagrangian import ChainRows, Layout, layout
 from vjm.mechanism import Mechanism
-from vjm.newton import negative_eigenvalues, solve_each
+from vjm.newton import negatives, solve_each
 
 
 @dataclass(frozen=True, eq=False)
@@ -183,7 +183,7 @@ def unstable_directions(
     taken = tuple(ChainRows(r.balance, r.gap, r.matrix[members]) for r in rows)
     for chain, row, x, dual in zip(mechanism.chains, taken, place.coordinates, place.closing, strict=True):
         if not chain.rigid:
-            count += negative_eigenvalues(_dimensionless(place, row, x, dual)) - chain.closures
+            count += negatives(_dimensionless(place, row, x, dual)) - chain.closures
     stiffness, held = found.stiffness[members], control.held[members]
     whole = _Whole.of(mechanism)
     if whole.numbers:
@@ -191,7 +191,7 @@ def unstable_directions(
     if not control.plain:
         return count + _on_allowed(stiffness, found.control[members], held)
     both = ~held[:, :, None] & ~held[:, None, :]
-    return count + negative_eigenvalues(np.where(both, stiffness, np.eye(6)))
+    return count + negatives(np.where(both, stiffness, np.eye(6)))
 
 
 def _beside(
@@ -227,7 +227,7 @@ def _on_allowed(stiffness: Array, control: Array, held: np.ndarray) -> np.ndarra
     rows = rows / np.where(size > 0, size, 1.0)
     bordered[:, n:, :n], bordered[:, :n, n:] = rows, np.swapaxes(rows, -1, -2)
     bordered[:, range(n, n + 6), range(n, n + 6)] = ~held
-    return negative_eigenvalues(bordered) - np.sum(held, axis=-1)
+    return negatives(bordered) - np.sum(held, axis=-1)
 
 
 def _dimensionless(place: Layout, row: ChainRows, x: slice, dual: slice) -> Array:

@@ -27,7 +27,9 @@ DIVERGED_ABOVE = 1e4
 STALLED = 12
 LARGEST_STEP = 0.5
 WORKSPACE = 32
-"""Of LAPACK's sytrf, rows of it for each of a matrix: a block of its columns."""
+"""Numbers of the work array of LAPACK's sytrf for each row of a matrix: the columns that it takes at once."""
+NO_PIVOT = 1e-14
+"""Of the largest entry of a matrix: a smaller pivot is rounding."""
 # Of the length, or rad: what a solution is improved by when it was nearly known is not a way that it went.
 SMALL_STEP = 1e-3
 
@@ -144,20 +146,22 @@ def newton(
     return end
 
 
-def negative_eigenvalues(symmetric: Array) -> np.ndarray:
+def negatives(symmetric: Array) -> np.ndarray:
     """Number (B,) of negative eigenvalues of (B, n, n), by Sylvester's law of inertia.
 
     L D L^T with pivots of one or two rows (J. R. Bunch, L. Kaufman, Mathematics of Computation 31, 1977; LAPACK's
-    sytrf): each of two has one negative eigenvalue.
+    sytrf): each of two has one negative eigenvalue. A pivot that is rounding beside the matrix is none: along a motion
+    that meets no stiffness.
     """
     count, n, _ = symmetric.shape
     pivots, kinds = np.zeros((count, n)), np.zeros((count, n), dtype=np.int32)
     for k, matrix in enumerate(symmetric):
         # Transposed it stands as LAPACK wants it, and is the same.
-        factor, kinds[k], _ = dsytrf(matrix.T, lower=1, lwork=WORKSPACE * n)
+        factor, kinds[k], _ = dsytrf(matrix.T, lower=1, lwork=WORKSPACE * max(n, 1))
         pivots[k] = np.diagonal(factor)
     single = kinds > 0
-    return np.asarray(np.sum((pivots < 0.0) & single, axis=-1) + np.sum(~single, axis=-1) // 2)
+    tiny = NO_PIVOT * np.max(np.abs(symmetric), axis=(-2, -1), initial=0.0)[:, None]
+    return np.asarray(np.sum((pivots < -tiny) & single, axis=-1) + np.sum(~single, axis=-1) // 2)
 
 
 def _shortened(step: Array, motion: np.ndarray | None) -> Array:

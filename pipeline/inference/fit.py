@@ -197,14 +197,15 @@ def as_it_is(model: Model, load_cases: LoadCases, start: Prediction) -> Fit:
 
 
 def unmoved(found: Fit, cases: LoadCases) -> Fit | None:
-    """The same fit beside other readings of tests that were held out; None where those of fitted ones are others."""
-    before = found.residual.load_cases
-    if not np.array_equal(cases.fitted, before.fitted):
+    """The same fit beside other readings of tests that were held out; None where those of fitted ones are others, or
+    what a test is done on, at and with."""
+    before, rows = found.residual.load_cases, cases.fitted
+    if not cases.done_alike(before) or not np.array_equal(rows, before.fitted):
         return None
-    pairs = ((cases.measured, before.measured), (cases.spread, before.spread))
-    rows = cases.fitted
-    if not all(np.array_equal(one[rows], other[rows], equal_nan=True) for one, other in pairs):
-        return None
+    for name in ("measured", "spread", "input_sigma"):
+        one, other = getattr(cases, name), getattr(before, name)
+        if not np.array_equal(one[rows], other[rows], equal_nan=True):
+            return None
     return replace(found, residual=residual(cases, found.prediction), evaluations=0)
 
 

@@ -85,6 +85,14 @@ class Group:
         """(T, S) steps that are not filling."""
         return np.arange(self.targets.shape[1]) < self.lengths[:, None]
 
+    def done_alike(self, other: Group) -> bool:
+        """Whether another group has the same tests, on the same rigs, with the same prescribed."""
+        same = len(self.rigs) == len(other.rigs) and all(
+            a is b for a, b in zip(self.rigs, other.rigs, strict=True)
+        )
+        names = ("numbers", "lengths", "targets", "channels", "q", "rise")
+        return same and all(np.array_equal(getattr(self, n), getattr(other, n)) for n in names)
+
     @cached_property
     def by_steps(self) -> Group:
         """Every real step as a test of its own, without filling; numbers are those of their tests."""
@@ -193,6 +201,16 @@ class LoadCases:
         """(R,) rows that may be used to fit and to choose."""
         roles = np.array([test.role == "fit" for test in self.campaign.tests])
         return roles[self.test]
+
+    def done_alike(self, other: LoadCases) -> bool:
+        """Whether others are of the same tests, done and zeroed in the same way: then a model predicts the same."""
+        zeros, others = ([test.zero for test in it.campaign.tests] for it in (self, other))
+        return (
+            zeros == others
+            and self.campaign.tolerance == other.campaign.tolerance
+            and len(self.groups) == len(other.groups)
+            and all(a.done_alike(b) for a, b in zip(self.groups, other.groups, strict=True))
+        )
 
     def rows_of(self, group: Group) -> np.ndarray:
         """Rows of the real steps of a group, test by test."""

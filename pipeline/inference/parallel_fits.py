@@ -20,7 +20,7 @@ Bare = list[np.ndarray]
 """A state without its mechanism: what laws of a user's own are made of may not be sent."""
 Values = tuple[Mapping[str, float], ...]
 """Of the effects of a model, in order."""
-Numbers = tuple[Values, frozenset[str], tuple[Term, ...], Prediction, list[Bare], int, bool]
+Numbers = tuple[Values, frozenset[str], tuple[Term, ...], Prediction, list[Bare], int, bool, bool]
 
 
 def fits_at_once(calls: Sequence[tuple[Model, Callable[[], Fit]]], load_cases: LoadCases) -> list[Fit]:
@@ -34,16 +34,16 @@ def _numbers(call: Callable[[], Fit]) -> Numbers:
     bare = [state.arrays for state in found.prediction.states]
     whole = replace(found.prediction, states=())
     it, values = found.model, tuple(term.values for term in found.model.terms)
-    return values, it.fixed, it.nominals, whole, bare, found.evaluations, found.ended
+    return values, it.fixed, it.nominals, whole, bare, found.evaluations, found.ended, found.own_line
 
 
 def _fit(model: Model, numbers: Numbers, load_cases: LoadCases) -> Fit:
-    values, fixed, nominals, prediction, bare, evaluations, ended = numbers
+    values, fixed, nominals, prediction, bare, evaluations, ended, own_line = numbers
     terms = tuple(replace(term, values=own) for term, own in zip(model.terms, values, strict=True))
     model = replace(model, terms=terms, fixed=fixed, nominals=nominals)
     states = tuple(_state(model, load_cases, *each) for each in zip(load_cases.groups, bare, strict=True))
     prediction = replace(prediction, states=states)
-    return Fit(model, prediction, residual(load_cases, prediction), evaluations, ended)
+    return Fit(model, prediction, residual(load_cases, prediction), evaluations, ended, own_line)
 
 
 def _state(model: Model, load_cases: LoadCases, group: Group, bare: Bare) -> Equilibrium:

@@ -110,7 +110,8 @@ def trust_region(begin: Evaluation, watch: Watch | None, plausible: float, effor
     Every evaluation settles the true inputs, which takes longer than the own solver; it may be cut by its work only
     where it ends.
     """
-    aim, here, count = begin.objective, begin.settle(), 0
+    aim, here = begin.objective, begin.settle()
+    count = here.rounds - begin.rounds
     bounds = np.array([each.bounds for each in aim.model.free]).T
     pulled = Pulled.of(aim, plausible)
     wide = np.clip((bounds - pulled.null) / pulled.scale, -LARGEST, LARGEST)

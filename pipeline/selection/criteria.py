@@ -16,10 +16,11 @@ from scipy.stats import chi2
 
 from pipeline.selection.criterion import CHANCE, CHI2, COUNT, FACTOR, SHARE, SIGMA, Criterion, criterion
 from pipeline.selection.law_criteria import LawCriteria
+from pipeline.selection.table_criteria import TableCriteria
 
 
 @dataclass(frozen=True)
-class Criteria(LawCriteria):
+class Criteria(TableCriteria, LawCriteria):
     """All thresholds of the choice. `of` lists them with their meaning; `dataclasses.replace` changes one."""
 
     # What noise may do.
@@ -146,55 +147,6 @@ class Criteria(LawCriteria):
     tails_no_less: float = criterion(
         -8.0, CHI2, "noise", "the same over normal noise with single bad readings, at least"
     )
-    bad_neighbours: float = criterion(
-        3.5,
-        SIGMA,
-        "bad readings",
-        "a single bad reading has neighbours in its channel that are off by less",
-    )
-    bad_rest: float = criterion(
-        0.2,
-        SHARE,
-        "bad readings",
-        "of a single bad reading, below which all others of its row have to be once it is explained",
-    )
-    bad_share: float = criterion(
-        0.02, SHARE, "bad readings", "of all readings, at most, that are set aside as single bad ones"
-    )
-    reading_rounds: int = criterion(
-        4, COUNT, "bad readings", "searches after which what is found of the readings stays as it is"
-    )
-    doctor_factor: float = criterion(
-        2.5,
-        FACTOR,
-        "doctor",
-        "by which what the best single effect leaves falls where a mistake of the table is mended: forces in kgf take "
-        "3.7 to 5.4, benches without a mistake 1.3",
-    )
-    doctor_readings: int = criterion(
-        4, COUNT, "doctor", "degrees of freedom from which mistakes of a table are looked for"
-    )
-    doctor_explains: float = criterion(
-        25.0, CHI2, "doctor", "of a reading in a column that is mended, at least: less may be silence"
-    )
-    doctor_tie: float = criterion(
-        25.0,
-        CHI2,
-        "doctor",
-        "within which two mistakes are told together, of noise; of what is left where it is more",
-    )
-    doctor_look: float = criterion(
-        1.8, FACTOR, "doctor", "by which what is left has to fall to first order for a mistake to be fitted"
-    )
-    doctor_sure: float = criterion(
-        25.0, FACTOR, "doctor", "the same to first order, from which the table as it is need not be fitted"
-    )
-    doctor_fitted: int = criterion(4, COUNT, "doctor", "mistakes that are fitted, those that promise most")
-    doctor_steps: int = criterion(100, COUNT, "doctor", "load steps in which mistakes are looked for")
-    doctor_far: float = criterion(
-        4.0, FACTOR, "doctor", "what a mistake leaves, beyond which another one is no tie of it"
-    )
-    doctor_effects: int = criterion(2, COUNT, "doctor", "single effects that are fitted on either side")
     # How far the search goes.
     far: float = criterion(
         2.0, SIGMA, "search", "root mean square from which a set is far from an explanation"
@@ -369,8 +321,9 @@ class Criteria(LawCriteria):
         return replace(self, **{name: whole if isinstance(getattr(self, name), int) else value})
 
     def of(self) -> Iterator[Criterion]:
-        """All of them in their order, those of laws last."""
-        for each in sorted(fields(self), key=lambda it: hasattr(LawCriteria, it.name)):
+        """All of them in their order, those of what is wrong with a table and of laws last."""
+        parts = (TableCriteria, LawCriteria)
+        for each in sorted(fields(self), key=lambda it: [hasattr(part, it.name) for part in reversed(parts)]):
             yield Criterion(each.name, getattr(self, each.name), **each.metadata["told"])
 
     def apart(self, more: int) -> float:

@@ -201,7 +201,7 @@ def _looked_at(
     those that were found before, of which one that leaves far more is no tie."""
     criteria, enough, skipped = table.cache.criteria, list[tuple[Mistake, Table]](), False
     share, near = 1.0 / criteria.doctor_fitted, criteria.doctor_factor * max(table.fit.degrees, 1)
-    plain = _without_buckling(table, mistakes, share)
+    plain = _without_buckling(table, mistakes)
     for alone, mistake, mended in plain:
         if any(it.after < near for it in known) or any(it.first_order < near for _, it in enough):
             if alone > criteria.doctor_far * plain[0][0]:
@@ -233,16 +233,14 @@ def _looked_at(
     return out, skipped
 
 
-def _without_buckling(
-    table: Table, mistakes: Sequence[Mistake], share: float
-) -> list[tuple[float, Mistake, Table]]:
-    """What is left where each is mended, least first, to first order beside nothing that is there or not: loads that
-    would buckle bars take longest, and are none of a table that is right."""
+def _without_buckling(table: Table, mistakes: Sequence[Mistake]) -> list[tuple[float, Mistake, Table]]:
+    """What is left where each is mended, least first, to first order without the geometric stiffness of bars and
+    whatever else is there or not: loads that would buckle bars take longest, and are none of a table that is right."""
     out = list[tuple[float, Mistake, Table]]()
     for mistake in mistakes:
         table.cache.on_progress(f"whether {mistake.words}")
         mended = table.mended(mistake)
-        left = _within_its_share(mended.plain, attrgetter("first_order"), share)
+        left = _within_its_share(mended.plain, attrgetter("first_order"), BESIDE)
         out.append((np.inf if left is None else left, mistake, mended))
     return sorted(out, key=itemgetter(0))
 
@@ -259,7 +257,7 @@ def _suspicion(mended: Table, mistake: Mistake, before: float, table: Table) -> 
     if mended.left[0] * criteria.doctor_factor > before:
         return ()
     larger = _size(mended, mistake) >= (1.0 - ROUNDING) * _size(table, mistake)
-    heard = larger or (prescribes and silent > criteria.doctor_sure * mended.first_order)
+    heard = larger or (prescribes and silent > criteria.doctor_follows * mended.first_order)
     if not _explained(mended.cache.fit(mended.left[1]), mistake, criteria, heard):
         return ()
     return (Suspicion(mistake, before, *mended.left, heard or _follows(mended, mistake)),)
@@ -268,9 +266,13 @@ def _suspicion(mended: Table, mistake: Mistake, before: float, table: Table) -> 
 def _follows(mended: Table, mistake: Mistake) -> bool:
     """Whether the model predicts what the columns of a mistake read, with no further number that could be fitted to
     them: no kink makes a column a multiple of what it is."""
-    parts = list(_signals(mended.fit, mistake))
-    signal, left = sum(signal for signal, _, _ in parts), sum(left for _, left, _ in parts)
-    return left * mended.cache.criteria.doctor_sure < signal
+    criteria = mended.cache.criteria
+    loud = [
+        signal > criteria.doctor_follows * left
+        for signal, left, count in _signals(mended.fit, mistake)
+        if signal > criteria.doctor_explains * count
+    ]
+    return bool(loud) and all(loud)
 
 
 def _size(table: Table, mistake: Mistake) -> float:

@@ -49,7 +49,7 @@ class FitCache:
     stands, and that one. looks: what `left_without` found. ends: work (`vjm.work`) after which nothing new is
     begun, but `TooMuch` raised. known: fits of the same campaign, model and candidates that need not be made again.
     before: fits of the same sets to other readings of the same tests, from which these begin. since: work that was done
-    when the first of them was made.
+    when the first of them was made. rival: chi-square that something else leaves; a fit that stays far above it ends.
     """
 
     whole: LoadCases
@@ -330,10 +330,10 @@ class FitCache:
         return [*there, *probes(self.base, new, self.whole, self.criteria.plain_probe, self.on_progress)]
 
     def _fitted(self, names: Names, begin: Mapping[str, float]) -> Fit:
-        effects = [self.candidates[name] for name in self.order(names)]
         old = None if self.before is None else self.before.fits.get(names)
         if old is not None and (same := unmoved(old, self.whole)) is not None:
             return same
+        effects = [self.candidates[name] for name in self.order(names)]
         model, start, known = self._begin(names)
         if not model.free:
             return unfitted(model, self.whole, start)

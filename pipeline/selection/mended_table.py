@@ -78,7 +78,8 @@ class Table:
         return replace(self, root=frozenset())
 
     def beside_rival(self, left: float) -> Table:
-        """The same, of which no further fit goes on that would stay far above what another table leaves."""
+        """The same, of which no further fit goes on that would stay far above what another table leaves; such fits are
+        kept for both."""
         return replace(self, cache=replace(self.cache, rival=left))
 
     @cached_property

@@ -5,7 +5,11 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from vjm.newton import negative_eigenvalues
+from vjm.equilibrium import equilibrium
+from vjm.frames import POSE_NAMES
+from vjm.mechanisms.parallelogram import Parallelogram
+from vjm.newton import negatives
+from vjm.paper import BAR_STIFFNESS
 
 
 @pytest.mark.parametrize("size", [1, 2, 6, 21, 40])
@@ -16,7 +20,7 @@ def test_as_many_as_the_spectrum_has(size: int, diagonal: float) -> None:
     symmetric = some + np.swapaxes(some, -1, -2)
     symmetric[:, range(size), range(size)] *= diagonal
     counted = np.sum(np.linalg.eigvalsh(symmetric) < 0.0, axis=-1)
-    np.testing.assert_array_equal(negative_eigenvalues(symmetric), counted)
+    np.testing.assert_array_equal(negatives(symmetric), counted)
 
 
 @pytest.mark.parametrize("closures", [6, 12])
@@ -26,9 +30,24 @@ def test_each_constraint_on_a_stable_body_is_one(closures: int) -> None:
     border = rng.standard_normal((50, closures, 20))
     none = np.zeros((50, closures, closures))
     whole = np.block([[root @ np.swapaxes(root, -1, -2), np.swapaxes(border, -1, -2)], [border, none]])
-    assert set(negative_eigenvalues(whole)) == {closures}
+    assert set(negatives(whole)) == {closures}
+
+
+def test_what_is_rounding_beside_the_rest_is_none() -> None:
+    """A swing that meets no stiffness: of positive semidefinite matrices, whatever their rounding."""
+    root = np.random.default_rng(7).standard_normal((200, 6, 5))
+    assert set(negatives(root @ np.swapaxes(root, -1, -2))) == {0}
+
+
+@pytest.mark.parametrize("q", [0.1, 0.3, 0.7])
+def test_a_linkage_that_swings_freely_is_not_unstable(q: float) -> None:
+    """At rest and without a load: nothing is held, or x and z are free."""
+    linkage = Parallelogram(250.0, 80.0, BAR_STIFFNESS, q)
+    for held in ((), ("y", "rx", "ry", "rz")):
+        given = np.where([name in held for name in POSE_NAMES], linkage.unloaded_pose, 0.0)
+        assert equilibrium(linkage, given[None, :], held).unstable.max() == 0
 
 
 def test_none_of_no_member_and_none_of_zeros() -> None:
-    assert negative_eigenvalues(np.zeros((0, 3, 3))).shape == (0,)
-    assert list(negative_eigenvalues(np.zeros((2, 3, 3)))) == [0, 0]
+    assert negatives(np.zeros((0, 3, 3))).shape == (0,)
+    assert list(negatives(np.zeros((2, 3, 3)))) == [0, 0]

@@ -14,17 +14,19 @@ from pipeline.inference.model import Model
 from pipeline.selection.adequacy import judgement
 from pipeline.selection.adequacy.judgement import HELD_OUT, judge
 from tests.pipeline.selection.bench import bench
+from tests.pipeline.selection.mistakes import made
 from vjm.effects import catalogue
 
 MODEL = Model().with_effects([catalogue()[n] for n in ("bar_geometric_nonlinearity", "modulus_error")])
 FITTED, HELD = "axial_held_q+0", "axial_held_q+15"
 
 
-def knocked(campaign: Campaign, test: str) -> Campaign:
-    """Row 5 of a test with an x that is 0.05 mm off."""
+def knocked(campaign: Campaign, test: str, column: int = 0) -> Campaign:
+    """Row 5 of a test with an x, or another displacement, that is 0.05 mm off."""
 
     def off(each: Test) -> np.ndarray:
-        return each.data.displacement + 0.05 * (np.arange(len(each.data.steps))[:, None] == 5) * np.eye(6)[0]
+        there = np.arange(len(each.data.steps))[:, None] == 5
+        return each.data.displacement + 0.05 * there * np.eye(6)[column]
 
     tests = [
         replace(it, data=replace(it.data, displacement=off(it))) if it.id == test else it
@@ -62,6 +64,21 @@ def test_other_readings_roles_and_sigmas_of_fitted_tests_want_another_fit(
     coarser = replace(given, noise=given.noise.times(np.full(12 + len(given.gauges), 1.5)))
     for other in (knocked(given, FITTED), both, coarser):
         assert unmoved(found, load_cases(other)) is None
+
+
+@pytest.mark.parametrize("mend", [made.section_turned, made.angles_in_radians])
+def test_what_is_done_on_another_rig_or_at_another_angle_wants_another_fit(
+    found: Fit, mend: made.Wrong
+) -> None:
+    """The readings stay as they are: of the second only a test that was held out is at another angle."""
+    cases = load_cases(mend(bench("modulus_error.scale", 0.95, (FITTED, HELD))))
+    np.testing.assert_array_equal(cases.measured, found.residual.load_cases.measured)
+    assert unmoved(found, cases) is None
+
+
+def test_a_held_out_test_that_prescribed_otherwise_wants_another_fit(given: Campaign, found: Fit) -> None:
+    """What is prescribed in it decides where its rows are predicted."""
+    assert unmoved(found, load_cases(knocked(given, HELD, column=1))) is None
 
 
 def test_tests_that_were_held_out_are_fitted_anew_once(
