@@ -140,6 +140,11 @@ class FirstOrder:
                 best = Gain(value, self._probes(names, choice))
         return best
 
+    def within(self, name: str, low: Array, high: Array) -> float:
+        """By how much it falls with one smooth effect whose numbers (p,), in typical sizes, lie within bounds."""
+        residual, columns = self._weighed
+        return max(self._rescued([name]), _fall(columns[name][0], residual, low, high) / self.share)
+
     def alone(self, name: str) -> tuple[float, Array]:
         """By how much it falls with one smooth effect, and the effect's numbers in typical sizes."""
         residual, columns = self._weighed
@@ -197,15 +202,18 @@ def _free_of(base: Array, residual: Array, columns: Array) -> tuple[Array, Array
     return axes.T @ (residual - free @ (free.T @ residual)), axes.T @ columns
 
 
-def _fall(matrix: Array, residual: Array, low: Array) -> float:
-    """By how much the sum of squares falls when the columns may explain the residual."""
+def _fall(matrix: Array, residual: Array, low: Array, high: Array | None = None) -> float:
+    """By how much the sum of squares falls when the columns may explain the residual, each times what lies within its
+    bounds."""
     sizes = np.linalg.norm(matrix, axis=0)
     seen = sizes > RANK * max(sizes.max(initial=0.0), TINY)
     if not seen.any():
         return 0.0
-    matrix, low = matrix[:, seen] / sizes[seen], low[seen]
-    if np.all(np.isinf(low)):
+    high = np.full(sizes.size, np.inf) if high is None else high
+    # In sizes of columns, as they are looked for.
+    matrix, low, high = matrix[:, seen] / sizes[seen], low[seen] * sizes[seen], high[seen] * sizes[seen]
+    if np.all(np.isinf(low)) and np.all(np.isinf(high)):
         step = np.linalg.lstsq(matrix, residual, rcond=RANK)[0]
     else:
-        step = lsq_linear(matrix, residual, bounds=(low - ROUNDING, np.inf), method="bvls").x
+        step = lsq_linear(matrix, residual, bounds=(low - ROUNDING, high + ROUNDING), method="bvls").x
     return float(residual @ residual - np.sum((residual - matrix @ step) ** 2))

@@ -12,6 +12,7 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
+from numpy.typing import NDArray
 
 from pipeline.inference.declared_sigmas import trusted
 from pipeline.inference.fit import Fit
@@ -23,6 +24,8 @@ from pipeline.selection.first_order import FirstOrder
 from pipeline.selection.first_order_costs import estimates
 from pipeline.selection.fit_cache import FitCache, Names
 from pipeline.selection.mistakes.base import Mistake, columns_of
+
+Array = NDArray[np.float64]
 
 
 def usual(found: Fit, criteria: Criteria) -> bool:
@@ -90,7 +93,7 @@ class Table:
     def first_order_of(self, found: Fit) -> float:
         """The same of a fit of a table that is like this one."""
         here = self.cache.first_order_about(found, self.root)
-        gains = [here.gain([name]).value for name in here.signatures if self._allowed(here, name)]
+        gains = [here.within(name, *self._bounds(name)) for name in here.signatures]
         return max(found.chi_square - max(gains, default=0.0), 0.0)
 
     @cached_property
@@ -105,12 +108,15 @@ class Table:
         """Whether the numbers of an effect lie within its bounds, to first order: a stiffness below zero explains a
         lost sign."""
         _, sizes = here.alone(name)
-        parameters = self.cache.candidates[name].parameters
-        low, high = (
-            np.array([(bound - p.null) / p.typical for p, bound in zip(parameters, bounds, strict=True)])
-            for bounds in ([p.low for p in parameters], [p.high for p in parameters])
-        )
+        low, high = self._bounds(name)
         return bool(np.all((sizes >= low) & (sizes <= high)))
+
+    def _bounds(self, name: str) -> tuple[Array, Array]:
+        """(p,) each, of the numbers of an effect, in typical sizes from null."""
+        parameters = self.cache.candidates[name].parameters
+        ends = [[(bound - p.null) / p.typical for bound in (p.low, p.high)] for p in parameters]
+        low, high = np.sort(np.array(ends), axis=1).T
+        return low, high
 
     @cached_property
     def sets(self) -> tuple[Names, ...]:

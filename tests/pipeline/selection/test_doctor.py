@@ -54,7 +54,6 @@ WRONG = {
     "x_mm was not zeroed: absolute positions or loads": made.shifted(30.0, "x_mm"),
     "y_mm was not zeroed: absolute positions or loads": made.shifted(30.0, "y_mm"),
     "all forces were converted to kgf the wrong way round or twice": made.over(1.0 / 9.80665, *made.FORCES),
-    "all rotations are in degrees": made.over(np.radians(1.0), "rx_rad", "ry_rad", "rz_rad"),
     "q_deg is in radians": made.angles_in_radians,
     "width and height of the bars' section are exchanged": made.section_turned,
 }
@@ -118,6 +117,13 @@ def test_a_mistake_is_told(mistake: str) -> None:
     told = found(WRONG[mistake](bench(*LACKS)))
     assert mistake in [it.mistake.words for it in told]
     assert all(it.before > 2.5 * it.after for it in told)
+
+
+@pytest.mark.long
+def test_a_mistake_is_told_beside_an_effect_that_would_leave_its_bounds() -> None:
+    """A platform of 20 N: to first order the line weighs less than nothing."""
+    table = WRONG["all forces are in kgf"](bench("self_weight.platform_z_N", -20.0))
+    assert words(table) == ["all forces are in kgf"]
 
 
 @pytest.mark.parametrize(

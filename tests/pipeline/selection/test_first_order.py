@@ -59,6 +59,20 @@ def test_a_pair_gains_at_least_what_its_best_member_does() -> None:
     assert about.gain(["modulus_error", "axis_flexibility"]).value >= single - 1e-6
 
 
+def test_within_bounds_an_effect_gains_what_its_numbers_allow() -> None:
+    """All of it where they allow it, nothing at null, less where one ends at its bound: no number is given up for
+    another that would lie beyond."""
+    name = "load_misalignment"
+    there = fits(f"{name}.rz_rad", 0.002).first_order(frozenset([LARGE]))
+    whole, sizes = there.alone(name)
+    wide = np.full(sizes.size, 1e6)
+    assert there.within(name, -wide, wide) == pytest.approx(whole, rel=1e-9)
+    assert there.within(name, 0.0 * wide, 0.0 * wide) == pytest.approx(0.0, abs=1e-3 * whole)
+    least = int(np.argmin(np.abs(sizes)))
+    held = np.where(np.arange(sizes.size) == least, 0.5 * np.abs(sizes), wide)
+    assert 0.5 * whole < there.within(name, -held, held) <= whole
+
+
 @pytest.mark.parametrize("share", [1.0, 0.25])
 def test_what_takes_implausible_numbers_off_another_is_worth_that(share: float) -> None:
     """Two effects that look the same, one of them at 40 typical sizes, 4 of chi-square: shared by both, 20 each, they
