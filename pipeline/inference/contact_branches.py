@@ -15,8 +15,8 @@ solved once more, at the inputs that were chosen.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from dataclasses import replace
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -36,6 +36,14 @@ Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
 
 
+@dataclass(frozen=True, eq=False)
+class Trial:
+    """Rows (N,) that are tried at other inputs, shifted by (N, 7) from the measured ones."""
+
+    rows: NDArray[np.int64]
+    shift: Array
+
+
 def on_best_sides(model: Model, cases: LoadCases, start: Prediction | None = None) -> Prediction:
     """Readings of a model with kinks, each row on the side of its stops that leaves the least chi-square; without
     derivatives by the free parameters.
@@ -46,39 +54,45 @@ def on_best_sides(model: Model, cases: LoadCases, start: Prediction | None = Non
     cases, held = cases.plain, remembering(model)
     if held:
         start = predict(model, cases, slopes=False, start=start, order=0)
-    here = _crossed(model, cases, _reached(model, cases, start, held))
-    # Each from here: once taken to the wrong one of two stops, a row has no way to the other.
-    for rows, shift in list(_misplaced(cases, here)):
-        here = _better(model, cases, here, _whole(cases, rows), shift, here)
-    here = _crossed(model, cases, here)
+    every = np.ones(len(cases.test), dtype=bool)
+    here, going = _crossed(model, cases, _reached(model, cases, start, held), every)
+    tried = _beyond_near_stops(model, cases, here)
+    # A row that stayed would stay again.
+    going |= np.any(tried.shift != here.shift, axis=1)
+    here, _ = _crossed(model, cases, tried, going)
     return predict(model, cases, slopes=False, start=here, shift=here.shift) if held else here
 
 
-def _crossed(model: Model, cases: LoadCases, here: Prediction) -> Prediction:
-    """Rows that a stop charges on its other side where that is better, from there on too."""
-    new = np.ones(len(cases.test), dtype=bool)
+def _crossed(model: Model, cases: LoadCases, here: Prediction, going: Mask) -> tuple[Prediction, Mask]:
+    """Rows that a stop charges on its other side where that is better, from there on too; of those that are `going`
+    (R,), and those that still were at the end."""
     for _ in range(CROSSINGS.most):
         left = residual(cases, here)
-        rows = _whole(cases, (left.charge > CROSSINGS.worth) & new)
+        rows = _whole(cases, (left.charge > CROSSINGS.worth) & going)
         if not rows.size:
-            return here
-        there = _better(model, cases, here, rows, left.across, here)
-        # A row that stayed would stay again.
-        here, new = there, np.any(there.shift != here.shift, axis=1)
-    return here
+            break
+        there = _better(model, cases, here, [Trial(rows, left.across[rows])], here, left)
+        here, going = there, np.any(there.shift != here.shift, axis=1)
+    return here, going
 
 
-def _misplaced(cases: LoadCases, here: Prediction) -> Iterator[tuple[Mask, Array]]:
-    """For each stop rows (R,) that fit badly and are near it, and the inputs (R, 7) just beyond it; none where half of
-    all rows fit badly: there the model is wrong, not a side missed."""
+def _beyond_near_stops(model: Model, cases: LoadCases, here: Prediction) -> Prediction:
+    """Rows that fit badly on the other side of the near stop beyond which they fit best, if that is better."""
+    left = residual(cases, here)
+    # Each from here: once taken to the wrong one of two stops, a row has no way to the other.
+    return _better(model, cases, here, list(_misplaced(cases, here, left)), here, left)
+
+
+def _misplaced(cases: LoadCases, here: Prediction, left: Residual) -> Iterator[Trial]:
+    """For each stop rows that fit badly and are near it, with the inputs just beyond it; none where half of all rows
+    fit badly: there the model is wrong, not a side missed."""
     bounds, sigma = Bounds.of(here, cases.input_sigma), cases.input_sigma
-    bad = _squares(residual(cases, here)) > chi2.isf(
-        CROSSINGS.badly, np.maximum(cases.predicted.sum(axis=1), 1)
-    )
+    bad = _squares(left) > chi2.isf(CROSSINGS.badly, np.maximum(cases.predicted.sum(axis=1), 1))
     if np.mean(bad) < CROSSINGS.rows:
         for number in range(bounds.room.shape[1]):
             way, far = bounds.beyond(number)
-            yield bad & (far < CROSSINGS.within), here.shift + sigma * way
+            rows = _whole(cases, bad & (far < CROSSINGS.within))
+            yield Trial(rows, (here.shift + sigma * way)[rows])
 
 
 def _reached(model: Model, cases: LoadCases, start: Prediction | None, held: bool) -> Prediction:
@@ -90,24 +104,34 @@ def _reached(model: Model, cases: LoadCases, start: Prediction | None, held: boo
     there = predict(model, swapped, slopes=False, start=start, order=0, held=held, bent=False)
     here = predict(model, cases, slopes=False, start=there, held=held)
     rows = _whole(cases, _elsewhere(there, here) & ~there.lost)
-    return _better(model, cases, here, rows, _shift_to(there, swapped, cases), there)
+    trial = Trial(rows, _shift_to(there, swapped, cases)[rows])
+    return _better(model, cases, here, [trial], there, residual(cases, here))
 
 
 def _better(
     model: Model,
     cases: LoadCases,
     here: Prediction,
-    rows: NDArray[np.int64],
-    shift: Array,
+    trials: Sequence[Trial],
     start: Prediction,
+    left: Residual,
 ) -> Prediction:
-    """The prediction with those of these rows (N,) replaced that fit better with the inputs shifted like this."""
-    if not rows.size:
+    """The prediction with those of its rows replaced that fit better in a trial, by the best of theirs; left: its
+    residual, start: where all begin."""
+    trials = [trial for trial in trials if trial.rows.size]
+    if not trials:
         return here
-    part = cases.only(rows)
+    rows, shift = (np.concatenate(parts) for parts in zip(*((t.rows, t.shift) for t in trials), strict=True))
+    part = cases.only(*(trial.rows for trial in trials))
     begin = replace(start, states=states_at(start, cases, part, rows))
-    other = predict(model, part, slopes=False, start=begin, shift=shift[rows], held=remembering(model))
-    better = _squares(residual(part, other)) < _squares(residual(cases, here))[rows]
+    other = predict(model, part, slopes=False, start=begin, shift=shift, held=remembering(model))
+    squares = _squares(residual(part, other))
+    # The first of a row's trials, least squares first.
+    order = np.lexsort((squares, rows))
+    _, first = np.unique(rows[order], return_index=True)
+    better = np.zeros(rows.size, dtype=bool)
+    better[order[first]] = True
+    better &= squares < _squares(left)[rows]
     states = states_with(here, cases, part, rows, other, better)
     return replace(_merged(here, other, rows, better), states=states)
 

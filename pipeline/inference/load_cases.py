@@ -236,12 +236,18 @@ class LoadCases:
             return ((np.arange(len(self.test)), self),)
         return tuple((rows, self.only(rows)) for rows in map(np.flatnonzero, (self.fitted, ~self.fitted)))
 
-    def only(self, rows: NDArray[np.int64]) -> LoadCases:
-        """The load cases of these rows (N,) alone, in order; tests without any are left out."""
-        tests = [_rows_of(test, rows[self.test[rows] == k] - self.first[k]) for k, test in self._tests(rows)]
+    def only(self, *several: NDArray[np.int64]) -> LoadCases:
+        """The load cases of these rows (N,) alone, in order; tests without any are left out. Of several sets of rows,
+        which may share some, one after the other, each as tests of their own."""
+        tests = [
+            _rows_of(test, rows[self.test[rows] == k] - self.first[k])
+            for rows in several
+            for k, test in self._tests(rows)
+        ]
+        every = np.concatenate(several)
         part = load_cases(replace(self.campaign, tests=tuple(tests)))
-        line = None if self.by_nominal is None else self.by_nominal[rows]
-        return replace(part, by_nominal=line, whole_clock=self.rows.clock[rows])
+        line = None if self.by_nominal is None else self.by_nominal[every]
+        return replace(part, by_nominal=line, whole_clock=self.rows.clock[every])
 
     @property
     def plain(self) -> LoadCases:

@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from pipeline.inference.load_cases import LoadCases
+from pipeline.inference.load_cases import Group, LoadCases
 from pipeline.inference.predicted import Prediction
 from vjm.equilibrium import Equilibrium
 
@@ -47,21 +47,25 @@ def carried(found: Prediction, cases: LoadCases, other: LoadCases) -> Prediction
 
 
 def states_at(found: Prediction, cases: LoadCases, part: LoadCases, rows: Rows) -> tuple[Equilibrium, ...]:
-    """The states of a prediction of all cases at these rows (R,)."""
+    """The states of a prediction of all cases at these rows (R,), laid out as in the load cases of these alone."""
     out = []
     for group in part.groups:
         number = next(k for k, one in enumerate(cases.groups) if one.rig.stands_as(group.rig))
         whole, state = cases.groups[number], found.states[number]
-        names = [cases.campaign.tests[n].id for n in whole.numbers]
         width, length = whole.rise.shape[1], group.rise.shape[1]
         places = np.zeros(group.rise.shape, dtype=np.int64)
         for k, own in enumerate(group.numbers):
-            test = names.index(part.campaign.tests[own].id)
-            mine = rows[cases.test[rows] == whole.numbers[test]] - cases.first[whole.numbers[test]]
-            places[k] = test * width + mine[np.minimum(np.arange(length), mine.size - 1)]
+            test, steps = _place(cases, whole, rows[part.first[own] : part.first[own + 1]])
+            places[k] = test * width + steps[np.minimum(np.arange(length), steps.size - 1)]
         flat = state.reshaped(whole.rise.size).member(places.ravel())
         out.append(flat.reshaped(len(group.numbers), length))
     return tuple(out)
+
+
+def _place(cases: LoadCases, group: Group, rows: Rows) -> tuple[int, Rows]:
+    """Where rows (N,) of one test stand in a group: number of the test there, and their steps (N,)."""
+    test = cases.test[rows[0]]
+    return int(np.flatnonzero(group.numbers == test)[0]), rows - cases.first[test]
 
 
 def states_with(
@@ -76,15 +80,12 @@ def states_with(
     out = list(found.states)
     for group, state in zip(part.groups, other.states, strict=True):
         number = next(k for k, one in enumerate(cases.groups) if one.rig.stands_as(group.rig))
-        names = [cases.campaign.tests[n].id for n in cases.groups[number].numbers]
         for k, own in enumerate(group.numbers):
-            test = names.index(part.campaign.tests[own].id)
-            place = cases.groups[number].numbers[test]
-            own_rows = np.flatnonzero(cases.test[rows] == place)
-            taken = np.flatnonzero(some[own_rows])
-            steps = rows[own_rows[taken]] - cases.first[place]
+            mine = slice(part.first[own], part.first[own + 1])
+            test, steps = _place(cases, cases.groups[number], rows[mine])
+            taken = np.flatnonzero(some[mine])
             there = state.member((np.full(taken.size, k), taken))
-            out[number] = out[number].with_members((np.full(taken.size, test), steps), there)
+            out[number] = out[number].with_members((np.full(taken.size, test), steps[taken]), there)
     return tuple(out)
 
 
