@@ -15,6 +15,7 @@ from typing import Literal
 import numpy as np
 from numpy.typing import ArrayLike
 
+from vjm import kernels
 from vjm.frames import Array, inverse_rotation_jacobian, log, moment_gradient, skew
 
 
@@ -253,7 +254,10 @@ class Chain:
 
     def pose(self, coordinates: ArrayLike) -> Array:
         """(p, phi) (..., 6) of the last frame; coordinates (..., n)."""
-        return self.kinematics(coordinates).pose
+        x = self._checked(coordinates)
+        out = np.empty((*x.shape[:-1], 6))
+        kernels.poses(self.program, kernels.NO_MARKS, flat(x), out.reshape(-1, 6))
+        return out
 
     def jacobian(self, coordinates: ArrayLike) -> Array:
         """Derivative of (p, phi) by the coordinates: (..., 6, n)."""
@@ -268,15 +272,45 @@ class Chain:
 
         ValueError if the last axis is not n long.
         """
-        x = np.asarray(coordinates, dtype=float)
-        if x.shape[-1] != self.size:
-            raise ValueError(f"this chain has {self.size} coordinates, got an array of shape {x.shape}")
+        x = self._checked(coordinates)
         rotation, position, axes, origins, places = self._forward(
             x[..., self.tie.coordinate] * self.tie.share, marks
         )
         phi = log(rotation @ self.reference.T)
         pose = np.concatenate([position, phi], axis=-1)
         return Kinematics(pose, axes, origins, places, self._turns, self.tie)
+
+    def _checked(self, coordinates: ArrayLike) -> Array:
+        x = np.asarray(coordinates, dtype=float)
+        if x.shape[-1] != self.size:
+            raise ValueError(f"this chain has {self.size} coordinates, got an array of shape {x.shape}")
+        return x
+
+    @cached_property
+    def program(self) -> kernels.Program:
+        """The chain as compiled functions read it."""
+        kinds, vectors = [], []
+        rotations = np.zeros((len(self.elements), 3, 3))
+        for k, element in enumerate(self.elements):
+            if isinstance(element, Joint):
+                kinds.append(kernels.TURN if element.kind == "rotation" else kernels.SLIDE)
+                # An axis that is one of the frame's to rounding is that one in all that follows.
+                along = element.along
+                vectors.append(element.axis if along < 0 else tuple(float(along == i) for i in range(3)))
+            else:
+                kinds.append(kernels.FIXED if element.turns else kernels.SHIFT)
+                vectors.append(tuple(element.translation.tolist()))
+                rotations[k] = element.rotation
+        return kernels.Program(
+            np.array(kinds, dtype=np.int64),
+            np.array([e.along if isinstance(e, Joint) else -1 for e in self.elements], dtype=np.int64),
+            np.array(vectors, dtype=float).reshape(-1, 3),
+            rotations,
+            self.tie.coordinate.astype(np.int64),
+            self.tie.share,
+            self._turns,
+            np.ascontiguousarray(self.reference),
+        )
 
     @cached_property
     def _turns(self) -> np.ndarray:
@@ -322,6 +356,11 @@ class Chain:
             places[:, m] = position + _along(mark.offset, frame)
         rotation = np.moveaxis(frame, (0, 1), (-1, -2))
         return np.ascontiguousarray(rotation), np.moveaxis(position, 0, -1), axes, origins, places
+
+
+def flat(rows: Array) -> Array:
+    """(..., n) as (B, n) without holes, as compiled functions read it."""
+    return np.ascontiguousarray(rows, dtype=float).reshape(math.prod(rows.shape[:-1]), rows.shape[-1])
 
 
 def _along(vectors: Array, frame: Array) -> Array:

@@ -27,11 +27,11 @@ POSE_NAMES = ("x", "y", "z", "rx", "ry", "rz")
 WRENCH_NAMES = ("Fx", "Fy", "Fz", "Mx", "My", "Mz")
 
 # Below this squared angle the coefficient functions are summed as series: the closed forms cancel there.
-_SERIES_LIMIT = 1.0
+SERIES_LIMIT = 1.0
 _TERMS = 12
 _A_CUBIC = np.array([(-1.0) ** k / factorial(2 * k + 3) for k in range(_TERMS)])
-_B_SQUARE: Array = np.array([abs(bernoulli(2 * k)[-1]) / factorial(2 * k) for k in range(1, _TERMS + 1)])
-_B_SQUARE_SLOPE: Array = _B_SQUARE[1:] * np.arange(1.0, _TERMS)
+B_SQUARE: Array = np.array([abs(bernoulli(2 * k)[-1]) / factorial(2 * k) for k in range(1, _TERMS + 1)])
+B_SQUARE_SLOPE: Array = B_SQUARE[1:] * np.arange(1.0, _TERMS)
 
 
 def skew(v: ArrayLike) -> Array:
@@ -168,9 +168,9 @@ def _unit(vectors: Array) -> Array:
 
 def _cubic(square: Array) -> Array:
     """(t - sin t) / t³ as a function of t²."""
-    t = np.sqrt(np.maximum(square, _SERIES_LIMIT))
+    t = np.sqrt(np.maximum(square, SERIES_LIMIT))
     return np.where(
-        square < _SERIES_LIMIT,
+        square < SERIES_LIMIT,
         _series(square, _A_CUBIC),
         (t - np.sin(t)) / t**3,
     )
@@ -178,7 +178,7 @@ def _cubic(square: Array) -> Array:
 
 def _series(square: Array, coefficients: Array) -> Array:
     """The power series in t², with its argument kept within its range."""
-    small = np.minimum(square, _SERIES_LIMIT)
+    small = np.minimum(square, SERIES_LIMIT)
     # In place: of numpy's polyval most is bookkeeping at the size of these arrays.
     total: Array = np.full_like(small, coefficients[-1])
     for coefficient in coefficients[-2::-1]:
@@ -189,21 +189,21 @@ def _series(square: Array, coefficients: Array) -> Array:
 
 def _inverse_coefficient(square: Array) -> Array:
     """c = (1 - (t/2) cot(t/2)) / t² as a function of t²."""
-    series = _series(square, _B_SQUARE)
-    near = square < _SERIES_LIMIT
+    series = _series(square, B_SQUARE)
+    near = square < SERIES_LIMIT
     return series if np.all(near) else np.where(near, series, _inverse_closed(square)[0])
 
 
 def _inverse_coefficient_slope(square: Array) -> Array:
     """dc/d(t²) of `_inverse_coefficient`."""
-    series = _series(square, _B_SQUARE_SLOPE)
-    near = square < _SERIES_LIMIT
+    series = _series(square, B_SQUARE_SLOPE)
+    near = square < SERIES_LIMIT
     return series if np.all(near) else np.where(near, series, _inverse_closed(square)[1])
 
 
 def _inverse_closed(square: Array) -> tuple[Array, Array]:
     """c and dc/d(t²) in closed form, t² kept off zero."""
-    s = np.maximum(square, _SERIES_LIMIT)
+    s = np.maximum(square, SERIES_LIMIT)
     t = np.sqrt(s)
     cot = 1.0 / np.tan(t / 2)
     c = (1.0 - 0.5 * t * cot) / s

@@ -15,8 +15,10 @@ from itertools import pairwise
 
 import numpy as np
 
+from vjm import kernels
+from vjm.chain import flat
 from vjm.frames import Array
-from vjm.mechanism import ElasticChain, Mechanism, Path
+from vjm.mechanism import ElasticChain, Mechanism
 from vjm.work import note
 
 
@@ -163,89 +165,44 @@ def chain_rows(
         matrix[..., :m, :m] = answer.tangent
     else:
         matrix, balance = np.zeros(0), chain.force(strain, memory, linear)
-    gap = np.zeros((*batch, chain.closures)) if chain.loops else np.empty((*batch, 6))
+    balance, gap = np.ascontiguousarray(balance), np.zeros((*batch, chain.closures))
     gap[..., :6] = pose
-    for number, sides in enumerate(_closures(chain)):
-        dual = slice(6 * number, 6 * number + 6)
-        for path, sign in sides:
-            end, pull = _closed(
-                path, sign, coordinates, multipliers[..., dual], chain, matrix, m + dual.start
-            )
-            if sign > 0:
-                gap[..., dual] += end
-                balance = balance + pull
-            else:
-                gap[..., dual] -= end
-                balance = balance - pull
-    for load in chain.loads:
-        pull, slope = load.pull(coordinates, second)
-        balance = balance - pull[..., chain.moving]
-        if second:
-            matrix[..., :m, :m] -= slope[..., chain.moving[:, None], chain.moving]
+    _close(chain, coordinates, multipliers, gap, balance, matrix)
+    for load, columns in zip(chain.loads, chain.load_columns, strict=True):
+        load.add(coordinates, columns, -1.0, balance, matrix)
     return ChainRows(balance, gap, matrix)
 
 
 def closing_force(chain: ElasticChain, coordinates: Array, multipliers: Array) -> Array:
     """Force (..., m) on the moving coordinates of a chain by its closures, at all its coordinates (..., n) and the
     multipliers (..., c): what its springs carry."""
-    nothing, out = np.zeros(0), np.zeros((*coordinates.shape[:-1], chain.moving.size))
-    for number, sides in enumerate(_closures(chain)):
-        dual = multipliers[..., 6 * number : 6 * number + 6]
-        for path, sign in sides:
-            out = out - sign * _closed(path, sign, coordinates, dual, chain, nothing, 0)[1]
-    return out
+    out = np.zeros((*coordinates.shape[:-1], chain.moving.size))
+    _close(chain, coordinates, multipliers, np.zeros(multipliers.shape), out, np.zeros(0))
+    return -out
 
 
-def _closures(chain: ElasticChain) -> list[tuple[tuple[Path, float], ...]]:
-    """Of each closure the paths that are in it, with their signs."""
-    return [((chain.main, -1.0),), *(loop.sides for loop in chain.loops)]
-
-
-def _closed(
-    path: Path,
-    sign: float,
-    coordinates: Array,
-    multiplier: Array,
-    chain: ElasticChain,
-    matrix: Array,
-    row: int,
-) -> tuple[Array, Array]:
-    """Pose (..., 6) at the end of a path, and Jacobian^T multiplier (..., m) by the moving coordinates of the chain.
-
-    Adds sign x its Jacobian to the matrix at this row and column, and sign x its curvature, unless that is empty.
-    """
-    whole = path.numbers.size == chain.size
-    here = path.chain.kinematics(coordinates if whole else coordinates[..., path.numbers])
-    second, m = matrix.size > 0, chain.moving.size
-    if whole and m == chain.size:
-        mine: np.ndarray | slice = slice(None)
-        place: np.ndarray | slice = slice(0, m)
-    else:
-        mine = np.flatnonzero(np.isin(path.numbers, chain.moving))
-        place = np.searchsorted(chain.moving, path.numbers[mine])
-    if not second:
-        own = here.pull(multiplier)[..., mine]
-    else:
-        jacobian, curvature = here.jacobian[..., mine], here.hessian(multiplier)
-        dual = slice(row, row + 6)
-        # No other path has these rows and columns.
-        if isinstance(place, slice):
-            np.multiply(jacobian, sign, out=matrix[..., dual, place])
-            np.multiply(np.swapaxes(jacobian, -1, -2), sign, out=matrix[..., place, dual])
-            (np.add if sign > 0 else np.subtract)(
-                matrix[..., place, place], curvature, out=matrix[..., place, place]
-            )
-        else:
-            signed = sign * jacobian
-            matrix[..., dual, place] = signed
-            matrix[..., place, dual] = np.swapaxes(signed, -1, -2)
-            matrix[..., place[:, None], place] += sign * curvature[..., mine, :][..., mine]
-        own = np.einsum("...ji,...j->...i", jacobian, multiplier)
-    if isinstance(place, slice):
-        return here.pose, own
-    pull = np.zeros((*own.shape[:-1], m))
-    pull[..., place] = own
-    return here.pose, pull
+def _close(
+    chain: ElasticChain, coordinates: Array, multipliers: Array, gap: Array, balance: Array, matrix: Array
+) -> None:
+    """Add the closures of a chain at all its coordinates (..., n) and the multipliers (..., c) to its gap (..., c), its
+    balance (..., m) and, unless it is empty, its matrix (..., m + c, m + c), all without holes."""
+    m, closures = balance.shape[-1], gap.shape[-1]
+    matrices = matrix.reshape(-1, *matrix.shape[-2:]) if matrix.size else np.zeros((0, 0, 0))
+    gaps, balances, duals = gap.reshape(-1, closures), balance.reshape(-1, m), flat(multipliers)
+    for each in chain.closed:
+        kernels.close(
+            each.path.chain.program,
+            kernels.NO_MARKS,
+            each.columns,
+            flat(coordinates if each.whole else coordinates[..., each.path.numbers]),
+            duals,
+            each.dual,
+            each.sign,
+            m,
+            gaps,
+            balances,
+            matrices,
+        )
 
 
 def all_rows(

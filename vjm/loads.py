@@ -7,7 +7,8 @@ from functools import cached_property
 
 import numpy as np
 
-from vjm.chain import Chain, Kinematics, Mark
+from vjm import kernels
+from vjm.chain import Chain, Kinematics, Mark, flat
 from vjm.frames import Array
 
 
@@ -36,36 +37,32 @@ class DeadLoads:
         whose antisymmetric part is their moment. It feels F along, or the moment about, its axis a; and with the
         velocity v of a point, sum v x f is a x F where the joint slides and T a - a tr T where it turns.
         """
-        here, numbers = self._walk(coordinates), self.coordinates
-        batch = (1,) * (coordinates.ndim - 1)
-        turns = here.turns.reshape(-1, *batch)
-        beyond = self._beyond.reshape(3, -1, *batch)
-        spread = np.einsum("as...,sbj->abj...", here.places, self._shares, optimize=True)
-        spread -= here.origins[:, None] * beyond
-        moment = np.stack([spread[i, j] - spread[j, i] for i, j in ((1, 2), (2, 0), (0, 1))])
-        felt = np.sum(here.axes * np.where(turns, moment, beyond), axis=0)
         force = np.zeros(coordinates.shape)
-        force[..., numbers] = here.tie.fold(np.moveaxis(felt, 0, -1))
-        if not second:
-            return force, np.zeros(0)
-        trace = spread[0, 0] + spread[1, 1] + spread[2, 2]
-        turned = np.einsum("abj...,bj...->aj...", spread, here.axes) - here.axes * trace
-        slid = np.cross(here.axes, beyond, axis=0)
-        slope = np.zeros((*coordinates.shape, coordinates.shape[-1]))
-        z = np.moveaxis(np.where(turns, turned, slid), (0, 1), (-2, -1))
-        slope[..., numbers[:, None], numbers] = here.second(z)
+        slope = np.zeros((*coordinates.shape, coordinates.shape[-1]) if second else 0)
+        self.add(coordinates, self.coordinates, 1.0, force, slope)
         return force, slope
+
+    def add(self, coordinates: Array, columns: np.ndarray, sign: float, force: Array, slope: Array) -> None:
+        """Add sign x the force to (..., m) and, unless that is empty, sign x its derivative to (..., k, k).
+
+        Both without holes. columns: (n,) number there of each coordinate of the path, `vjm.kernels.NO_COLUMN` of none.
+        """
+        here = flat(coordinates[..., self.coordinates])
+        slopes = slope.reshape(-1, *slope.shape[-2:]) if slope.size else np.zeros((0, 0, 0))
+        parts = (self.path.program, self._marked, self._joints, self.forces)
+        kernels.load(*parts, columns, here, sign, force.reshape(-1, force.shape[-1]), slopes)
 
     def _walk(self, coordinates: Array) -> Kinematics:
         return self.path.kinematics(coordinates[..., self.coordinates], self.marks)
 
     @cached_property
-    def _shares(self) -> Array:
-        """(s, 3, joints) forces as far as they lie beyond the joints."""
-        joints = np.array([mark.joints(self.path) for mark in self.marks])
-        return self.forces[:, :, None] * (joints[:, None, None] > np.arange(len(self.path.moved)))
+    def _marked(self) -> kernels.Marks:
+        return kernels.Marks(
+            np.array([mark.elements for mark in self.marks], dtype=np.int64),
+            np.array([mark.offset for mark in self.marks], dtype=float).reshape(-1, 3),
+        )
 
     @cached_property
-    def _beyond(self) -> Array:
-        """(3, joints) F."""
-        return np.asarray(self._shares.sum(axis=0))
+    def _joints(self) -> np.ndarray:
+        """(s,) joints that move each point."""
+        return np.array([mark.joints(self.path) for mark in self.marks], dtype=np.int64)

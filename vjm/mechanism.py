@@ -16,6 +16,7 @@ import numpy as np
 from vjm.chain import Chain, Joint, Role
 from vjm.frames import Array
 from vjm.gauges import Gauge
+from vjm.kernels import NO_COLUMN
 from vjm.laws import Direct, Response, Spring
 from vjm.loads import DeadLoads
 from vjm.sensors import Sensor
@@ -66,6 +67,21 @@ class Varying:
     coordinates: np.ndarray
     drive: str
     stiffness: Callable[[Array], Array]
+
+
+@dataclass(frozen=True, eq=False)
+class Closed:
+    """A path in a closure of its leg, with its sign there.
+
+    dual: where the closure's multipliers begin among those of the leg. columns: (n,) numbers of the path's coordinates
+    among the moving ones of the leg, `NO_COLUMN` of others. whole: whether it has all coordinates of the leg.
+    """
+
+    path: Path
+    sign: float
+    dual: int
+    columns: np.ndarray
+    whole: bool
 
 
 def joints_of(chain: Chain, loops: tuple[Loop, ...]) -> tuple[Joint, ...]:
@@ -140,6 +156,25 @@ class ElasticChain:
 
     def _numbers(self, *roles: Role) -> np.ndarray:
         return np.array([k for k, joint in enumerate(self.joints) if joint.role in roles], dtype=int)
+
+    @cached_property
+    def closed(self) -> tuple[Closed, ...]:
+        """The paths of its closures, that of the platform first: t - g, then g_2 - g_1 of each loop."""
+        sides = [((self.main, -1.0),), *(loop.sides for loop in self.loops)]
+        return tuple(
+            Closed(path, sign, 6 * k, self._columns(path.numbers), path.numbers.size == self.size)
+            for k, both in enumerate(sides)
+            for path, sign in both
+        )
+
+    @cached_property
+    def load_columns(self) -> tuple[np.ndarray, ...]:
+        """Of each load: (k,) numbers of its path's coordinates among the moving ones, `NO_COLUMN` of others."""
+        return tuple(self._columns(load.coordinates) for load in self.loads)
+
+    def _columns(self, numbers: np.ndarray) -> np.ndarray:
+        place = {int(number): k for k, number in enumerate(self.moving)}
+        return np.array([place.get(int(number), NO_COLUMN) for number in numbers], dtype=np.int64)
 
     @cached_property
     def main(self) -> Path:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field, fields, replace
+from functools import lru_cache
 from typing import Protocol
 
 import numpy as np
@@ -154,9 +155,16 @@ class Model:
 
     @staticmethod
     def _built(terms: tuple[Term, ...], it: Solvable) -> Solvable:
-        for term in terms:
-            it = term.effect.apply(it, term.values)
-        return it
+        return _applied(tuple((term.effect, tuple(term.values.items())) for term in terms), it)
+
+
+# Those of an evaluation with its derivatives, and of some before.
+@lru_cache
+def _applied(effects: tuple[tuple[Effect, tuple[tuple[str, float], ...]], ...], it: Solvable) -> Solvable:
+    """A mechanism with effects at values: one prediction after the other asks for the same."""
+    for effect, values in effects:
+        it = effect.apply(it, dict(values))
+    return it
 
 
 def at_bound(model: Model) -> tuple[str, ...]:

@@ -87,7 +87,7 @@ class ManipulatorRig(Rig):
         return all(getattr(self, name) == getattr(other, name) for name in names)
 
     def mechanism_of(self, rigs: tuple[Rig, ...], gauges: tuple[Gauge, ...]) -> Standing:
-        return Standing(self.mechanism(gauges).manipulator, _together(rigs))
+        return _standing(self, rigs, gauges)
 
     def inputs_of(self, mechanism: Solvable, rigs: tuple[Rig, ...]) -> Mapping[str, Array]:
         assert isinstance(mechanism, Standing)
@@ -185,3 +185,8 @@ file = "?"                   # that describes its legs, beside this one; or "ort
     @classmethod
     def merged(cls, base: dict[str, Any], own: dict[str, Any]) -> dict[str, Any]:
         raise ValueError("is given, tests of a manipulator differ in at_mm only")
+
+
+@lru_cache(maxsize=64)
+def _standing(rig: ManipulatorRig, rigs: tuple[Rig, ...], gauges: tuple[Gauge, ...]) -> Standing:
+    return Standing(rig.mechanism(gauges).manipulator, _together(rigs))
