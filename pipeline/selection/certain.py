@@ -80,17 +80,18 @@ def _beaten(cache: FitCache, best: Names, name: str, patterns: int, least: float
     return True
 
 
-def _rivals(cache: FitCache, best: Names, name: str) -> list[Names]:
-    """The set without the effect and what cannot be without it, with the best other effects beside, and the best sets
-    without it that were fitted."""
+def _rivals(cache: FitCache, best: Names, name: str) -> Iterator[Names]:
+    """The set without the effect and what cannot be without it, the best sets without it that were fitted, and, where
+    that is asked for, the set with the best other effects beside."""
     needs = {n for n in best if name in cache.candidates[n].includes}
     start = best - {name} - needs
     cache.fit_all({start: {}})
     wanted = cache.criteria.certain_rivals
+    known = sorted((n for n in cache.fits if name not in n), key=lambda n: cost(cache, n))
+    yield from dict.fromkeys([start, *known[:wanted]])
     near = [e for e in estimates(cache, start, (1,)) if e.names != start and name not in e.names]
     cache.fit_all({e.names: e.probes for e in near[:wanted]})
-    known = sorted((n for n in cache.fits if name not in n), key=lambda n: cost(cache, n))
-    return list(dict.fromkeys([start, *(e.names for e in near[:wanted]), *known[:wanted]]))
+    yield from (e.names for e in near[:wanted] if e.names not in known[:wanted])
 
 
 def _own(found: Fit, best: Fit, name: str, criteria: Criteria) -> Array | None:

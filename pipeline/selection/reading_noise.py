@@ -15,6 +15,7 @@ import numpy as np
 
 from pipeline.campaign import Campaign
 from pipeline.inference.fit import Fit, fit, unfitted, unmoved
+from pipeline.inference.kept import kept
 from pipeline.inference.load_cases import LoadCases, load_cases
 from pipeline.inference.subsets import carried
 from pipeline.selection.adequacy.bad_readings import BadReading, bad_readings, set_aside
@@ -59,10 +60,10 @@ class Readings:
         if not self.may_be_asked(found, criteria):
             return self
         bad = self.single_bad(found, given, criteria)
-        whole = found if self.plain else _of(given, found)
+        whole = found if self.plain else _with_readings(found, given)
         # A bad reading pulls a fit to itself, and what that leaves of its neighbours looks like long tails.
         rest = whole if not bad else self._beside(bad, found, given, criteria)
-        about = whole if not bad else _of(given, rest)
+        about = whole if not bad else _with_readings(rest, given)
         if not white(rest, criteria):
             return Readings(bad)
         tails = tails_of(about, criteria, rest if bad else None)
@@ -72,14 +73,14 @@ class Readings:
 
     def single_bad(self, found: Fit, given: LoadCases, criteria: Criteria) -> tuple[BadReading, ...]:
         """Those of all readings, given as they were declared, that are single bad ones about a fit."""
-        whole = found if self.plain else _of(given, found)
+        whole = found if self.plain else _with_readings(found, given)
         return (*bad_readings(whole, criteria), *_held_out(whole, criteria))
 
     def _beside(self, bad: tuple[BadReading, ...], found: Fit, given: LoadCases, criteria: Criteria) -> Fit:
         """A model fitted without these readings; found: fitted to the readings as they are here."""
         cases = load_cases(set_aside(given.campaign, bad))
         same = Readings(bad, self.scatter, self.tails).same(self)
-        return _of(cases, found) if same else _refitted(cases, found, criteria)
+        return _with_readings(found, cases) if same else _refitted(cases, found, criteria)
 
     def leaves_noise(self, found: Fit, given: LoadCases, criteria: Criteria) -> bool:
         """Whether a model explains all but what they set aside."""
@@ -99,6 +100,7 @@ class Readings:
 AS_DECLARED = Readings()
 
 
+@kept
 def _held_out(found: Fit, criteria: Criteria) -> tuple[BadReading, ...]:
     """Single bad ones of the tests that were held out, where these are off: as if they had been fitted."""
     if all(check.passed for check in judge(found, criteria).checks if check.name == HELD_OUT):
@@ -106,10 +108,13 @@ def _held_out(found: Fit, criteria: Criteria) -> tuple[BadReading, ...]:
     campaign = found.residual.load_cases.campaign
     held = {test.id for test in campaign.tests if test.role != "fit"}
     every = replace(campaign, tests=tuple(replace(test, role="fit") for test in campaign.tests))
-    return tuple(each for each in bad_readings(_of(load_cases(every), found), criteria) if each.test in held)
+    return tuple(
+        each for each in bad_readings(_with_readings(found, load_cases(every)), criteria) if each.test in held
+    )
 
 
-def _of(cases: LoadCases, found: Fit) -> Fit:
+@kept
+def _with_readings(found: Fit, cases: LoadCases) -> Fit:
     """A fitted model as it is beside other readings of the same tests."""
     return unfitted(found.model, cases, carried(found.prediction, cases, found.residual.load_cases))
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from weakref import WeakKeyDictionary
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,6 +11,7 @@ from scipy.stats import chi2, norm
 from pipeline.inference.driving import column_name
 from pipeline.inference.eliminated import Marginal
 from pipeline.inference.fit import Fit, fit
+from pipeline.inference.kept import kept
 from pipeline.inference.load_cases import load_cases
 from pipeline.inference.noise import lag_one
 from pipeline.inference.rounding import EQUAL
@@ -59,17 +59,9 @@ class Judgement:
         return frozenset(check.name for check in self.checks if not check.passed)
 
 
-_judged: WeakKeyDictionary[Fit, dict[Criteria, Judgement]] = WeakKeyDictionary()
-"""Memo of `judge`: where tests that were held out are off the model is fitted once more, which takes as long as a fit,
-and the same fit is judged in many places."""
-
-
 def judge(found: Fit, criteria: Criteria = CRITERIA) -> Judgement:
     """The residual of a fit, of the fitted tests and of those held out."""
-    known = _judged.setdefault(found, {})
-    if criteria not in known:
-        known[criteria] = _judge(found, criteria)
-    return known[criteria]
+    return _judge(found, criteria)
 
 
 def ordered(found: Fit, criteria: Criteria = CRITERIA) -> bool:
@@ -77,6 +69,7 @@ def ordered(found: Fit, criteria: Criteria = CRITERIA) -> bool:
     return not _order(found, criteria).passed
 
 
+@kept
 def _judge(found: Fit, criteria: Criteria) -> Judgement:
     level = criteria.check_level
     size, order = _size(found, level), _order(found, criteria)
