@@ -12,6 +12,7 @@ PACKAGES = (
     "parastiff",
     "numpy",
     "scipy",
+    "numba",
     "scikit-fem",
     "gmsh",
     "meshio",
