@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import replace
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -122,11 +123,21 @@ def moved(fault: SensorFault, read: Array, load_cases: LoadCases, noise: Array) 
         return read
     out = read.copy()
     column = out[:, load_cases.rows.columns.index(fault.column)]
-    for row in range(1, len(column)):
-        same = load_cases.test[row] == load_cases.test[row - 1]
-        if same and abs(column[row] - column[row - 1]) < DIFFERENCES.fault_motion * noise[row]:
-            column[row] = column[row - 1]
+    for first, end in pairwise(load_cases.first.tolist()):
+        if _stands(column[first:end], noise[first:end]):
+            column[first:end] = column[first]
+        for row in range(first + 1, end):
+            if abs(column[row] - column[row - 1]) < DIFFERENCES.fault_motion * noise[row]:
+                column[row] = column[row - 1]
     return out
+
+
+def _stands(readings: Array, noise: Array) -> bool:
+    """Whether readings (n,) of a test have no order and scatter little more than their noise (n,)."""
+    away = readings - readings.mean()
+    square = float(away @ away)
+    still = square <= (DIFFERENCES.fault_still**2) * float(noise @ noise)
+    return still and float(np.sum(np.diff(readings) ** 2)) >= DIFFERENCES.order * square
 
 
 def _error(term: Term, read: Array, load_cases: LoadCases) -> Array:

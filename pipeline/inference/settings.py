@@ -113,6 +113,10 @@ class Differences:
     """Of a typical size, over which an error of a sensor is differenced: it is a smooth formula."""
     fault_motion: float = 3.0
     """Of what the noise of the inputs does to a reading, within which it has not moved."""
+    fault_still: float = 3.0
+    """The same, up to which the readings of a test may scatter without order: its sigma may be declared too small."""
+    order: float = 1.0
+    """Mean square of successive differences over the variance: two for noise, less where readings have an order."""
     fault_turns: int = 6
     """Of the iteration for what was really done: each takes an error's share of what is left."""
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from functools import cache
+from itertools import pairwise
 
 import numpy as np
 import pytest
@@ -15,12 +16,14 @@ from pipeline.inference.fit import fit
 from pipeline.inference.load_cases import load_cases
 from pipeline.inference.model import Model
 from pipeline.inference.prediction import predict
+from pipeline.inference.sensor_faults import moved
 from pipeline.inference.suitable import check_suitable, columns_read, named_effects
 from pipeline.selection.adequacy.patterns import shapes
 from pipeline.selection.criteria import CRITERIA
 from pipeline.simulate import bench_rig
 from tests.pipeline.selection.bench import MIXED, bench
 from vjm.effects import catalogue
+from vjm.effects.sensor_fault import SensorFault
 
 ALWAYS = "bar_geometric_nonlinearity"
 HIDDEN = {
@@ -88,6 +91,36 @@ def test_what_was_really_done_gives_what_was_read() -> None:
     found = predict(model, cases, slopes=False).values[rows]
     size = np.abs(expected).max(axis=0)
     np.testing.assert_allclose(found / size, expected / size, atol=1e-4)
+
+
+@pytest.mark.parametrize("true", [1.0, 2.0])
+def test_a_column_that_stands_scatters_in_its_gap(true: float) -> None:
+    """A force that is held at nothing is not dragged through its backlash by noise, twice its sigma or not."""
+    cases = load_cases(bench())
+    fault = named_effects(["sensor_backlash@fy_N"], catalogue())[0]
+    assert isinstance(fault, SensorFault)
+    column, sigma = cases.rows.columns.index("fy_N"), np.ones(len(cases.test))
+    generator, read = np.random.default_rng(4), cases.measured.copy()
+    for first, end in pairwise(cases.first):
+        read[first:end, column] = generator.normal(scale=true, size=end - first)
+    there = moved(fault, read, cases, sigma)[:, column]
+    stands = [np.ptp(there[first:end]) == 0.0 for first, end in pairwise(cases.first)]
+    assert np.mean(stands) > 0.8
+
+
+def test_a_column_that_moves_within_few_sigmas_is_followed() -> None:
+    """A ramp and one step, each of no more scatter than a column that stands may have."""
+    cases = load_cases(bench())
+    fault = named_effects(["sensor_backlash@fy_N"], catalogue())[0]
+    assert isinstance(fault, SensorFault)
+    column, sigma, read = cases.rows.columns.index("fy_N"), np.ones(len(cases.test)), cases.measured.copy()
+    for number, (first, end) in enumerate(pairwise(cases.first)):
+        steps = np.arange(end - first)
+        read[first:end, column] = 4.0 * (steps >= steps.size // 2) if number % 2 else 8.0 * steps / steps[-1]
+    there = moved(fault, read, cases, sigma)[:, column]
+    for first, end in pairwise(cases.first):
+        assert np.std(read[first:end, column]) < 3.0
+        assert np.ptp(there[first:end]) >= 3.0
 
 
 def test_a_part_of_the_rows_has_the_clock_of_the_whole() -> None:
