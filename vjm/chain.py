@@ -256,7 +256,7 @@ class Chain:
         """(p, phi) (..., 6) of the last frame; coordinates (..., n)."""
         x = self._checked(coordinates)
         out = np.empty((*x.shape[:-1], 6))
-        kernels.poses(self.program, kernels.NO_MARKS, flat(x), out.reshape(-1, 6))
+        kernels.poses(self.program, flat(x), out.reshape(-1, 6))
         return out
 
     def jacobian(self, coordinates: ArrayLike) -> Array:
@@ -307,9 +307,9 @@ class Chain:
             np.array(vectors, dtype=float).reshape(-1, 3),
             rotations,
             self.tie.coordinate.astype(np.int64),
-            self.tie.share,
+            self.tie.share.astype(float),
             self._turns,
-            np.ascontiguousarray(self.reference),
+            np.array(self.reference, dtype=float, order="C"),
         )
 
     @cached_property
@@ -359,8 +359,9 @@ class Chain:
 
 
 def flat(rows: Array) -> Array:
-    """(..., n) as (B, n) without holes, as compiled functions read it."""
-    return np.ascontiguousarray(rows, dtype=float).reshape(math.prod(rows.shape[:-1]), rows.shape[-1])
+    """(..., n) as a contiguous (B, n) of floats that can be written to, as compiled functions are made for."""
+    whole = np.require(rows, dtype=float, requirements=("C", "W"))
+    return whole.reshape(math.prod(rows.shape[:-1]), rows.shape[-1])
 
 
 def _along(vectors: Array, frame: Array) -> Array:

@@ -27,6 +27,7 @@ POSE_NAMES = ("x", "y", "z", "rx", "ry", "rz")
 WRENCH_NAMES = ("Fx", "Fy", "Fz", "Mx", "My", "Mz")
 
 # Below this squared angle the coefficient functions are summed as series: the closed forms cancel there.
+# `vjm.kernels` compiles the first and the last two in: what it keeps on disk does not see a change here.
 SERIES_LIMIT = 1.0
 _TERMS = 12
 _A_CUBIC = np.array([(-1.0) ** k / factorial(2 * k + 3) for k in range(_TERMS)])

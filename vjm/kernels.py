@@ -4,7 +4,8 @@ The same as `vjm.chain.Kinematics`, which is written with whole arrays and is wh
 some tens of joints, each a few products of three numbers: with whole arrays most of the time goes into calls. numba
 compiles these functions at their first use and keeps them on disk.
 
-A frame is kept as rows (4, 3): its three axes and its origin, in the base frame, mm.
+A frame is kept as rows (4, 3): its three axes and its origin, in the base frame, mm. Arrays are contiguous, of floats;
+their sizes have to fit, nothing here looks after that.
 """
 
 from __future__ import annotations
@@ -50,9 +51,6 @@ class Marks(NamedTuple):
 
     elements: np.ndarray
     offsets: Array
-
-
-NO_MARKS = Marks(np.zeros(0, dtype=np.int64), np.zeros((0, 3)))
 
 
 def _compiled(function: Function) -> Function:
@@ -175,6 +173,8 @@ def _rotation_vector(frame: Array, reference: Array, phi: Array) -> None:
         phi[i] = factor * q[i + 1]
 
 
+# The series of `vjm.frames` are compiled in: where they change this file has to change as well, or what is kept on disk
+# stays (tests/vjm/test_kernels.py is red then).
 @_compiled
 def _coefficients(square: float) -> tuple[float, float]:
     """c = (1 - (t/2) cot(t/2)) / t² of t², and dc/d(t²), as in `vjm.frames`."""
@@ -243,10 +243,10 @@ def _ordered(p: Program, columns: np.ndarray, w: Array, z: Array, sign: float, m
 
 
 @_compiled
-def poses(p: Program, marks: Marks, coordinates: Array, out: Array) -> None:
+def poses(p: Program, coordinates: Array, out: Array) -> None:
     """(B, 6) of the last frame at coordinates (B, n), into `out`."""
-    joints = p.coordinate.size
-    frame, places, phi = np.empty((4, 3)), np.empty((marks.elements.size, 3)), np.empty(3)
+    joints, marks = p.coordinate.size, Marks(np.empty(0, dtype=np.int64), np.empty((0, 3)))
+    frame, places, phi = np.empty((4, 3)), np.empty((0, 3)), np.empty(3)
     axes, origins = np.empty((joints, 3)), np.empty((joints, 3))
     for b in range(coordinates.shape[0]):
         _walk(p, marks, coordinates[b], frame, axes, origins, places)
@@ -257,7 +257,6 @@ def poses(p: Program, marks: Marks, coordinates: Array, out: Array) -> None:
 @_compiled
 def close(
     p: Program,
-    marks: Marks,
     columns: np.ndarray,
     coordinates: Array,
     multipliers: Array,
@@ -275,7 +274,11 @@ def close(
     curvature to the matrix (B, m + c, m + c). columns: (n,) of the path's coordinates among the moving ones,
     `NO_COLUMN` where one does not move.
     """
-    joints, row = p.coordinate.size, moving + dual
+    joints, row, marks = (
+        p.coordinate.size,
+        moving + dual,
+        Marks(np.empty(0, dtype=np.int64), np.empty((0, 3))),
+    )
     frame, places, phi = np.empty((4, 3)), np.empty((0, 3)), np.empty(3)
     axes, origins, linear = np.empty((joints, 3)), np.empty((joints, 3)), np.empty((joints, 3))
     z, rate, turned = np.empty((joints, 3)), np.empty((3, 3)), np.empty((3, 3))

@@ -12,6 +12,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
 from itertools import pairwise
+from math import prod
 
 import numpy as np
 
@@ -185,24 +186,19 @@ def _close(
     chain: ElasticChain, coordinates: Array, multipliers: Array, gap: Array, balance: Array, matrix: Array
 ) -> None:
     """Add the closures of a chain at all its coordinates (..., n) and the multipliers (..., c) to its gap (..., c), its
-    balance (..., m) and, unless it is empty, its matrix (..., m + c, m + c), all without holes."""
-    m, closures = balance.shape[-1], gap.shape[-1]
-    matrices = matrix.reshape(-1, *matrix.shape[-2:]) if matrix.size else np.zeros((0, 0, 0))
-    gaps, balances, duals = gap.reshape(-1, closures), balance.reshape(-1, m), flat(multipliers)
+    balance (..., m) and, unless it is empty, its matrix (..., m + c, m + c), all contiguous.
+
+    ValueError for coordinates and multipliers of different batches.
+    """
+    if coordinates.shape[:-1] != multipliers.shape[:-1]:
+        raise ValueError(f"coordinates are {coordinates.shape}, multipliers {multipliers.shape}")
+    count, m, closures = prod(coordinates.shape[:-1]), balance.shape[-1], gap.shape[-1]
+    matrices = matrix.reshape(count, *matrix.shape[-2:]) if matrix.size else np.zeros((0, 0, 0))
+    gaps, balances, duals = gap.reshape(count, closures), balance.reshape(count, m), flat(multipliers)
     for each in chain.closed:
-        kernels.close(
-            each.path.chain.program,
-            kernels.NO_MARKS,
-            each.columns,
-            flat(coordinates if each.whole else coordinates[..., each.path.numbers]),
-            duals,
-            each.dual,
-            each.sign,
-            m,
-            gaps,
-            balances,
-            matrices,
-        )
+        own = flat(coordinates if each.whole else coordinates[..., each.path.numbers])
+        program = each.path.chain.program
+        kernels.close(program, each.columns, own, duals, each.dual, each.sign, m, gaps, balances, matrices)
 
 
 def all_rows(

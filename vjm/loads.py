@@ -17,13 +17,23 @@ class DeadLoads:
     """Forces on points along a path.
 
     path: from the base to the last point or beyond. coordinates: numbers of the path's coordinates in its chain.
-    marks: the s points. forces: (s, 3) N, base frame.
+    marks: the s points, those nearer the base first. forces: (s, 3) N, base frame. ValueError for what does not fit.
     """
 
     path: Chain
     coordinates: np.ndarray
     marks: tuple[Mark, ...]
     forces: Array
+
+    def __post_init__(self) -> None:
+        places = [mark.elements for mark in self.marks]
+        if self.coordinates.size != self.path.size or self.forces.shape != (len(places), 3):
+            raise ValueError(
+                f"a path of {self.path.size} coordinates with {len(places)} points, "
+                f"got {self.coordinates.size} numbers and forces {self.forces.shape}"
+            )
+        if places != sorted(places) or (places and places[-1] > len(self.path.elements)):
+            raise ValueError(f"points stand along {len(self.path.elements)} elements in order, got {places}")
 
     def potential(self, coordinates: Array) -> Array:
         """Potential energy (...), N·mm, at all coordinates (..., n) of the chain."""
@@ -45,12 +55,12 @@ class DeadLoads:
     def add(self, coordinates: Array, columns: np.ndarray, sign: float, force: Array, slope: Array) -> None:
         """Add sign x the force to (..., m) and, unless that is empty, sign x its derivative to (..., k, k).
 
-        Both without holes. columns: (n,) number there of each coordinate of the path, `vjm.kernels.NO_COLUMN` of none.
+        Both contiguous. columns: (n,) number there of each coordinate of the path, `vjm.kernels.NO_COLUMN` of none.
         """
         here = flat(coordinates[..., self.coordinates])
-        slopes = slope.reshape(-1, *slope.shape[-2:]) if slope.size else np.zeros((0, 0, 0))
-        parts = (self.path.program, self._marked, self._joints, self.forces)
-        kernels.load(*parts, columns, here, sign, force.reshape(-1, force.shape[-1]), slopes)
+        slopes = slope.reshape(len(here), *slope.shape[-2:]) if slope.size else np.zeros((0, 0, 0))
+        parts = (self.path.program, self._marked, self._joints, flat(self.forces))
+        kernels.load(*parts, columns, here, sign, force.reshape(len(here), force.shape[-1]), slopes)
 
     def _walk(self, coordinates: Array) -> Kinematics:
         return self.path.kinematics(coordinates[..., self.coordinates], self.marks)

@@ -46,6 +46,10 @@ class Path:
     chain: Chain
     numbers: np.ndarray
 
+    def __post_init__(self) -> None:
+        if self.numbers.size != self.chain.size:
+            raise ValueError(f"a chain has {self.chain.size} coordinates, got {self.numbers.size} numbers")
+
 
 @dataclass(frozen=True, eq=False)
 class Loop:
@@ -74,7 +78,8 @@ class Closed:
     """A path in a closure of its leg, with its sign there.
 
     dual: where the closure's multipliers begin among those of the leg. columns: (n,) numbers of the path's coordinates
-    among the moving ones of the leg, `NO_COLUMN` of others. whole: whether it has all coordinates of the leg.
+    among the moving ones of the leg, `NO_COLUMN` of others. whole: whether its coordinates are all those of the leg, in
+    their order.
     """
 
     path: Path
@@ -161,8 +166,9 @@ class ElasticChain:
     def closed(self) -> tuple[Closed, ...]:
         """The paths of its closures, that of the platform first: t - g, then g_2 - g_1 of each loop."""
         sides = [((self.main, -1.0),), *(loop.sides for loop in self.loops)]
+        every = np.arange(self.size)
         return tuple(
-            Closed(path, sign, 6 * k, self._columns(path.numbers), path.numbers.size == self.size)
+            Closed(path, sign, 6 * k, self._columns(path.numbers), np.array_equal(path.numbers, every))
             for k, both in enumerate(sides)
             for path, sign in both
         )

@@ -6,9 +6,8 @@ Units N, mm, rad, temperatures in °C, base frame.
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Hashable, Mapping
 from dataclasses import dataclass
-from functools import lru_cache
 from pathlib import Path
 from typing import Any, ClassVar
 
@@ -160,8 +159,17 @@ class Rig(ABC):
         return self is other
 
     def mechanism_of(self, rigs: tuple[Rig, ...], gauges: tuple[Gauge, ...]) -> Solvable:
-        """The plain mechanism of tests on rigs (T,) that stand as this one; the same one each time."""
-        return _alone(self, gauges)
+        """The plain mechanism of tests on rigs (T,) that stand as this one."""
+        return self.mechanism(gauges)
+
+    @property
+    def alike(self) -> Hashable:
+        """Equal where the mechanisms of rigs are."""
+        return self
+
+    def alike_of(self, rigs: tuple[Rig, ...]) -> Hashable:
+        """The same of tests on rigs (T,) that stand as this one."""
+        return self
 
     def inputs_of(self, mechanism: Solvable, rigs: tuple[Rig, ...]) -> Mapping[str, Array]:
         """(T,) of each input by which such a mechanism stands where the rig of a test does."""
@@ -208,8 +216,3 @@ class Rig(ABC):
 def distinct(*rigs: Rig) -> tuple[Rig, ...]:
     """Each rig once, in the order given: tests without their own have the one of the campaign."""
     return tuple({id(rig): rig for rig in rigs}.values())
-
-
-@lru_cache(maxsize=64)
-def _alone(rig: Rig, gauges: tuple[Gauge, ...]) -> Solvable:
-    return rig.mechanism(gauges)

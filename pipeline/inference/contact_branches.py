@@ -38,7 +38,8 @@ Mask = NDArray[np.bool_]
 
 @dataclass(frozen=True, eq=False)
 class Trial:
-    """Rows (N,) that are tried at other inputs, shifted by (N, 7) from the measured ones."""
+    """Rows (N,), in the order of the campaign, that are tried at other inputs, shifted by (N, 7) from the measured
+    ones."""
 
     rows: NDArray[np.int64]
     shift: Array
@@ -57,8 +58,8 @@ def on_best_sides(model: Model, cases: LoadCases, start: Prediction | None = Non
     every = np.ones(len(cases.test), dtype=bool)
     here, going = _crossed(model, cases, _reached(model, cases, start, held), every)
     tried = _beyond_near_stops(model, cases, here)
-    # A row that stayed would stay again.
-    going |= np.any(tried.shift != here.shift, axis=1)
+    # A row that stayed would stay again, but for what its zero follows.
+    going |= np.any(tried.shift != here.shift, axis=1) | _follows_others(cases)
     here, _ = _crossed(model, cases, tried, going)
     return predict(model, cases, slopes=False, start=here, shift=here.shift) if held else here
 
@@ -95,6 +96,11 @@ def _misplaced(cases: LoadCases, here: Prediction, left: Residual) -> Iterator[T
             yield Trial(rows, (here.shift + sigma * way)[rows])
 
 
+def _follows_others(cases: LoadCases) -> Mask:
+    """(R,) rows of tests with an unknown zero: what that is, and so what a row leaves, all rows of the test say."""
+    return np.asarray(np.any(cases.loose, axis=1))[cases.test]
+
+
 def _reached(model: Model, cases: LoadCases, start: Prediction | None, held: bool) -> Prediction:
     """At the measured inputs or, where that is better, where the platform was: there with the forces that take it."""
     swapped = cases.by_displacement
@@ -104,6 +110,8 @@ def _reached(model: Model, cases: LoadCases, start: Prediction | None, held: boo
     there = predict(model, swapped, slopes=False, start=start, order=0, held=held, bent=False)
     here = predict(model, cases, slopes=False, start=there, held=held)
     rows = _whole(cases, _elsewhere(there, here) & ~there.lost)
+    if not rows.size:
+        return here
     trial = Trial(rows, _shift_to(there, swapped, cases)[rows])
     return _better(model, cases, here, [trial], there, residual(cases, here))
 
@@ -117,7 +125,7 @@ def _better(
     left: Residual,
 ) -> Prediction:
     """The prediction with those of its rows replaced that fit better in a trial, by the best of theirs; left: its
-    residual, start: where all begin."""
+    residual, start: where all begin. A test that was zeroed at its first row is replaced as one."""
     trials = [trial for trial in trials if trial.rows.size]
     if not trials:
         return here
@@ -125,15 +133,30 @@ def _better(
     part = cases.only(*(trial.rows for trial in trials))
     begin = replace(start, states=states_at(start, cases, part, rows))
     other = predict(model, part, slopes=False, start=begin, shift=shift, held=remembering(model))
-    squares = _squares(residual(part, other))
-    # The first of a row's trials, least squares first.
-    order = np.lexsort((squares, rows))
-    _, first = np.unique(rows[order], return_index=True)
-    better = np.zeros(rows.size, dtype=bool)
-    better[order[first]] = True
-    better &= squares < _squares(left)[rows]
-    states = states_with(here, cases, part, rows, other, better)
-    return replace(_merged(here, other, rows, better), states=states)
+    unit = _units(cases)
+    least, best = np.bincount(unit, _squares(left), len(unit)), np.full(len(unit), -1)
+    ends = np.cumsum([trial.rows.size for trial in trials]).tolist()
+    for number, (trial, end) in enumerate(zip(trials, ends, strict=True)):
+        # Each by itself: unknown zeros are one column for every test and sensor.
+        own = _rows_of(other, slice(end - trial.rows.size, end))
+        squares = _squares(residual(cases.only(trial.rows), own))
+        total = np.bincount(unit[trial.rows], squares, len(unit))
+        better = np.isin(np.arange(len(unit)), unit[trial.rows]) & (total < least)
+        least[better], best[better] = total[better], number
+    taken = best[unit[rows]] == np.repeat(np.arange(len(trials)), [trial.rows.size for trial in trials])
+    states = states_with(here, cases, part, rows, other, taken)
+    return replace(_merged(here, other, rows, taken), states=states)
+
+
+def _units(cases: LoadCases) -> NDArray[np.int64]:
+    """(R,) the row by which each is replaced: its own, or the first of a test of which all readings are less those."""
+    whole = np.array([test.zero == "first_row" for test in cases.campaign.tests])[cases.test]
+    return np.where(whole, cases.first[cases.test], np.arange(len(cases.test)))
+
+
+def _rows_of(found: Prediction, rows: slice) -> Prediction:
+    """Some rows of a prediction, without its states."""
+    return replace(found, states=(), reasons={}, **{name: getattr(found, name)[rows] for name in ARRAYS})
 
 
 def kinked(model: Model) -> bool:

@@ -15,7 +15,10 @@ Answer = TypeVar("Answer")
 def kept(
     function: Callable[Concatenate[First, Rest], Answer],
 ) -> Callable[Concatenate[First, Rest], Answer]:
-    """A pure function that remembers its answers, by its first argument and by all others, which are hashable."""
+    """A pure function that remembers its answers, by its first argument and by all others, which are hashable.
+
+    By how they are given: `f(x, a)`, `f(x, a=a)` and, where that is the default, `f(x)` are three answers.
+    """
     answers: WeakKeyDictionary[First, dict[Hashable, Answer]] = WeakKeyDictionary()
 
     @wraps(function)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Hashable
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -55,6 +56,11 @@ class Group:
         if all(rig is self.rig for rig in self.rigs):
             return self.rig.nominal_pose(self.q)[:, None, :]
         return np.stack([rig.nominal_pose(q) for rig, q in zip(self.rigs, self.q, strict=True)])[:, None, :]
+
+    @property
+    def alike(self) -> Hashable:
+        """Equal where the mechanisms of groups are."""
+        return self.rig.alike_of(self.rigs)
 
     def mechanism(self, gauges: tuple[Gauge, ...]) -> Solvable:
         """The plain mechanism of all of them."""
@@ -237,8 +243,9 @@ class LoadCases:
         return tuple((rows, self.only(rows)) for rows in map(np.flatnonzero, (self.fitted, ~self.fitted)))
 
     def only(self, *several: NDArray[np.int64]) -> LoadCases:
-        """The load cases of these rows (N,) alone, in order; tests without any are left out. Of several sets of rows,
-        which may share some, one after the other, each as tests of their own."""
+        """The load cases of these rows (N,) alone; tests without any are left out. Of several sets of rows, which may
+        share some, one after the other, each as tests of their own. The rows of a set stand in the order of the
+        campaign."""
         tests = [
             _rows_of(test, rows[self.test[rows] == k] - self.first[k])
             for rows in several

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Hashable, Iterable, Mapping
 from dataclasses import dataclass, field, fields, replace
 from functools import lru_cache
 from typing import Protocol
@@ -26,6 +26,10 @@ sides, and an effect whose null is a bound is there, while what it does is far b
 
 class Built(Protocol):
     """What is built of a rig, or of the rigs of several tests."""
+
+    @property
+    def alike(self) -> Hashable:
+        """Equal where the mechanisms are."""
 
     def mechanism(self, gauges: tuple[Gauge, ...]) -> Solvable:
         """Plain, for effects to change."""
@@ -137,7 +141,12 @@ class Model:
 
     def mechanism(self, rig: Built, gauges: tuple[Gauge, ...]) -> Solvable:
         """The mechanism of a rig, or of tests on rigs alike. ValueError for an effect that this rig cannot have."""
-        return self._built((*self.nominals, *self.terms), rig.mechanism(gauges))
+        terms = (*self.nominals, *self.terms)
+        if not all(shipped(term.effect) for term in terms):
+            # What an effect of somebody else does to the arrays that it is given nobody knows.
+            return _applied(terms, rig.mechanism(gauges))
+        effects = tuple((term.effect, tuple(term.values.items())) for term in terms)
+        return _kept(effects, _Place(rig.alike, rig), gauges)
 
     def reads_alone(self, free: Free, value: float, rig: Built, gauges: tuple[Gauge, ...]) -> bool:
         """Whether another value of this number changes what sensors read, and nothing else.
@@ -148,23 +157,32 @@ class Model:
         number = self.names.index(free.effect)
         if not all(shipped(term.effect) for term in self.terms[number + 1 :]):
             return False
-        before = self._built((*self.nominals, *self.terms[:number]), rig.mechanism(gauges))
+        before = replace(self, terms=self.terms[:number]).mechanism(rig, gauges)
         own = self.terms[number]
         other = replace(own, values={**own.values, free.parameter.name: value})
-        return _in_sensors_alone(*(self._built((term,), before) for term in (own, other)))
-
-    @staticmethod
-    def _built(terms: tuple[Term, ...], it: Solvable) -> Solvable:
-        return _applied(tuple((term.effect, tuple(term.values.items())) for term in terms), it)
+        return _in_sensors_alone(*(_applied((term,), before) for term in (own, other)))
 
 
-# Those of an evaluation with its derivatives, and of some before.
-@lru_cache
-def _applied(effects: tuple[tuple[Effect, tuple[tuple[str, float], ...]], ...], it: Solvable) -> Solvable:
-    """A mechanism with effects at values: one prediction after the other asks for the same."""
-    for effect, values in effects:
-        it = effect.apply(it, dict(values))
+def _applied(terms: Iterable[Term], it: Solvable) -> Solvable:
+    for term in terms:
+        it = term.effect.apply(it, term.values)
     return it
+
+
+@dataclass(frozen=True)
+class _Place:
+    """A rig by what its mechanism follows."""
+
+    alike: Hashable
+    rig: Built = field(compare=False)
+
+
+@lru_cache
+def _kept(
+    effects: tuple[tuple[Effect, tuple[tuple[str, float], ...]], ...], at: _Place, gauges: tuple[Gauge, ...]
+) -> Solvable:
+    """A mechanism with effects at values: one prediction after the other asks for the same."""
+    return _applied((Term(effect, dict(values)) for effect, values in effects), at.rig.mechanism(gauges))
 
 
 def at_bound(model: Model) -> tuple[str, ...]:

@@ -47,7 +47,8 @@ def carried(found: Prediction, cases: LoadCases, other: LoadCases) -> Prediction
 
 
 def states_at(found: Prediction, cases: LoadCases, part: LoadCases, rows: Rows) -> tuple[Equilibrium, ...]:
-    """The states of a prediction of all cases at these rows (R,), laid out as in the load cases of these alone."""
+    """The states of a prediction of all cases at these rows (R,), laid out as in `part`, the load cases of these alone:
+    in its order."""
     out = []
     for group in part.groups:
         number = next(k for k, one in enumerate(cases.groups) if one.rig.stands_as(group.rig))

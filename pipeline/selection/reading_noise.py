@@ -60,10 +60,10 @@ class Readings:
         if not self.may_be_asked(found, criteria):
             return self
         bad = self.single_bad(found, given, criteria)
-        whole = found if self.plain else _with_readings(found, given)
+        whole = found if self.plain else _given(found, given)
         # A bad reading pulls a fit to itself, and what that leaves of its neighbours looks like long tails.
         rest = whole if not bad else self._beside(bad, found, given, criteria)
-        about = whole if not bad else _with_readings(rest, given)
+        about = whole if not bad else _given(rest, given)
         if not white(rest, criteria):
             return Readings(bad)
         tails = tails_of(about, criteria, rest if bad else None)
@@ -73,7 +73,7 @@ class Readings:
 
     def single_bad(self, found: Fit, given: LoadCases, criteria: Criteria) -> tuple[BadReading, ...]:
         """Those of all readings, given as they were declared, that are single bad ones about a fit."""
-        whole = found if self.plain else _with_readings(found, given)
+        whole = found if self.plain else _given(found, given)
         return (*bad_readings(whole, criteria), *_held_out(whole, criteria))
 
     def _beside(self, bad: tuple[BadReading, ...], found: Fit, given: LoadCases, criteria: Criteria) -> Fit:
@@ -113,10 +113,15 @@ def _held_out(found: Fit, criteria: Criteria) -> tuple[BadReading, ...]:
     )
 
 
-@kept
 def _with_readings(found: Fit, cases: LoadCases) -> Fit:
     """A fitted model as it is beside other readings of the same tests."""
     return unfitted(found.model, cases, carried(found.prediction, cases, found.residual.load_cases))
+
+
+@kept
+def _given(found: Fit, given: LoadCases) -> Fit:
+    """The same beside all readings as they were given, which are asked about again and again."""
+    return _with_readings(found, given)
 
 
 def _refitted(cases: LoadCases, found: Fit, criteria: Criteria) -> Fit:

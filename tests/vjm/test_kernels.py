@@ -1,4 +1,4 @@
-"""Compiled kinematics against those written with whole arrays, and against a table of what they refuse to move."""
+"""Compiled kinematics against those written with whole arrays."""
 
 from __future__ import annotations
 
@@ -8,9 +8,11 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from tests.vjm.strategies import LENGTH, WIDTH, chains, fixed_seed
-from vjm import kernels, paper
-from vjm.chain import Chain
+from vjm import kernels, lagrangian, paper
+from vjm.chain import Chain, Fixed, Joint, Mark, Role
 from vjm.frames import exp, log
+from vjm.loads import DeadLoads
+from vjm.mechanism import ElasticChain, Path
 from vjm.mechanisms.parallelogram import Parallelogram
 
 seeds = st.integers(0, 10_000)
@@ -29,7 +31,7 @@ def check(chain: Chain, seed: int, far: float, sign: float, second: bool) -> Non
     gap, balance = generator.normal(size=(STATES, 12)), generator.normal(size=(STATES, m))
     matrix = np.zeros((STATES, m + 12, m + 12) if second else (0, 0, 0))
     before = [part.copy() for part in (gap, balance)]
-    kernels.close(chain.program, kernels.NO_MARKS, columns, x, multipliers, 6, sign, m, gap, balance, matrix)
+    kernels.close(chain.program, columns, x, multipliers, 6, sign, m, gap, balance, matrix)
     here, moving, own = chain.kinematics(x), slice(1, m - 1), slice(0, chain.size - 1)
     size = max(1.0, np.abs(here.jacobian).max(), np.abs(here.pose).max())
     after = [part.copy() for part in before]
@@ -56,6 +58,35 @@ def test_a_closure_of_any_chain(chain: Chain, seed: int, far: float, sign: float
 @pytest.mark.parametrize("second", [False, True])
 def test_a_closure_of_bars_whose_joints_are_tied(second: bool) -> None:
     check(Parallelogram(LENGTH, WIDTH, paper.BAR_STIFFNESS).refined(3).chains[1].chain, 7, 0.3, -1.0, second)
+
+
+@pytest.mark.parametrize("batch", [(), (0,), (3,), (2, 3)])
+def test_a_leg_in_which_nothing_moves(batch: tuple[int, ...]) -> None:
+    """A drive on a rigid link closes on the platform, with no coordinate of its own."""
+    drive = Joint("rotation", (0.0, 0.0, 1.0), Role.ACTUATED)
+    chain = Chain((Fixed(np.array([1.0, 2.0, 3.0])), drive, Fixed(np.array([10.0, 0.0, 0.0]))))
+    leg = ElasticChain(chain, np.zeros((0, 0)), np.zeros(1))
+    pose, none = np.ones((*batch, 6)), np.zeros((*batch, 0))
+    rows = lagrangian.chain_rows(leg, none, leg.rest, pose, pose, none, second=True)
+    assert rows.balance.shape == (*batch, 0) and rows.matrix.shape == (*batch, 6, 6)
+    np.testing.assert_allclose(rows.gap, pose - chain.pose(np.zeros(1)))
+
+
+def test_what_does_not_fit_is_refused() -> None:
+    """Compiled functions look after nothing: whoever calls them does."""
+    chain = Chain((Joint("rotation", (0.0, 0.0, 1.0), Role.VIRTUAL), Fixed(np.array([10.0, 0.0, 0.0]))))
+    leg, start = ElasticChain(chain, np.eye(1), np.zeros(1)), Mark(0, np.zeros(3))
+    with pytest.raises(ValueError, match="multipliers"):
+        lagrangian.closing_force(leg, np.zeros((4, 1)), np.zeros(6))
+    with pytest.raises(ValueError, match="numbers"):
+        Path(chain, np.arange(2))
+    for marks, forces, match in (
+        ((start,), np.zeros((2, 3)), "forces"),
+        ((Mark(2, np.zeros(3)), start), np.zeros((2, 3)), "in order"),
+        ((Mark(3, np.zeros(3)),), np.zeros((1, 3)), "in order"),
+    ):
+        with pytest.raises(ValueError, match=match):
+            DeadLoads(chain, np.arange(1), marks, forces)
 
 
 @fixed_seed(60)

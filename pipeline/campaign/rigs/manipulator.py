@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Hashable, Mapping
 from dataclasses import dataclass, fields, replace
 from functools import cached_property, lru_cache
 from pathlib import Path
@@ -87,7 +87,10 @@ class ManipulatorRig(Rig):
         return all(getattr(self, name) == getattr(other, name) for name in names)
 
     def mechanism_of(self, rigs: tuple[Rig, ...], gauges: tuple[Gauge, ...]) -> Standing:
-        return _standing(self, rigs, gauges)
+        return Standing(self.mechanism(gauges).manipulator, _together(rigs))
+
+    def alike_of(self, rigs: tuple[Rig, ...]) -> Hashable:
+        return rigs
 
     def inputs_of(self, mechanism: Solvable, rigs: tuple[Rig, ...]) -> Mapping[str, Array]:
         assert isinstance(mechanism, Standing)
@@ -185,8 +188,3 @@ file = "?"                   # that describes its legs, beside this one; or "ort
     @classmethod
     def merged(cls, base: dict[str, Any], own: dict[str, Any]) -> dict[str, Any]:
         raise ValueError("is given, tests of a manipulator differ in at_mm only")
-
-
-@lru_cache(maxsize=64)
-def _standing(rig: ManipulatorRig, rigs: tuple[Rig, ...], gauges: tuple[Gauge, ...]) -> Standing:
-    return Standing(rig.mechanism(gauges).manipulator, _together(rigs))

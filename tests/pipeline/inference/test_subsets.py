@@ -15,7 +15,7 @@ from pipeline.inference.fit import Fit, fit
 from pipeline.inference.load_cases import LoadCases, load_cases
 from pipeline.inference.model import Model
 from pipeline.inference.prediction import predict
-from pipeline.inference.subsets import ARRAYS, at_rows, joined, states_with
+from pipeline.inference.subsets import ARRAYS, at_rows, joined, states_at, states_with
 from vjm.effects import catalogue
 
 HIDDEN = (("modulus_error.scale", 0.9),)
@@ -94,6 +94,22 @@ def test_states_of_some_rows_take_their_place() -> None:
         not np.array_equal(a.unknowns, b.unknowns) for a, b in zip(after.states, before.states, strict=True)
     ]
     assert any(changed)
+
+
+def test_sets_that_share_rows_are_predicted_beside_each_other() -> None:
+    it, sets = model("modulus_error"), (np.array([1, 3, 4, 20]), np.array([3, 4, 22, 23]))
+    together = cases().only(*sets)
+    every = np.concatenate(sets)
+    np.testing.assert_array_equal(together.measured, cases().measured[every])
+    before, shift = predict(it, cases()), np.zeros((every.size, 7))
+    shift[:, 0] = 1e-3 * np.arange(every.size)
+    begin = replace(before, states=states_at(before, cases(), together, every))
+    found = predict(it, together, start=begin, shift=shift)
+    for rows, own in zip(sets, (slice(0, 4), slice(4, 8)), strict=True):
+        alone = predict(it, cases().only(rows), shift=shift[own])
+        np.testing.assert_allclose(
+            found.values[own] / cases().sigma, alone.values / cases().sigma, rtol=0, atol=1e-7
+        )
 
 
 def test_lost_rows_keep_their_reasons() -> None:
