@@ -44,6 +44,12 @@ class Dirt:
     rounded: Array
     tails: float | None = None
 
+    @classmethod
+    def of_bar(cls, bar: Array) -> Dirt:
+        """A bar that is so far off, and nothing else."""
+        one = np.ones(12 + len(GAUGES))
+        return cls(bar, one, np.zeros_like(one), 0.0, one, None, np.zeros_like(one))
+
     @property
     def words(self) -> dict[str, float]:
         """Sizes by name, for the record."""

@@ -31,7 +31,7 @@ from pipeline.assessment.challenge.dirty.cases import ROUND as DIRTY_ROUND
 from pipeline.assessment.challenge.dirty.cases import dirty_case
 from pipeline.assessment.challenge.dirty.dirt import BAD_MOST, CELL, CORRELATED, DIALS, Dirt
 from pipeline.assessment.challenge.laws.shapes import EVERY, GRAMMAR, OUTSIDE, SMOOTH_LAWS, Draw, Shape
-from pipeline.assessment.virtual.plan import GAUGES, PlannedTest
+from pipeline.assessment.virtual.plan import PlannedTest
 from pipeline.campaign import ParallelogramRig
 from pipeline.simulate import scaled
 
@@ -120,7 +120,7 @@ def clean_case(number: int, share: float = 1.0) -> LawCase:
     if number >= 100:
         bar = _off(np.random.default_rng([SEED, 2, number]))
     return LawCase(
-        number, "clean", found.bench, {}, None, found.seed, (), False, _dirt(bar), exact=number < 100
+        number, "clean", found.bench, {}, None, found.seed, (), False, Dirt.of_bar(bar), exact=number < 100
     )
 
 
@@ -206,7 +206,7 @@ def _off(generator: np.random.Generator) -> np.ndarray:
 
 
 def _drawn_dirt(generator: np.random.Generator, kind: str) -> Dirt:
-    dirt = _dirt(_off(generator))
+    dirt = Dirt.of_bar(_off(generator))
     share, channel, r = (
         float(generator.uniform(0.25 * BAD_MOST, BAD_MOST)),
         int(generator.choice([*CELL[:3], *DIALS, 12])),
@@ -217,9 +217,3 @@ def _drawn_dirt(generator: np.random.Generator, kind: str) -> Dirt:
     if kind == "bad":
         return replace(dirt, bad=share)
     return replace(dirt, correlated=(channel, r)) if kind == "correlated" else dirt
-
-
-def _dirt(bar: np.ndarray) -> Dirt:
-    """A bar that is so far off, and nothing else."""
-    one = np.ones(12 + len(GAUGES))
-    return Dirt(bar, one, np.zeros_like(one), 0.0, one, None, np.zeros_like(one))
