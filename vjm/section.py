@@ -47,6 +47,10 @@ class Section:
         y, z = self.places
         return np.stack([np.ones_like(y), z, -y])
 
+    def largest(self, strain: Array) -> Array:
+        """(...) largest magnitude of the strain of a fibre at strains (..., 3): fibres lie at all four corners."""
+        return np.asarray(np.abs(strain) @ np.max(np.abs(self.arms), axis=1))
+
     @cached_property
     def _products(self) -> Array:
         """(f, 9) stiffness of each fibre by the strains of the section."""

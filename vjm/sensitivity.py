@@ -164,7 +164,7 @@ def by_parameters(
                 own[..., k] += weight * state.readings
                 continue
             moved = direction.moved(state, step)
-            slope[..., k] += weight * _residual(moved, state.memory + step * memory[..., k], place, still)
+            slope[..., k] += weight * _residual(moved, _along(state.memory, memory, step, k), place, still)
             own[..., k] += weight * moved.readings
     slope[..., place.platform, :] -= target / channel_scale(place, state.channels)[..., None]
     unknowns, regular = _solve(state, -slope)
@@ -236,9 +236,10 @@ def _memory_change(
 
     What a target leaves in the memory is not followed: it belongs to its own step.
     """
-    out = np.zeros(memory.shape)
     if not memory.shape[-2]:
-        return out
+        return np.zeros(memory.shape)
+    # Each direction in one piece: memories are long, and a sum into every k-th number takes several times as long.
+    out = np.zeros((memory.shape[-1], *memory.shape[:-1]))
     for k, direction in enumerate(directions):
         if isinstance(direction, Target):
             continue
@@ -246,7 +247,13 @@ def _memory_change(
             moved = replace(
                 direction.moved(state, step),
                 unknowns=state.unknowns + step * unknowns[..., k],
-                memory=state.memory + step * memory[..., k],
+                memory=_along(state.memory, memory, step, k),
             )
-            out[..., k] += weight * moved.next_memory
-    return out
+            out[k] += weight * moved.next_memory
+    return np.moveaxis(out, 0, -1)
+
+
+def _along(memory: Array, slope: Array, step: float, number: int) -> Array:
+    """Memory (..., M) moved by a step along one of its slopes (..., M, k); the same where one zero stands for all."""
+    none = not any(slope.strides) and slope.size and slope.flat[0] == 0.0
+    return memory if none else memory + step * slope[..., number]

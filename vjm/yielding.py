@@ -68,7 +68,8 @@ class Yielding:
         block[yields] = -np.swapaxes(rates[yields], -1, -2) @ slope[yields] @ rates[yields]
         block[..., range(6), range(6)] -= pull[..., :1] * self.curvature
         force = -(pull + pull[..., :1] * bow)
-        energy = self._energy(v, pull, after)
+        energy = np.zeros(len(theta))
+        np.add.at(energy, yields[0], self._energy(v[yields], pull[yields], after[yields], yields[1]))
         return Response(
             energy.reshape(batch),
             force.reshape(strain.shape),
@@ -78,8 +79,8 @@ class Yielding:
 
     def _yields(self, v: Array, before: Array) -> tuple[np.ndarray, ...]:
         """Members and segments with a plastic strain before, or with one now."""
-        elastic = np.einsum("nsij,bnj->bnsi", self.rate, v) @ self.section.arms
-        now = np.max(np.abs(elastic), axis=(-2, -1)) > self.section.fibres.limit
+        elastic = np.einsum("nsij,bnj->bnsi", self.rate, v)
+        now = np.max(self.section.largest(elastic), axis=-1) > self.section.fibres.limit
         return np.nonzero(now | np.any(before != 0.0, axis=(-2, -1)))
 
     def _missing(self, v: Array, before: Array, at: tuple[np.ndarray, ...]) -> tuple[Array, Array, Array]:
@@ -97,14 +98,15 @@ class Yielding:
         pull = (weighted @ missing.stress.reshape(len(rate), -1, 1))[..., 0]
         return pull, 0.5 * (slope + np.swapaxes(slope, -1, -2)), missing.plastic
 
-    def _energy(self, v: Array, pull: Array, plastic: Array) -> Array:
-        """(B,) stored energy beyond v^T K v / 2: that of v - v_p, and what the fibres hold against each other."""
+    def _energy(self, v: Array, pull: Array, plastic: Array, segment: np.ndarray) -> Array:
+        """(N,) stored energy beyond v^T K v / 2 of segments of these numbers (N,) that yield or did: that of v - v_p,
+        and what the fibres hold against each other."""
         ea, weights = self.section.rigidity[0], self.section.weights
         missing = plastic @ (ea * weights * self.section.arms).T
         inner = ea * (plastic**2 @ weights) - np.sum(missing**2 / self.section.rigidity, axis=-1)
-        give = np.einsum("bni,nij,bnj->b", pull, np.linalg.inv(self.stiffness), pull)
-        held = np.einsum("s,bns->b", self.length * _SHARES, inner)
-        return np.asarray(0.5 * (give + held) - np.sum(pull * v, axis=(-2, -1)))
+        give = np.einsum("ni,nij,nj->n", pull, np.linalg.inv(self.stiffness)[segment], pull)
+        held = inner @ (self.length * _SHARES)
+        return np.asarray(0.5 * (give + held) - np.sum(pull * v, axis=-1))
 
     @cached_property
     def _lengths(self) -> Array:
