@@ -78,14 +78,30 @@ def _with_laws(it: Diagnosis, on_progress: OnProgress) -> Looked:
     best = frozenset(it.sets[0])
     if it.judgement.noise and best:
         return _competing(it, best, on_progress)
-    sure: Names = frozenset(it.certain)
-    found, record = _discovered(
-        it, it.cache.with_own_line(sure).model if sure else it.cache.base, on_progress
-    )
+    begin, found = perf_counter(), _beside_certain(it, on_progress)
     if not found.laws and it.verdict == "within_noise":
         return it, found
+    record = _record(it, found, begin)
     words = law_sentences(record) if found.laws else sentences(record)[:1]
-    return replace(it, laws=record.laws, law_words=words), found
+    done = _less_certain(it, found) if found.laws else it
+    return replace(done, laws=record.laws, law_words=words), found
+
+
+def _beside_certain(it: Diagnosis, on_progress: OnProgress) -> Discovery:
+    """Laws beside what is certain; without it where laws explain all by themselves, and beside it they do not: then it
+    was a law by the name of what looks most like it."""
+    sure: Names = frozenset(it.certain)
+    start = it.cache.with_own_line(sure).model if sure else it.cache.base
+    found = _discovered(it, start, on_progress)
+    if not sure or _explains(it, found):
+        return found
+    alone = _discovered(it, it.cache.base, on_progress)
+    return alone if alone.laws and _explains(it, alone) else found
+
+
+def _explains(it: Diagnosis, found: Discovery) -> bool:
+    """Whether nothing but noise is left beside what was found."""
+    return not found.end.lost and judge(found.end, it.cache.criteria).noise
 
 
 def _competing(it: Diagnosis, best: Names, on_progress: OnProgress) -> Looked:
@@ -95,7 +111,7 @@ def _competing(it: Diagnosis, best: Names, on_progress: OnProgress) -> Looked:
     on_progress("whether a law explains as much")
     if not (_leaves_a_pattern(it, best) or (several and _may_compete(it, best))):
         return it, None
-    found, record = _discovered(it, it.cache.base, on_progress)
+    begin, found = perf_counter(), _discovered(it, it.cache.base, on_progress)
     law, own = _standing(it, found), best - root_of(it.cache, best)
     if law is None or not 0 < len(found.laws) <= len(own) or _effects_of(found) | law.beside == own:
         return it, found
@@ -115,7 +131,7 @@ def _competing(it: Diagnosis, best: Names, on_progress: OnProgress) -> Looked:
         decision = replace(
             it.decision, verdict="unknown", because=f"{told} explains it by {-behind:.0f} better"
         )
-    done = _less_certain(replace(it, decision=decision), found)
+    done, record = _less_certain(replace(it, decision=decision), found), _record(it, found, begin)
     return replace(done, laws=record.laws, law_words=law_sentences(record)), found
 
 
@@ -156,7 +172,7 @@ def _standing(it: Diagnosis, found: Discovery) -> _Law | None:
     """What the laws that were found cost; None where they do not explain all, or by other readings."""
     if found.bad or not all(law.ways for law in found.laws):
         return None
-    if found.end.lost or not judge(found.end, it.cache.criteria).noise:
+    if not _explains(it, found):
         return None
     numbers = sum(law.ways[0].numbers for law in found.laws) + int(found.bent)
     # Choices of sides cost a law what they cost an effect.
@@ -194,8 +210,9 @@ def _fitted(it: Diagnosis) -> LoadCases:
     return load_cases(replace(whole, tests=tuple(test for test in whole.tests if test.role == "fit")))
 
 
-def _discovered(it: Diagnosis, start: Model, on_progress: OnProgress) -> tuple[Discovery, Discovered]:
-    begin = perf_counter()
-    found = discover(_fitted(it), start, it.cache.candidates, on_progress)
-    whole = load_cases(set_aside(it.campaign, found.bad))
-    return found, recorded(found, whole, perf_counter() - begin)
+def _discovered(it: Diagnosis, start: Model, on_progress: OnProgress) -> Discovery:
+    return discover(_fitted(it), start, it.cache.candidates, on_progress)
+
+
+def _record(it: Diagnosis, found: Discovery, begin: float) -> Discovered:
+    return recorded(found, load_cases(set_aside(it.campaign, found.bad)), perf_counter() - begin)

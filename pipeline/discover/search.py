@@ -6,7 +6,7 @@ nature (`pipeline.discover.bodies`) and explains as much enters the model as wha
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -24,6 +24,7 @@ from pipeline.discover.through import Through, through
 from pipeline.inference.fit import Fit, fit, unfitted
 from pipeline.inference.load_cases import LoadCases, load_cases
 from pipeline.inference.model import Model
+from pipeline.inference.orthonormal_basis import basis
 from pipeline.selection.adequacy.bad_readings import BadReading
 from pipeline.selection.criteria import CRITERIA
 from vjm.effects.base import Effect
@@ -132,6 +133,12 @@ def discover(
             here = begin if not steps else fitted_to(here.model, cases)
             continue
         step = _step(seen, cases, len(steps) + 1, on_progress)
+        if isinstance(step, Law) and step.ways:
+            known = [it.group[0] for it in steps if isinstance(it, Law)]
+            for name in [n for n in _in_its_place(step) if n in begin.model.names]:
+                without = fitted_to(step.map.found.model.without(name), cases)
+                fewer = mapped(without, effects, known=known)
+                step = _instead(step, _step(fewer, cases, len(steps) + 1, on_progress))
         if step is None or len(steps) >= CRITERIA.laws_at_most:
             return Discovery(given, begin, tuple(steps), here, seen, step is None, tuple(bad))
         steps.append(step)
@@ -179,6 +186,28 @@ def _step(seen: Map, cases: LoadCases, number: int, on_progress: OnProgress) -> 
             return Law(seen, (it, *others), gains, _ways(seen, first, cases, f"law{number}", on_progress))
     # A free function may fall with the load that a place bears, as no compliance does: that is no law.
     return None
+
+
+def _in_its_place(law: Law) -> Iterator[str]:
+    """Effects of the model that do nothing but what a function at the place of a law does as well: where that law holds
+    they are a part of it, and their numbers are not told from its own."""
+    found, rest = law.map.found, law.map.rest
+    units = basis(rest.weakened(law.group[0].evidence.site.values))
+    own = rest.weakened(rest.seen(found.residual.without_zeros(found.residual.slopes)))
+    for term in found.model.terms:
+        mine = [k for k, free in enumerate(found.model.free) if free.effect == term.effect.name]
+        columns = own[:, mine]
+        left = columns - units @ (units.T @ columns)
+        size = np.sum(columns**2, axis=0)
+        if mine and np.all(np.sum(left**2, axis=0) < CRITERIA.law_alike_share * size):
+            yield term.effect.name
+
+
+def _instead(law: Law, other: Law | Added | None) -> Law:
+    """Of a law beside an effect in its place, and one without that, the second where it explains as much."""
+    if not isinstance(other, Law) or not other.ways:
+        return law
+    return other if other.ways[0].cost <= law.ways[0].cost + CRITERIA.law_alike else law
 
 
 def _proposed(seen: Map) -> tuple[tuple[Located, ...], Array]:

@@ -12,9 +12,9 @@ from pipeline.discover.beyond_catalogue import with_laws
 from pipeline.discover.effect_file import effect_text, name_of, write_effect
 from pipeline.discover.evidence import Array, Evidence
 from pipeline.discover.forming import formed
-from pipeline.discover.locating import Located
+from pipeline.discover.locating import Located, mapped
 from pipeline.discover.recording import recorded
-from pipeline.discover.search import Discovery, discover
+from pipeline.discover.search import Discovery, discover, fitted_to
 from pipeline.discover.words import sentences
 from pipeline.errors import InputError
 from pipeline.inference.fit import unfitted
@@ -201,6 +201,55 @@ def test_a_law_takes_the_name_from_a_set_that_it_beats(unknown: Diagnosis) -> No
     assert again.verdict == "unknown" and "hinge_torque" in again.decision.because
     assert [law.site for law in again.laws] == ["hinge_torque"]
     assert not set(again.certain) & {"joint_torsional_stiffness", "base_compliance"}
+
+
+def test_laws_that_explain_all_beside_what_is_certain_or_without_it(
+    unknown: Diagnosis, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """What is certain stays where laws beside it explain all; where only laws without it do, it was one of them."""
+    whole, asked = friction_found(), list[Model]()
+    halfway = replace(whole, end=whole.begin)
+
+    def of(beside: Discovery) -> Diagnosis:
+        def looked(_: object, start: Model, *__: object) -> Discovery:
+            asked.append(start)
+            return beside if "base_compliance" in start.names else whole
+
+        monkeypatch.setattr(beyond_catalogue, "discover", looked)
+        return with_laws(replace(unknown, certain=("base_compliance",)))
+
+    assert not of(halfway).certain and [it.names for it in asked][1:] == [unknown.cache.base.names]
+    asked.clear()
+    there = replace(whole, end=replace(whole.end, model=asked_with(whole.end.model)))
+    assert of(there).certain == ("base_compliance",) and len(asked) == 1
+
+
+def asked_with(model: Model) -> Model:
+    return model.with_effects([catalogue()["base_compliance"]])
+
+
+def test_an_effect_at_the_place_of_a_law_is_a_part_of_it() -> None:
+    """A linear spring in the hinges is a function there, a weight is none."""
+    campaign = bench("joint_friction.torque_Nmm", 600.0)
+    effects = effects_for(campaign)
+    model = Model().with_effects([GEOMETRY, effects["joint_torsional_stiffness"], effects["self_weight"]])
+    seen = mapped(fitted_to(model, fitted_tests(campaign)), effects)
+    hinges = next(it for it in seen.sites if it.site.name == "hinge_torque")
+    assert [*search._in_its_place(search.Law(seen, (hinges,), np.zeros(0), ()))] == [
+        "joint_torsional_stiffness"
+    ]
+
+
+@pytest.mark.long
+def test_a_law_takes_the_place_of_an_effect_that_it_holds() -> None:
+    """The spring that a model starts with is no part of what friction leaves."""
+    campaign = bench("joint_friction.torque_Nmm", 600.0)
+    effects = effects_for(campaign)
+    start = Model().with_effects([effects["joint_torsional_stiffness"]])
+    found = discover(fitted_tests(campaign), start, effects)
+    assert "joint_torsional_stiffness" in found.begin.model.names
+    assert "joint_torsional_stiffness" not in found.end.model.names and found.whole
+    assert [law.site.name for law in found.laws] == ["hinge_torque"]
 
 
 def test_a_place_that_one_test_alone_speaks_for_does_not_hide_the_next(
