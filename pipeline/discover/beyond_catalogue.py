@@ -106,7 +106,7 @@ def _explains(it: Diagnosis, found: Discovery) -> bool:
 
 def _competing(it: Diagnosis, best: Names, on_progress: OnProgress) -> Looked:
     """A set of effects against what laws explain without it. One effect alone mimics no law as well as that explains
-    itself: it competes only where it leaves a pattern, and gives way only to what is better."""
+    itself: it competes only where it leaves a pattern, and keeps its name against what is no better."""
     several = len(best - root_of(it.cache, best)) >= CRITERIA.law_several
     on_progress("whether a law explains as much")
     if not (_leaves_a_pattern(it, best) or (several and _may_compete(it, best))):
@@ -119,13 +119,13 @@ def _competing(it: Diagnosis, best: Names, on_progress: OnProgress) -> Looked:
     if law.beside:
         # No rival by itself, but what it explains as well without an effect takes that off what is certain.
         return (it if behind > 0.0 else _less_certain(it, found)), found
-    if any(each.ways[0].formed.form.kinked for each in found.laws):
-        # Where each row chooses its side of a gap that takes up noise: it is never better than a set by that alone.
-        behind = max(behind, -CRITERIA.law_alike)
-    if behind > (CRITERIA.law_alike if several else -CRITERIA.law_alike):
+    # Where each row chooses its side of a gap that takes up noise: it is never better than a set by that alone.
+    kinked = any(each.ways[0].formed.form.kinked for each in found.laws)
+    alone = -CRITERIA.law_alike if kinked else 0.0
+    if behind > (CRITERIA.law_alike if several else alone):
         return it, found
     told = _told(found, law)
-    if behind >= -CRITERIA.law_alike:
+    if kinked or behind >= -CRITERIA.law_alike:
         decision = replace(it.decision, verdict="ambiguous", law=told)
     else:
         decision = replace(

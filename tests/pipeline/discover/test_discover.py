@@ -203,6 +203,33 @@ def test_a_law_takes_the_name_from_a_set_that_it_beats(unknown: Diagnosis) -> No
     assert not set(again.certain) & {"joint_torsional_stiffness", "base_compliance"}
 
 
+@pytest.mark.usefixtures("known_laws")
+@pytest.mark.parametrize(
+    ("several", "off", "verdict"),
+    [
+        (False, -1.0, "identified"),
+        (False, 1.0, "ambiguous"),
+        (False, 20.0, "unknown"),
+        (True, -20.0, "identified"),
+        (True, -1.0, "ambiguous"),
+        (True, 20.0, "unknown"),
+    ],
+)
+def test_one_effect_keeps_its_name_against_a_law_that_is_no_better(
+    unknown: Diagnosis, monkeypatch: pytest.MonkeyPatch, several: bool, off: float, verdict: str
+) -> None:
+    """off: by how much the law costs less than the set; above ten chi-squares it is better beyond doubt."""
+    names = (GEOMETRY.name, "joint_torsional_stiffness", *(["base_compliance"] if several else []))
+    decision = replace(unknown.decision, verdict="identified", sets=(frozenset(names),), law="")
+    taken = replace(unknown, decision=decision, judgement=replace(unknown.judgement, checks=()))
+    law = beyond_catalogue._standing(taken, friction_found())
+    assert law is not None
+    monkeypatch.setattr(beyond_catalogue, "_leaves_a_pattern", lambda *_: True)
+    monkeypatch.setattr(beyond_catalogue, "_may_compete", lambda *_: True)
+    monkeypatch.setattr(beyond_catalogue, "_cost_of_set", lambda *_: law.cost + off)
+    assert with_laws(taken).verdict == verdict
+
+
 def test_laws_that_explain_all_beside_what_is_certain_or_without_it(
     unknown: Diagnosis, monkeypatch: pytest.MonkeyPatch
 ) -> None:
