@@ -258,9 +258,6 @@ class StudentsLaw:
     """Logarithm of the odds of a bad reading, at which the search for its rival begins: two in a hundred are bad."""
     cut: float = 4.0
     """Sigmas, by the median magnitude of a channel, to which its readings are cut where its own size is asked."""
-    kept: float = 0.25
-    """Part of the growth of the log likelihood that is left where each channel is counted in its own size: of sigmas of
-    two sizes nothing is, of Student's law of three degrees a third or more (six and eight small campaigns)."""
 
 
 BIFURCATION = Bifurcation()

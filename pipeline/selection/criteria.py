@@ -136,17 +136,6 @@ class Criteria(TableCriteria, LawCriteria):
         "by which twice the log likelihood grows from normal noise to Student's before tails are long: 108 to 194 on "
         "long-tailed benches, 0 to 21 on others",
     )
-    tails_without_few: float = criterion(
-        3.0,
-        CHI2,
-        "noise",
-        "the same without as many of the largest as may be set aside, at least: 150 normal readings with three bad "
-        "ones reach 3.6 in a tenth of draws, 400 of Student's law of 3 degrees less in a tenth",
-        "30 draws of each",
-    )
-    tails_no_less: float = criterion(
-        -8.0, CHI2, "noise", "the same over normal noise with single bad readings, at least"
-    )
     # How far the search goes.
     far: float = criterion(
         2.0, SIGMA, "search", "root mean square from which a set is far from an explanation"

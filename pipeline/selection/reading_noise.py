@@ -66,7 +66,7 @@ class Readings:
         about = whole if not bad else _given(rest, given)
         if not white(rest, criteria):
             return Readings(bad)
-        tails = tails_of(about, criteria, rest if bad else None)
+        tails = tails_of(about, criteria)
         if tails is not None:
             return Readings(tails=tails, normal=without_tails(about, tails))
         return Readings(bad, tuple(_other(rest, criteria)))
