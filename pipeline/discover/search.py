@@ -189,18 +189,21 @@ def _step(seen: Map, cases: LoadCases, number: int, on_progress: OnProgress) -> 
 
 
 def _in_its_place(law: Law) -> Iterator[str]:
-    """Effects of the model that do nothing but what a function at the place of a law does as well: where that law holds
-    they are a part of it, and their numbers are not told from its own."""
+    """Effects of the model of which most, what their largest number does, a function at the place of a law does as
+    well: where that law holds they may be a part of it."""
     found, rest = law.map.found, law.map.rest
     units = basis(rest.weakened(law.group[0].evidence.site.values))
     own = rest.weakened(rest.seen(found.residual.without_zeros(found.residual.slopes)))
+    free = found.model.free
+    moved = own * [v - f.parameter.null for f, v in zip(free, found.model.values, strict=True)]
+    sizes = np.sum(moved**2, axis=0)
     for term in found.model.terms:
-        mine = [k for k, free in enumerate(found.model.free) if free.effect == term.effect.name]
-        columns = own[:, mine]
-        left = columns - units @ (units.T @ columns)
-        size = np.sum(columns**2, axis=0)
-        if mine and np.all(np.sum(left**2, axis=0) < CRITERIA.law_alike_share * size):
-            yield term.effect.name
+        mine = [k for k, each in enumerate(free) if each.effect == term.effect.name]
+        if mine:
+            most = moved[:, max(mine, key=lambda k: float(sizes[k]))]
+            left = most - units @ (units.T @ most)
+            if left @ left < CRITERIA.law_alike_share * (most @ most):
+                yield term.effect.name
 
 
 def _instead(law: Law, other: Law | Added | None) -> Law:

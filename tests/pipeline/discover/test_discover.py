@@ -256,10 +256,11 @@ def asked_with(model: Model) -> Model:
 
 
 def test_an_effect_at_the_place_of_a_law_is_a_part_of_it() -> None:
-    """A linear spring in the hinges is a function there, a weight is none."""
+    """A linear spring in the hinges is a function there, bars of two lengths are none."""
     campaign = bench("joint_friction.torque_Nmm", 600.0)
     effects = effects_for(campaign)
-    model = Model().with_effects([GEOMETRY, effects["joint_torsional_stiffness"], effects["self_weight"]])
+    own = [effects[name] for name in ("joint_torsional_stiffness", "bar_length_mismatch")]
+    model = Model().with_effects([GEOMETRY, *own])
     seen = mapped(fitted_to(model, fitted_tests(campaign)), effects)
     hinges = next(it for it in seen.sites if it.site.name == "hinge_torque")
     assert [*search._in_its_place(search.Law(seen, (hinges,), np.zeros(0), ()))] == [
