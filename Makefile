@@ -81,6 +81,11 @@ sensitivity: $(STAMP)
 mistaken: $(STAMP)
 	$(PYTHON) -m pipeline.assessment.mistaken
 
+# Bars off, lugs, long tails, knocked readings, rounding, each alone on many benches: hours, to be stopped and started too.
+.PHONY: doubts
+doubts: $(STAMP)
+	$(PYTHON) -m pipeline.assessment.doubts
+
 # The shipped campaign, measured again on the virtual bench; what it hides stands here and in its sealed answer.
 example: $(STAMP)
 	rm -f examples/bench/campaign.toml examples/bench/measurements.csv examples/bench.sealed.json

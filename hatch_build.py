@@ -22,7 +22,10 @@ PACKAGES = ("fem", "meshes", "pipeline", "reports", "vjm")
 DATA = (".csv", ".css", ".j2", ".js", ".toml", ".typed")
 LEFT_OUT = {
     "reports": ("challenge", "coverage", "extrapolation", "sensitivity", "studio", "validation"),
-    "pipeline": ("assessment/extrapolation", "assessment/sensitivity"),
+    "pipeline": tuple(
+        f"assessment/{study}"
+        for study in ("doubts", "extrapolation", "mistaken", "prediction", "sensitivity")
+    ),
 }
 """Folders of packages that only a checkout has: results, and studies of the diagnosis that no command runs."""
 EXAMPLE = "examples/bench"
