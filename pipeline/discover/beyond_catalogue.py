@@ -194,7 +194,7 @@ def _of_one(it: Diagnosis) -> float:
 
 def _effects_of(found: Discovery) -> Names:
     """The effects of the catalogue that the laws are by another name."""
-    every = [law.ways[0].formed.form.effects.get(law.site.name, ()) for law in found.laws]
+    every = [law.ways[0].formed.form.effects.get(law.site.name, ()) for law in found.laws if law.ways]
     return frozenset(name for names in every for name in names)
 
 

@@ -251,6 +251,18 @@ def test_laws_that_explain_all_beside_what_is_certain_or_without_it(
     assert of(there).certain == ("base_compliance",) and len(asked) == 1
 
 
+def test_a_place_without_a_form_takes_nothing_with_it(
+    unknown: Diagnosis, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A sensor's column, or a place of which no form is one: there is no law in the mechanism."""
+    whole = friction_found()
+    (law,) = whole.laws
+    bare = replace(whole, steps=(replace(law, ways=()),), whole=False)
+    monkeypatch.setattr(beyond_catalogue, "discover", lambda *_: bare)
+    again = with_laws(replace(unknown, certain=("base_compliance",)))
+    assert not again.failed and [each.site for each in again.laws] == ["hinge_torque"]
+
+
 def asked_with(model: Model) -> Model:
     return model.with_effects([catalogue()["base_compliance"]])
 
