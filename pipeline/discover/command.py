@@ -25,7 +25,6 @@ from pipeline.inference.load_cases import load_cases
 from pipeline.inference.model import Model
 from pipeline.inference.suitable import Known, check_suitable, known_effects
 from pipeline.progress import Progress
-from pipeline.selection.adequacy.bad_readings import set_aside
 from pipeline.selection.diagnosis import suitable
 from pipeline.typed import command
 
@@ -75,7 +74,7 @@ def laws_found(
     """What is found from a model on. InputError as of `searched`."""
     begin = perf_counter()
     found, whole = searched(campaign, model, known, on_progress)
-    record = recorded(found, load_cases(set_aside(whole, found.bad)), perf_counter() - begin)
+    record = recorded(found, whole, perf_counter() - begin)
     record = record.model_copy(update={"sentences": sentences(record)})
     text = effect_text(found, record) if any(law.ways for law in found.laws) else ""
     return LawsFound(record, _effects(found, record), text)

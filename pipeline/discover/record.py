@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pipeline.answer.law import LawFound
-from pipeline.answer.record import ModelError, SetAside
+from pipeline.answer.record import FoundNoise, ModelError, SetAside
 from pipeline.record import Record
 
 
@@ -41,6 +41,8 @@ class Discovered(Record):
     """Its ln evidence."""
     set_aside: tuple[SetAside, ...] = ()
     """Single bad readings that were left out."""
+    noise: tuple[FoundNoise, ...] = ()
+    """Sensors whose noise is not as it was declared."""
     sentences: tuple[str, ...] = ()
     """All of it in words."""
     not_done: tuple[str, ...] = ()

@@ -6,17 +6,19 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pipeline.answer.law import Curve, Grouped, LawFound, Tie
+from pipeline.answer.of_diagnosis import found_noise
 from pipeline.answer.record import ModelError
 from pipeline.answer.summary import error_of, set_aside_records
 from pipeline.answer.value import Value
 from pipeline.attempt import Attempts
+from pipeline.campaign import Campaign
 from pipeline.discover.record import Discovered, Entered
 from pipeline.discover.search import Added, Discovery, Law
 from pipeline.discover.shape import band, described
 from pipeline.discover.sites import Site
 from pipeline.discover.through import Through
 from pipeline.inference.fit import Fit, unfitted
-from pipeline.inference.load_cases import LoadCases
+from pipeline.inference.load_cases import LoadCases, load_cases
 from pipeline.inference.model import Model
 from pipeline.parameter_names import path_of
 from pipeline.provenance import commit, versions
@@ -30,9 +32,9 @@ SEEN = 0.05
 ENDS = {"base": "at the base", "tip": "at the tip", "1": "of bar 1", "2": "of bar 2"}
 
 
-def recorded(found: Discovery, whole: LoadCases, seconds: float) -> Discovered:
-    """whole: the load cases of the campaign with its held-out tests."""
-    attempts = Attempts()
+def recorded(found: Discovery, campaign: Campaign, seconds: float) -> Discovered:
+    """campaign: with its held-out tests, as it was given to the search."""
+    attempts, whole = Attempts(), load_cases(found.as_read(campaign))
     errors = [_error(found.given, whole)]
     errors += [_error(found.begin, whole)] if found.bent else []
     laws: list[LawFound] = []
@@ -53,6 +55,7 @@ def recorded(found: Discovery, whole: LoadCases, seconds: float) -> Discovered:
         next_site=None if top is None else top.site.name,
         next_evidence=found.last.best,
         set_aside=set_aside_records(found.bad),
+        noise=tuple(said for each in found.settled for said in found_noise(each, campaign, whole.predicted)),
         not_done=tuple(attempts.failed),
         seconds=round(seconds, 3),
         commit=commit(),

@@ -13,12 +13,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pipeline.callbacks import OnProgress
+from pipeline.campaign import Campaign
 from pipeline.discover.bodies import Body, started
 from pipeline.discover.elements import elements
 from pipeline.discover.evidence import Evidence, Rest
 from pipeline.discover.forming import Formed, columns_of, formed
 from pipeline.discover.locating import Located, Map, mapped
-from pipeline.discover.settling import Beside, beside
+from pipeline.discover.settling import beside
 from pipeline.discover.sites import Site
 from pipeline.discover.through import Through, through
 from pipeline.inference.fit import Fit, fit, unfitted
@@ -27,6 +28,7 @@ from pipeline.inference.model import Model
 from pipeline.inference.orthonormal_basis import basis
 from pipeline.selection.adequacy.bad_readings import BadReading
 from pipeline.selection.criteria import CRITERIA
+from pipeline.selection.reading_noise import AS_DECLARED, Readings
 from vjm.effects.base import Effect
 
 Array = NDArray[np.float64]
@@ -83,7 +85,7 @@ class Discovery:
     """given: the fit of the model as it is. begin: without any law, with the geometric nonlinearity of the bars where
     that leaves less. steps: laws and bodies in the order in which they were found. end: the fit with
     all of them. last: what was seen about it. whole: whether nothing
-    more is found there. bad: single bad readings that were set aside."""
+    more is found there. settled: what the readings were found to be on the way, one after another."""
 
     given: Fit
     begin: Fit
@@ -91,7 +93,18 @@ class Discovery:
     end: Fit
     last: Map
     whole: bool
-    bad: tuple[BadReading, ...] = ()
+    settled: tuple[Readings, ...] = ()
+
+    @property
+    def bad(self) -> tuple[BadReading, ...]:
+        """Single bad readings that were set aside."""
+        return tuple(bad for each in self.settled for bad in each.bad)
+
+    def as_read(self, campaign: Campaign) -> Campaign:
+        """A campaign without these, and with sigmas as sensors scatter."""
+        for each in self.settled:
+            campaign = replace(each, normal=None).applied(campaign)
+        return campaign
 
     @property
     def bent(self) -> bool:
@@ -118,17 +131,15 @@ def discover(
     """
     on_progress("the model as it is")
     given, begin = _begin(cases, model, effects)
-    here, steps, bad = begin, list[Law | Added](), list[BadReading]()
-    rounds = 0
+    here, steps, settled = begin, list[Law | Added](), list[Readings]()
     while True:
         on_progress("where the rest sits")
         seen = mapped(here, effects, known=[step.group[0] for step in steps if isinstance(step, Law)])
-        new = beside(seen) if rounds < CRITERIA.law_rounds else Beside()
-        settled = new.applied(cases.campaign)
-        if settled is not None:
+        new = beside(seen) if len(settled) < CRITERIA.law_rounds else AS_DECLARED
+        if not new.plain:
             on_progress("with the readings as they are")
-            rounds, bad = rounds + 1, [*bad, *new.bad]
-            cases = load_cases(settled)
+            settled.append(new)
+            cases = load_cases(new.applied(cases.campaign))
             given, begin = (fitted_to(each.model, cases) for each in (given, begin))
             here = begin if not steps else fitted_to(here.model, cases)
             continue
@@ -140,14 +151,14 @@ def discover(
                 fewer = mapped(without, effects, known=known)
                 step = _instead(step, _step(fewer, cases, len(steps) + 1, on_progress))
         if step is None or len(steps) >= CRITERIA.laws_at_most:
-            return Discovery(given, begin, tuple(steps), here, seen, step is None, tuple(bad))
+            return Discovery(given, begin, tuple(steps), here, seen, step is None, tuple(settled))
         steps.append(step)
         if isinstance(step, Added):
             here = fit(started(here.model, step.body), cases)
         elif step.ways:
             here = step.ways[0].fit
         else:
-            return Discovery(given, begin, tuple(steps), here, seen, False, tuple(bad))
+            return Discovery(given, begin, tuple(steps), here, seen, False, tuple(settled))
 
 
 def _begin(cases: LoadCases, model: Model, effects: Mapping[str, Effect]) -> tuple[Fit, Fit]:

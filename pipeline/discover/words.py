@@ -96,6 +96,17 @@ def _last(it: Discovered) -> Iterator[str]:
         )
         more = f" and {len(it.set_aside) - MANY} more" if len(it.set_aside) > MANY else ""
         yield f"Set aside as single bad readings, off by so many of their sigmas: {some}{more}."
+    for each in it.noise:
+        if each.tails is None:
+            yield (
+                f"{each.column} scatters by {short(each.found)}, not by the {short(each.declared)} that is declared: "
+                "what it does counts."
+            )
+    tails = next((each.tails for each in it.noise if each.tails is not None), None)
+    if tails is not None:
+        yield (
+            f"The noise has long tails (Student's law of {tails:.1f} degrees of freedom): readings far out count less."
+        )
     if not it.laws and not it.entered:
         return
     if it.whole:

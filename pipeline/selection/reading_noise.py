@@ -8,7 +8,7 @@ readings once the search was made with it, so that what is no longer outlying co
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -19,7 +19,7 @@ from pipeline.inference.kept import kept
 from pipeline.inference.load_cases import LoadCases, load_cases
 from pipeline.inference.subsets import carried
 from pipeline.selection.adequacy.bad_readings import BadReading, bad_readings, set_aside
-from pipeline.selection.adequacy.judgement import HELD_OUT, SIZE, judge, ordered
+from pipeline.selection.adequacy.judgement import HELD_OUT, judge, of_the_size_of_noise, ordered
 from pipeline.selection.adequacy.scatter import Scatter, scatters
 from pipeline.selection.adequacy.tails import Tails, tails_of, without_tails
 from pipeline.selection.adequacy.whiteness import white
@@ -69,7 +69,7 @@ class Readings:
         tails = tails_of(about, criteria)
         if tails is not None:
             return Readings(tails=tails, normal=without_tails(about, tails))
-        return Readings(bad, tuple(_other(rest, criteria)))
+        return Readings(bad, tuple(other_sigmas(rest, criteria)))
 
     def single_bad(self, found: Fit, given: LoadCases, criteria: Criteria) -> tuple[BadReading, ...]:
         """Those of all readings, given as they were declared, that are single bad ones about a fit."""
@@ -91,13 +91,18 @@ class Readings:
         """A campaign as these readings are."""
         if self.normal is not None:
             return self.normal
-        factors = np.ones(12 + len(campaign.gauges))
-        for each in self.scatter:
-            factors[each.channel] *= each.factor
-        return set_aside(replace(campaign, noise=campaign.noise.times(factors)), self.bad)
+        return set_aside(with_sigmas(campaign, self.scatter), self.bad)
 
 
 AS_DECLARED = Readings()
+
+
+def with_sigmas(campaign: Campaign, scatter: Iterable[Scatter]) -> Campaign:
+    """A campaign with the sigmas of these sensors as they scatter."""
+    factors = np.ones(12 + len(campaign.gauges))
+    for each in scatter:
+        factors[each.channel] *= each.factor
+    return replace(campaign, noise=campaign.noise.times(factors))
 
 
 @kept
@@ -132,9 +137,9 @@ def _refitted(cases: LoadCases, found: Fit, criteria: Criteria) -> Fit:
     return fit(found.model, cases, start, None, criteria.plausible)
 
 
-def _other(found: Fit, criteria: Criteria) -> Iterator[Scatter]:
-    """Sensors whose scatter counts in the place of what was declared."""
-    passed = all(check.passed for check in judge(found, criteria).checks if check.name == SIZE)
+def other_sigmas(found: Fit, criteria: Criteria) -> Iterator[Scatter]:
+    """Sensors whose scatter about a fit counts in the place of what was declared."""
+    unexplained = not of_the_size_of_noise(found, criteria)
     for each in scatters(found):
-        if each.differs(criteria, unexplained=not passed):
+        if each.differs(criteria, unexplained):
             yield each

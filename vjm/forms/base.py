@@ -80,7 +80,7 @@ class Form(ABC):
     beside: ClassVar[tuple[str, ...]] = ()
     """Places of that one, where they are not those of the form alone."""
     effects: ClassVar[Mapping[str, tuple[str, ...]]] = {}
-    """By kind of a site, the effects of the catalogue that together are this law at all sites of the kind."""
+    """By kind of a site, the effects of the catalogue that together are this law there, or hold it."""
 
     @property
     def quantities(self) -> tuple[Quantity, ...]:

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from typing import ClassVar
 
 import numpy as np
 
@@ -26,6 +27,7 @@ class Gap(CurveForm):
     equation = "y = g sign(x) + k x, g gone through while abs(x) < x0"
     places = ("series",)
     kinked = True
+    effects: ClassVar[Mapping[str, tuple[str, ...]]] = {"along": ("joint_clearance",)}
     amplitudes = (
         Quantity("gap", 1, 0, "half of the free travel", positive=True),
         Quantity("slope", 1, -1, "compliance beside it", positive=True),

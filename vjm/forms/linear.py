@@ -21,7 +21,11 @@ class Linear(CurveForm):
     title = "linear"
     equation = "y = k x"
     amplitudes = (SLOPE,)
-    effects: ClassVar[Mapping[str, tuple[str, ...]]] = {"hinge_torque": ("joint_torsional_stiffness",)}
+    effects: ClassVar[Mapping[str, tuple[str, ...]]] = {
+        "hinge_torque": ("joint_torsional_stiffness",),
+        **dict.fromkeys(("along", "across", "tilt_x", "tilt_z"), ("axis_flexibility",)),
+        **dict.fromkeys(tuple(f"base_{name}" for name in ("x", "y", "z", "rx", "ry", "rz")), ("base_compliance",)),
+    }
 
     def points(self, x: Array, shapes: Array) -> Points:
         return Points.of((x, np.ones_like(x), 0.5 * x**2))

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from typing import ClassVar
 
 import numpy as np
 
@@ -30,6 +31,7 @@ class Power(CurveForm):
     fixed = ("x0",)
     grows = "power"
     and_linear = True
+    effects: ClassVar[Mapping[str, tuple[str, ...]]] = {"along": ("contact_stiffening",)}
 
     def points(self, x: Array, shapes: Array) -> Points:
         p, x0 = shapes

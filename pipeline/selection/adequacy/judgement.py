@@ -69,16 +69,15 @@ def ordered(found: Fit, criteria: Criteria = CRITERIA) -> bool:
     return not _order(found, criteria).passed
 
 
+def of_the_size_of_noise(found: Fit, criteria: Criteria = CRITERIA) -> bool:
+    """Whether what is left of the fitted tests is no larger than noise, or scatters little more than the sigmas say."""
+    return _size(found, criteria, _order(found, criteria))[0].passed
+
+
 @kept
 def _judge(found: Fit, criteria: Criteria) -> Judgement:
-    level = criteria.check_level
-    size, order = _size(found, level), _order(found, criteria)
-    scatter = 1.0
-    if not size.passed and order.passed and found.rms <= criteria.scatter_factor:
-        scatter = found.rms
-        size = Check(
-            size.name, 1.0, f"the scatter is {percent(scatter - 1.0)} larger than the sigmas say", level
-        )
+    level, order = criteria.check_level, _order(found, criteria)
+    size, scatter = _size(found, criteria, order)
     out = [
         _lost(found, level),
         size,
@@ -105,9 +104,17 @@ def _lost(found: Fit, level: float) -> Check | None:
     return Check("states", 0.0, words, level)
 
 
-def _size(found: Fit, level: float) -> Check:
+def _size(found: Fit, criteria: Criteria, order: Check) -> tuple[Check, float]:
+    """The look at the size of what is left, and the scatter: where that is larger than the sigmas say and has no order
+    it is noise."""
+    level = criteria.check_level
     p = float(chi2.sf(found.chi_square, max(found.degrees, 1)))
-    return Check(SIZE, p, f"what is left is {sigma(found.rms)} sigma", level)
+    if p < level and order.passed and found.rms <= criteria.scatter_factor:
+        scatter = found.rms
+        return Check(
+            SIZE, 1.0, f"the scatter is {percent(scatter - 1.0)} larger than the sigmas say", level
+        ), scatter
+    return Check(SIZE, p, f"what is left is {sigma(found.rms)} sigma", level), 1.0
 
 
 def _order(found: Fit, criteria: Criteria) -> Check:

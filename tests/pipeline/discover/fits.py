@@ -10,7 +10,7 @@ from pipeline.inference.fit import Fit, unfitted
 from pipeline.inference.load_cases import LoadCases, load_cases
 from pipeline.inference.model import Model
 from pipeline.inference.suitable import scale_for
-from pipeline.selection.diagnosis import suitable
+from pipeline.selection.diagnosis import Diagnosis, diagnose, suitable
 from tests.pipeline.bench import bench
 from vjm.effects import catalogue
 from vjm.effects.base import Effect
@@ -44,3 +44,9 @@ def friction_found() -> Discovery:
     """The laws of a bench with friction in its hinges."""
     campaign = bench("joint_friction.torque_Nmm", 600.0)
     return discover(fitted_tests(campaign), Model(), effects_for(campaign))
+
+
+def diagnosed(value: float, *names: str) -> Diagnosis:
+    """Friction in the hinges, where only these effects and the geometry of the bars are known."""
+    known = {name: catalogue()[name] for name in (GEOMETRY.name, *names)}
+    return diagnose(bench("joint_friction.torque_Nmm", value), Model(), known)

@@ -1,0 +1,52 @@
+"""Laws of the tests of a diagnosis, looked for from a model, and what they are to the effects that it knows."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from time import perf_counter
+
+from pipeline.callbacks import OnProgress
+from pipeline.discover.record import Discovered
+from pipeline.discover.recording import recorded
+from pipeline.discover.search import Discovery, discover
+from pipeline.inference.load_cases import LoadCases, load_cases
+from pipeline.inference.model import Model
+from pipeline.selection.adequacy.judgement import judge
+from pipeline.selection.diagnosis import Diagnosis
+from pipeline.selection.fit_cache import Names
+
+Looked = tuple[Diagnosis, Discovery | None]
+
+
+def fitted(it: Diagnosis) -> LoadCases:
+    """The tests that may be fitted, as they were settled."""
+    whole = it.campaign
+    return load_cases(replace(whole, tests=tuple(test for test in whole.tests if test.role == "fit")))
+
+
+def discovered(it: Diagnosis, start: Model, on_progress: OnProgress, but: Names = frozenset()) -> Discovery:
+    """What is found from a model. but: effects that may not enter it."""
+    effects = {name: effect for name, effect in it.cache.candidates.items() if name not in but}
+    return discover(fitted(it), start, effects, on_progress)
+
+
+def explains(it: Diagnosis, found: Discovery) -> bool:
+    """Whether nothing but noise is left beside what was found."""
+    return not found.end.lost and judge(found.end, it.cache.criteria).noise
+
+
+def effects_of(found: Discovery) -> Names:
+    """The effects of the catalogue that the laws are by another name."""
+    every = [law.ways[0].formed.form.effects.get(law.site.kind, ()) for law in found.laws if law.ways]
+    return frozenset(name for names in every for name in names)
+
+
+def less_certain(it: Diagnosis, found: Discovery) -> Diagnosis:
+    """What laws explain without an effect makes that effect less than certain."""
+    there = {*found.end.model.names, *effects_of(found)}
+    return replace(it, certain=tuple(name for name in it.certain if name in there))
+
+
+def record(it: Diagnosis, found: Discovery, begin: float) -> Discovered:
+    """What was found since that time (`perf_counter`), as a record."""
+    return recorded(found, it.campaign, perf_counter() - begin)

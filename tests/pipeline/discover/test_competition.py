@@ -1,0 +1,110 @@
+"""Sets of effects against laws that explain as much."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from pipeline.discover import competition, looking
+from pipeline.discover.beyond_catalogue import with_laws
+from pipeline.discover.search import Discovery
+from pipeline.inference.fit import Fit, fit
+from pipeline.inference.model import Model
+from pipeline.selection.diagnosis import Diagnosis
+from tests.pipeline.bench import bench
+from tests.pipeline.discover.fits import GEOMETRY, effects_for, fitted_tests, friction_found
+from vjm.effects.base import Effect
+
+SPRING, BASE = "joint_torsional_stiffness", "base_compliance"
+
+
+def named(unknown: Diagnosis, *sets: tuple[str, ...]) -> Diagnosis:
+    """As if what was left by these sets had passed for noise."""
+    names = tuple(frozenset((GEOMETRY.name, *each)) for each in sets)
+    verdict = "identified" if len(sets) == 1 else "ambiguous"
+    decision = replace(unknown.decision, verdict=verdict, sets=names, law="")
+    return replace(unknown, decision=decision, judgement=replace(unknown.judgement, checks=()))
+
+
+def costing(
+    it: Diagnosis, found: Discovery, off: float, monkeypatch: pytest.MonkeyPatch, several: bool = False
+) -> Diagnosis:
+    """The diagnosis after a competition in which the law costs so much less than the set."""
+    law = competition._standing(it, found, frozenset(it.sets[0]))
+    assert law is not None
+    monkeypatch.setattr(looking, "discover", lambda *_: found)
+    monkeypatch.setattr(competition, "_leaves_a_pattern", lambda *_: several)
+    monkeypatch.setattr(competition, "_may_compete", lambda *_: True)
+    monkeypatch.setattr(competition, "_cost_of_set", lambda *_: law.cost + off)
+    return with_laws(it)
+
+
+@pytest.mark.parametrize(
+    ("several", "off", "verdict"),
+    [
+        (False, -1.0, "identified"),
+        (False, 1.0, "ambiguous"),
+        (False, 20.0, "unknown"),
+        (True, -20.0, "identified"),
+        (True, -1.0, "ambiguous"),
+        (True, 20.0, "unknown"),
+    ],
+)
+def test_one_effect_keeps_its_name_against_a_law_that_is_no_better(
+    unknown: Diagnosis, monkeypatch: pytest.MonkeyPatch, several: bool, off: float, verdict: str
+) -> None:
+    """off: by how much the law costs less than the set; above ten chi-squares it is better beyond doubt."""
+    it = named(unknown, (SPRING, BASE) if several else (SPRING,))
+    assert costing(it, friction_found(), off, monkeypatch, several).verdict == verdict
+
+
+@pytest.mark.parametrize(("off", "verdict"), [(9.0, "identified"), (20.0, "ambiguous")])
+def test_a_law_that_leaves_more_than_noise_takes_a_name_only_where_it_is_far_better(
+    unknown: Diagnosis, monkeypatch: pytest.MonkeyPatch, off: float, verdict: str
+) -> None:
+    """A law that was found in part still says that the set is not all, and is no proof of itself."""
+    monkeypatch.setattr(competition, "explains", lambda *_: False)
+    assert costing(named(unknown, (SPRING,)), friction_found(), off, monkeypatch).verdict == verdict
+
+
+def test_a_law_that_is_the_effect_by_other_words_takes_no_name(
+    unknown: Diagnosis, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    whole = friction_found()
+    assert looking.effects_of(whole) == {"joint_friction"}
+    monkeypatch.setattr(competition, "effects_of", lambda _: frozenset({SPRING}))
+    assert costing(named(unknown, (SPRING,)), whole, 20.0, monkeypatch).verdict == "identified"
+
+
+def test_laws_are_looked_for_without_the_effect_and_beside_what_sets_have_in_common(
+    unknown: Diagnosis,
+) -> None:
+    one = [*competition._starts(named(unknown, (SPRING,)), frozenset({SPRING}), several=False)]
+    assert [(model.names, but) for model, but in one] == [(unknown.cache.base.names, frozenset({SPRING}))]
+    two = [*competition._starts(named(unknown, (SPRING, BASE), (SPRING,)), frozenset({SPRING, BASE}), True)]
+    assert [but for _, but in two] == [frozenset(), frozenset()]
+    assert SPRING in two[1][0].names and BASE not in two[1][0].names
+
+
+@pytest.fixture(scope="module")
+def base_fit() -> Fit:
+    """A base that gives in x alone, fitted with all six of its compliances."""
+    campaign = bench("base_compliance.x_mm_per_N", 6e-6)
+    effects: dict[str, Effect] = effects_for(campaign)
+    return fit(Model().with_effects([GEOMETRY, effects[BASE]]), fitted_tests(campaign))
+
+
+def test_an_effect_costs_the_numbers_that_it_needs(base_fit: Fit) -> None:
+    one = float(np.log(base_fit.whitened.size))
+    cost = competition._needed(base_fit, one)
+    assert one < cost < 3.0 * one < 6.0 * one
+    # A number that costs nothing is never taken out.
+    assert competition._needed(base_fit, 0.0) == pytest.approx(0.0, abs=1e-9)
+
+
+def test_what_a_number_is_needed_for_is_what_is_left_more_without_it(base_fit: Fit) -> None:
+    """With all numbers taken out the cost is the rise of chi-square to first order, of which the tangent is exact for a
+    base that gives little."""
+    without = fit(Model().with_effects([GEOMETRY]), fitted_tests(bench("base_compliance.x_mm_per_N", 6e-6)))
+    rise = without.chi_square - base_fit.chi_square
+    assert competition._needed(base_fit, 1e12) == pytest.approx(rise, rel=0.05)
