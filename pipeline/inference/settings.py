@@ -260,6 +260,16 @@ class StudentsLaw:
     """Sigmas, by the median magnitude of a channel, to which its readings are cut where its own size is asked."""
 
 
+@dataclass(frozen=True)
+class GreatestLoads:
+    """Which residuals are off at the greatest loads (`pipeline.selection.adequacy.greatest_loads`)."""
+
+    near: float = 0.95
+    """Of the greatest load of its direction, from which a row counts as there."""
+    far: float = 3.0
+    """Sigmas, or times the median of its channel by which noise would have it, from which a residual is far out."""
+
+
 BIFURCATION = Bifurcation()
 CROSSINGS = Crossings()
 STOPS = Stops()
@@ -275,3 +285,4 @@ IMHOF = Imhof()
 SCATTERING = Scattering()
 CORRELATION = Correlation()
 STUDENTS_LAW = StudentsLaw()
+GREATEST_LOADS = GreatestLoads()

@@ -19,6 +19,7 @@ from pipeline.inference.kept import kept
 from pipeline.inference.load_cases import LoadCases, load_cases
 from pipeline.inference.subsets import carried
 from pipeline.selection.adequacy.bad_readings import BadReading, bad_readings, set_aside
+from pipeline.selection.adequacy.greatest_loads import off_at_greatest_loads
 from pipeline.selection.adequacy.judgement import HELD_OUT, judge, of_the_size_of_noise, ordered
 from pipeline.selection.adequacy.scatter import Scatter, scatters
 from pipeline.selection.adequacy.tails import Tails, tails_of, without_tails
@@ -52,8 +53,10 @@ class Readings:
 
     @staticmethod
     def may_be_asked(found: Fit, criteria: Criteria) -> bool:
-        """Whether there is enough about a fit, and nothing of it has an order."""
-        return found.degrees >= criteria.few_readings and not ordered(found, criteria)
+        """Whether there is enough about a fit, nothing of it has an order, and it is not off at the greatest loads."""
+        if found.degrees < criteria.few_readings or ordered(found, criteria):
+            return False
+        return not off_at_greatest_loads(found, criteria.false_alarm)
 
     def again(self, found: Fit, given: LoadCases, criteria: Criteria) -> Readings:
         """What the readings are about another fit. given: all of them as they were declared."""

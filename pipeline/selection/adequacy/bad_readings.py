@@ -10,7 +10,8 @@ Hall 1982, section 2.2.2). The largest t is looked at first, in units of the med
 that is more than was declared: the median of what they are once this shift is taken out. Beyond Bonferroni's bound over
 all readings it is a bad one if its neighbours in the same channel are not off as well: a play or a step of a sensor
 comes in runs; and if nothing else of its row is: a state that is another one moves several sensors. Its column joins
-what the fit can move, and the next one is looked at.
+what the fit can move, and the next one is looked at. Those that are at the greatest loads of test after test are none
+(`pipeline.selection.adequacy.greatest_loads`).
 """
 
 from __future__ import annotations
@@ -30,6 +31,7 @@ from pipeline.inference.fit import Fit
 from pipeline.inference.noise import MEDIAN
 from pipeline.inference.orthonormal_basis import basis
 from pipeline.inference.residual import Residual
+from pipeline.selection.adequacy.greatest_loads import of_a_law
 from pipeline.selection.adequacy.reading_errors import ReadingErrors
 from pipeline.selection.criteria import Criteria
 
@@ -118,7 +120,7 @@ def bad_readings(found: Fit, criteria: Criteria) -> tuple[BadReading, ...]:
     there &= ~_kept(shifts)
     limit = float(norm.isf(0.5 * criteria.false_alarm / count))
     channels = it.load_cases.measured.shape[1]
-    out: list[BadReading] = []
+    out: list[tuple[int, int, float, list[int]]] = []
     while len(out) < max(1.0, criteria.bad_share * count):
         sizes = np.where(there, np.abs(shifts.scores), 0.0)
         looks = [_look(shifts, sizes, row, channels) for row in _farthest(shifts, sizes, limit)]
@@ -137,9 +139,19 @@ def bad_readings(found: Fit, criteria: Criteria) -> tuple[BadReading, ...]:
         if np.all(np.abs(beside) < criteria.bad_neighbours) and rest.max() < 1.0:
             off = float(shifts.scores[row, number] / shifts.lengths[row, number])
             instead = _not_told_apart(look, shifts, sizes[row], criteria)
-            out.append(_named(found, row, int(shifts.of.channels[row, number]), off, instead))
+            out.append((row, int(shifts.of.channels[row, number]), off, instead))
             shifts = look.less
-    return tuple(out)
+    whole = it.load_cases
+    law = of_a_law([each[:2] for each in out], _of_channels(shifts.of, channels), whole, criteria.false_alarm)
+    return tuple(_named(found, *each) for each in out if each[:2] not in law)
+
+
+def _of_channels(of: ReadingErrors, channels: int) -> Mask:
+    """(R, C) whether a row has a reading of a channel, as what is compared or as what was prescribed."""
+    out = np.zeros((len(of.there), channels), dtype=bool)
+    rows, numbers = np.nonzero(of.there)
+    out[rows, of.channels[rows, numbers]] = True
+    return out
 
 
 @dataclass(frozen=True, eq=False)
