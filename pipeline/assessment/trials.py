@@ -1,15 +1,18 @@
-"""Many trials in processes of their own, each kept as soon as it is done, so that a study can be stopped."""
+"""Many trials in processes of their own, each kept as soon as it is done, so that a study can be stopped and leaves the
+page of what it has."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Hashable, Iterator, Mapping
+from collections.abc import Callable, Hashable, Iterable, Iterator, Mapping
 from functools import partial
 from pathlib import Path
 from typing import Any, TypeVar
 
 from pydantic import BaseModel, ValidationError
 
+from meshes.files import replacing
 from pipeline.pools import pool
+from pipeline.progress import Progress
 
 Trial = TypeVar("Trial", bound=BaseModel)
 
@@ -37,6 +40,34 @@ def run(
             file.write(found.model_dump_json() + "\n")
             file.flush()
             yield found
+
+
+def followed(
+    title: str,
+    every: Iterable[Trial],
+    said: Callable[[list[Trial]], str],
+    leave: Callable[[list[Trial]], None],
+    quiet: bool = False,
+) -> list[Trial]:
+    """All trials of a study, with its progress in words of those that are done. leave: writes what these show, also
+    where the study is stopped."""
+    found: list[Trial] = []
+    try:
+        with Progress(quiet).stage(title) as stage:
+            for it in every:
+                found.append(it)
+                stage.say(said(found))
+    finally:
+        if found:
+            leave(found)
+    return found
+
+
+def left(out: Path, files: Mapping[str, str | bytes]) -> None:
+    """Writes files of a folder by their names, each whole or not at all."""
+    for name, content in files.items():
+        with replacing(out / name) as part:
+            part.write_bytes(content if isinstance(content, bytes) else content.encode())
 
 
 def kept(store: Path, kind: type[Trial]) -> list[Trial]:

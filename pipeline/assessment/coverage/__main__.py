@@ -8,7 +8,6 @@ from typing import Annotated
 
 import typer
 
-from meshes.files import replacing
 from pipeline.assessment import trials
 from pipeline.assessment.coverage.cases import PAIRS
 from pipeline.assessment.coverage.table import Study, joined, page, study
@@ -46,12 +45,7 @@ def main(
         for done, _ in enumerate(run(wanted, store, workers), 1):
             stage.say(f"{done} of {len(wanted)} benches")
     found = joined(study(kept(store, Trial)), _before(out / "coverage.json"))
-    for name, text in (
-        ("coverage.json", found.model_dump_json(indent=1) + "\n"),
-        ("coverage.md", page(found)),
-    ):
-        with replacing(out / name) as part:
-            part.write_text(text, encoding="utf-8")
+    trials.left(out, {"coverage.json": found.model_dump_json(indent=1) + "\n", "coverage.md": page(found)})
     print(f"{out / 'coverage.md'}: {sum(row.noise.of for row in found.rows)} benches with hidden effects")
 
 

@@ -8,12 +8,10 @@ from typing import Annotated
 
 import typer
 
-from meshes.files import replacing
 from pipeline.assessment import trials
 from pipeline.assessment.doubts.kinds import KINDS
 from pipeline.assessment.doubts.page import page
 from pipeline.assessment.doubts.trial import Trial, trial
-from pipeline.progress import Progress
 from pipeline.provenance import code_digest, commit
 
 OUT = Path("reports/doubts")
@@ -32,20 +30,15 @@ def main(
     wanted: dict[Hashable, Task] = {
         (kind, number, code): (kind, number, here, code) for number in range(count) for kind in KINDS
     }
-    found: list[Trial] = []
-    try:
-        with Progress().stage("one doubt at a time") as stage:
-            every = trials.run(wanted, trial, Trial, lambda it: (it.kind, it.number, it.code), store, workers)
-            for it in every:
-                found.append(it)
-                stage.say(f"{len(found)} of {len(wanted)} benches, {sum(each.right for each in found)} right")
-    finally:
-        # A study that is stopped leaves the page of what it has.
-        if found:
-            order = {kind: k for k, kind in enumerate(KINDS)}
-            with replacing(out / "doubts.md") as part:
-                text = page(sorted(found, key=lambda it: (order[it.kind], it.number)))
-                part.write_text(text, encoding="utf-8")
+    order = {kind: k for k, kind in enumerate(KINDS)}
+    found = trials.followed(
+        "one doubt at a time",
+        trials.run(wanted, trial, Trial, lambda it: (it.kind, it.number, it.code), store, workers),
+        lambda done: f"{len(done)} of {len(wanted)} benches, {sum(each.right for each in done)} right",
+        lambda done: trials.left(
+            out, {"doubts.md": page(sorted(done, key=lambda it: (order[it.kind], it.number)))}
+        ),
+    )
     print(f"{out / 'doubts.md'}: {len(found)} benches")
 
 

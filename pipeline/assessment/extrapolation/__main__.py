@@ -9,13 +9,12 @@ from typing import Annotated
 import typer
 from matplotlib.figure import Figure
 
-from meshes.files import replacing
+from pipeline.assessment import trials
 from pipeline.assessment.extrapolation.approaches import APPROACHES, TRUTH
 from pipeline.assessment.extrapolation.page import PICTURE, page
 from pipeline.assessment.extrapolation.study import run
 from pipeline.assessment.extrapolation.table import Study, study
 from pipeline.assessment.extrapolation.trial import Trial
-from pipeline.progress import Progress
 from reports.charts import dress, picture
 from reports.style import CYCLE, FAINT, INK
 
@@ -32,30 +31,20 @@ def main(
     out: Annotated[Path, typer.Option(help="Folder of the page.")] = OUT,
 ) -> None:
     """Predict beyond the fitted loads in several ways, and compare. Stopped and started again, it goes on."""
-    progress = Progress()
-    found: list[Trial] = []
-    try:
-        with progress.stage("extrapolation") as stage:
-            for it in run(cases, store, workers):
-                found.append(it)
-                stage.say(f"{len(found)} of {cases} campaigns")
-    finally:
-        # A study that is stopped leaves the page of what it has.
-        if found:
-            written(found, out)
+    found = trials.followed(
+        "extrapolation",
+        run(cases, store, workers),
+        lambda done: f"{len(done)} of {cases} campaigns",
+        lambda done: written(done, out),
+    )
     print(f"{out / 'extrapolation.md'}: {len(found)} campaigns")
 
 
 def written(found: Sequence[Trial], out: Path) -> None:
     """The page, its record and its picture, in a folder."""
     it = study(found)
-    for name, content in (
-        ("extrapolation.json", (it.model_dump_json(indent=1) + "\n").encode()),
-        ("extrapolation.md", page(it).encode()),
-        (PICTURE, drawn(it)),
-    ):
-        with replacing(out / name) as part:
-            part.write_bytes(content)
+    record = it.model_dump_json(indent=1) + "\n"
+    trials.left(out, {"extrapolation.json": record, "extrapolation.md": page(it), PICTURE: drawn(it)})
 
 
 def drawn(it: Study) -> bytes:

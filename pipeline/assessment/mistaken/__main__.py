@@ -8,12 +8,10 @@ from typing import Annotated
 
 import typer
 
-from meshes.files import replacing
 from pipeline.assessment import trials
 from pipeline.assessment.mistaken.page import page
 from pipeline.assessment.mistaken.tables import KINDS
 from pipeline.assessment.mistaken.trial import NONE, Trial, benches, trial
-from pipeline.progress import Progress
 from pipeline.provenance import code_digest, commit
 
 OUT = Path("reports/mistaken")
@@ -33,22 +31,18 @@ def main(
     wanted: dict[Hashable, Task] = {
         (kind, number, code): (kind, number, here, code) for number in numbers for kind in (NONE, *KINDS)
     }
-    progress = Progress()
-    found: list[Trial] = []
-    try:
-        with progress.stage("mistakes of tables") as stage:
-            every = trials.run(wanted, trial, Trial, lambda it: (it.kind, it.number, it.code), store, workers)
-            for it in every:
-                found.append(it)
-                good = sum(each.named for each in found if each.counts)
-                stage.say(f"{len(found)} of {len(wanted)} tables, {good} as it should be")
-    finally:
-        # A study that is stopped leaves the page of what it has.
-        if found:
-            order = {kind: k for k, kind in enumerate((NONE, *KINDS))}
-            with replacing(out / "mistaken.md") as part:
-                text = page(sorted(found, key=lambda it: (it.number, order[it.kind])))
-                part.write_text(text, encoding="utf-8")
+    order = {kind: k for k, kind in enumerate((NONE, *KINDS))}
+    found = trials.followed(
+        "mistakes of tables",
+        trials.run(wanted, trial, Trial, lambda it: (it.kind, it.number, it.code), store, workers),
+        lambda done: (
+            f"{len(done)} of {len(wanted)} tables, "
+            f"{sum(each.named for each in done if each.counts)} as it should be"
+        ),
+        lambda done: trials.left(
+            out, {"mistaken.md": page(sorted(done, key=lambda it: (it.number, order[it.kind])))}
+        ),
+    )
     print(f"{out / 'mistaken.md'}: {len(found)} tables")
 
 

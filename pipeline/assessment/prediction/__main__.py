@@ -8,12 +8,10 @@ from typing import Annotated
 
 import typer
 
-from meshes.files import replacing
 from pipeline.assessment import trials
 from pipeline.assessment.extrapolation.study import numbers
 from pipeline.assessment.prediction.table import page, study
 from pipeline.assessment.prediction.trial import Trial, trial
-from pipeline.progress import Progress
 from pipeline.provenance import commit
 
 OUT = Path("reports/predict")
@@ -37,16 +35,12 @@ def main(
     out: Annotated[Path, typer.Option(help="Folder of the page.")] = OUT,
 ) -> None:
     """Count how many held-out readings lie inside their intervals. Stopped and started again, it goes on."""
-    found: list[Trial] = []
-    try:
-        with Progress().stage("predict") as stage:
-            for it in run(cases, store or out / STORES[tolerances], workers, tolerances):
-                found.append(it)
-                stage.say(f"{len(found)} of {cases} campaigns")
-    finally:
-        # A study that is stopped leaves the page of what it has.
-        if any(it.named and it.true for it in found):
-            written(found, out, tolerances)
+    found = trials.followed(
+        "predict",
+        run(cases, store or out / STORES[tolerances], workers, tolerances),
+        lambda done: f"{len(done)} of {cases} campaigns",
+        lambda done: written(done, out, tolerances),
+    )
     print(f"{out / NAMES[tolerances]}.md: {len(found)} campaigns")
 
 
@@ -59,13 +53,13 @@ def run(cases: int, store: Path, workers: int, tolerances: bool = False) -> Iter
 
 
 def written(found: list[Trial], out: Path, tolerances: bool = False) -> None:
-    """The page and its record, in a folder."""
-    it = study(found)
-    name_of = NAMES[tolerances]
-    texts = {"json": it.model_dump_json(indent=1) + "\n", "md": page(it, tolerances)}
-    for name, text in ((f"{name_of}.{ending}", text) for ending, text in texts.items()):
-        with replacing(out / name) as part:
-            part.write_text(text, encoding="utf-8")
+    """The page and its record, in a folder; none before a case is named right."""
+    if not any(it.named and it.true for it in found):
+        return
+    it, name = study(found), NAMES[tolerances]
+    trials.left(
+        out, {f"{name}.json": it.model_dump_json(indent=1) + "\n", f"{name}.md": page(it, tolerances)}
+    )
 
 
 if __name__ == "__main__":

@@ -8,13 +8,11 @@ from typing import Annotated
 
 import typer
 
-from meshes.files import replacing
 from pipeline.assessment import trials
 from pipeline.assessment.challenge.laws.cases import CASES, Kind
 from pipeline.assessment.challenge.laws.outcome import LawOutcome, law_outcome
 from pipeline.assessment.challenge.laws.page import law_page
 from pipeline.assessment.challenge.laws.score import law_scored
-from pipeline.progress import Progress
 from pipeline.provenance import code_digest, commit
 
 STORE = Path("reports/challenge/laws_outcomes.jsonl")
@@ -30,16 +28,20 @@ def main(
 ) -> None:
     """The score of the look for laws."""
     cases = [(kind, k) for kind, count in CASES.items() for k in range(max(1, round(share * count)))]
-    found: list[LawOutcome] = []
-    with Progress(quiet).stage("benches with laws") as stage:
-        for it in run(cases, store, workers):
-            found.append(it)
-            stage.say(f"{len(found)} of {len(cases)}, {sum(all(each.right) for each in found)} places right")
+    found = trials.followed(
+        "benches with laws",
+        run(cases, store, workers),
+        lambda done: f"{len(done)} of {len(cases)}, {sum(all(each.right) for each in done)} places right",
+        lambda done: written(done, out),
+        quiet,
+    )
+    print(f"{len(found)} benches; the score is in {out / 'laws.md'}")
+
+
+def written(found: Sequence[LawOutcome], out: Path) -> None:
+    """The page and its record, in a folder."""
     result = law_scored(found)
-    for name, text in (("laws.json", result.model_dump_json(indent=1) + "\n"), ("laws.md", law_page(result))):
-        with replacing(out / name) as part:
-            part.write_text(text, encoding="utf-8")
-    print(f"{result.cases} benches; the score is in {out / 'laws.md'}")
+    trials.left(out, {"laws.json": result.model_dump_json(indent=1) + "\n", "laws.md": law_page(result)})
 
 
 def run(cases: Sequence[tuple[Kind, int]], store: Path, workers: int) -> Iterator[LawOutcome]:
