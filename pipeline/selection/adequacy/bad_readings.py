@@ -10,8 +10,8 @@ Hall 1982, section 2.2.2). The largest t is looked at first, in units of the med
 that is more than was declared: the median of what they are once this shift is taken out. Beyond Bonferroni's bound over
 all readings it is a bad one if its neighbours in the same channel are not off as well: a play or a step of a sensor
 comes in runs; and if nothing else of its row is: a state that is another one moves several sensors. Its column joins
-what the fit can move, and the next one is looked at. Those that are at the greatest loads of test after test are none
-(`pipeline.selection.adequacy.greatest_loads`).
+what the fit can move, and the next one is looked at, with those that were refused before. Those at the greatest
+loads of test after test are none (`pipeline.selection.adequacy.greatest_loads`).
 """
 
 from __future__ import annotations
@@ -121,6 +121,7 @@ def bad_readings(found: Fit, criteria: Criteria) -> tuple[BadReading, ...]:
     limit = float(norm.isf(0.5 * criteria.false_alarm / count))
     channels = it.load_cases.measured.shape[1]
     out: list[tuple[int, int, float, list[int]]] = []
+    refused: list[int] = []
     while len(out) < max(1.0, criteria.bad_share * count):
         sizes = np.where(there, np.abs(shifts.scores), 0.0)
         looks = [_look(shifts, sizes, row, channels) for row in _farthest(shifts, sizes, limit)]
@@ -141,6 +142,11 @@ def bad_readings(found: Fit, criteria: Criteria) -> tuple[BadReading, ...]:
             instead = _not_told_apart(look, shifts, sizes[row], criteria)
             out.append((row, int(shifts.of.channels[row, number]), off, instead))
             shifts = look.less
+            # Beside this one what was refused may stand alone: it pulled the fit, and with it all that is near.
+            there[refused] = shifts.of.there[refused]
+            refused = []
+        else:
+            refused.append(row)
     whole = it.load_cases
     law = of_a_law([each[:2] for each in out], _of_channels(shifts.of, channels), whole, criteria.false_alarm)
     return tuple(_named(found, *each) for each in out if each[:2] not in law)
