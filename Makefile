@@ -81,6 +81,11 @@ sensitivity: $(STAMP)
 mistaken: $(STAMP)
 	$(PYTHON) -m pipeline.assessment.mistaken
 
+# One effect of the catalogue hidden and left out of it, found again as a law of its place: hours, to be stopped and started too.
+.PHONY: left_out
+left_out: $(STAMP)
+	$(PYTHON) -m pipeline.assessment.left_out
+
 # Bars off, lugs, long tails, knocked readings, rounding, each alone on many benches: hours, to be stopped and started too.
 .PHONY: doubts
 doubts: $(STAMP)

@@ -35,6 +35,9 @@ class Discovered(Record):
     """Of the model as it is, with the geometric nonlinearity where that entered, and with all that was found."""
     whole: bool
     """Whether nothing more is found in what is left."""
+    left: tuple[str, ...] = ()
+    """What of the rest is no noise, beside laws that were found, in the fitted tests and in those held out: then place
+    or form may be another, or what is missing is no law of a single place. Empty where noise is left."""
     next_site: str | None
     """Site that would come next."""
     next_evidence: float

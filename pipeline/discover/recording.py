@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -22,6 +24,7 @@ from pipeline.inference.load_cases import LoadCases, load_cases
 from pipeline.inference.model import Model
 from pipeline.parameter_names import path_of
 from pipeline.provenance import commit, versions
+from pipeline.selection.adequacy.judgement import judge
 from pipeline.selection.criteria import CRITERIA
 from vjm.law_sites import SITE_KINDS, SiteKind
 
@@ -52,6 +55,7 @@ def recorded(found: Discovery, campaign: Campaign, seconds: float) -> Discovered
         entered=tuple(_entered(step, found.end.model) for step in found.steps if isinstance(step, Added)),
         error=tuple(errors),
         whole=found.whole,
+        left=tuple(_no_noise(found, whole)) if found.laws else (),
         next_site=None if top is None else top.site.name,
         next_evidence=found.last.best,
         set_aside=set_aside_records(found.bad),
@@ -62,6 +66,13 @@ def recorded(found: Discovery, campaign: Campaign, seconds: float) -> Discovered
         versions=versions(),
         data=dict(whole.campaign.digests),
     )
+
+
+def _no_noise(found: Discovery, whole: LoadCases) -> Iterator[str]:
+    """What is left beside all that was found, and is no noise, in words."""
+    for check in judge(unfitted(found.end.model, whole)).checks:
+        if not check.passed:
+            yield check.words
 
 
 def _error(fitted: Fit, whole: LoadCases) -> ModelError:

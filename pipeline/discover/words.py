@@ -14,12 +14,21 @@ MANY = 4
 
 def sentences(it: Discovered) -> tuple[str, ...]:
     """What was found, the place and the picture before the form."""
-    return (*_first(it), *(said for law in it.laws for said in said_of(law)), *_last(it))
+    return (*_first(it), *law_sentences(it), *_last(it))
 
 
 def law_sentences(it: Discovered) -> tuple[str, ...]:
     """Of the laws alone, for an answer that has its own verdict."""
-    return tuple(said for law in it.laws for said in said_of(law))
+    return (*(said for law in it.laws for said in said_of(law)), *_doubt(it))
+
+
+def _doubt(it: Discovered) -> Iterator[str]:
+    if it.laws and it.left:
+        places = "the place" if len(it.laws) == 1 else "a place"
+        yield (
+            f"More than noise is left beside this: {it.left[0]}. So {places} or its form may be another, or what is "
+            "missing is no law of a single place."
+        )
 
 
 def _first(it: Discovered) -> Iterator[str]:

@@ -15,7 +15,7 @@ from pipeline.discover.forming import formed
 from pipeline.discover.locating import Located, mapped
 from pipeline.discover.recording import recorded
 from pipeline.discover.search import Discovery, discover, fitted_to
-from pipeline.discover.words import sentences
+from pipeline.discover.words import law_sentences, sentences
 from pipeline.errors import InputError
 from pipeline.inference.fit import unfitted
 from pipeline.inference.model import Model, Term
@@ -145,6 +145,16 @@ def test_sigmas_that_are_too_small_make_no_law() -> None:
     assert {each.column for each in record.noise} <= {"x_mm", "y_mm", "z_mm", "rx_rad", "ry_rad", "rz_rad"}
     assert all(2.0 < each.found / each.declared < 5.0 for each in record.noise) and len(record.noise) >= 2
     assert any("what it does counts" in said for said in sentences(record))
+
+
+def test_what_is_left_beside_a_law_and_is_no_noise_is_said() -> None:
+    """As where the place is another, or what is missing is no law of a place: the model without the law, by its name."""
+    whole, campaign = friction_found(), bench("joint_friction.torque_Nmm", 600.0)
+    assert not recorded(whole, campaign, 1.0).left
+    wrong = recorded(replace(whole, end=whole.begin), campaign, 1.0)
+    assert wrong.left and "sigma" in wrong.left[0]
+    assert any("may be another" in said and wrong.left[0] in said for said in law_sentences(wrong))
+    assert not any("may be another" in said for said in sentences(recorded(whole, campaign, 1.0)))
 
 
 def test_a_file_that_is_no_python_file_is_refused(tmp_path: Path) -> None:

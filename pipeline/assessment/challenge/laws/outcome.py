@@ -161,7 +161,7 @@ def discovered(campaign: Campaign) -> Discovery:
     return discover(load_cases(replace(campaign, tests=fitted)), Model(), effects)
 
 
-def _reference(campaign: Campaign) -> Rest:
+def reference(campaign: Campaign) -> Rest:
     """What the plain model with bars that bend far leaves of the fitted tests, with the tolerances beside it."""
     fitted = tuple(test for test in campaign.tests if test.role == "fit")
     cases = load_cases(replace(campaign, tests=fitted))
@@ -172,13 +172,13 @@ def hidden_laws(truth: Truth, campaign: Campaign) -> tuple[HiddenLaw, ...]:
     """What was hidden in a campaign, and by how much it shows there."""
     if not truth.laws:
         return ()
-    reference = _reference(campaign)
+    rest = reference(campaign)
     return tuple(
         HiddenLaw(
             site=law.placed.site,
             law=law.name,
             mu=law.mu,
-            told=float(np.linalg.norm(reference.weakened(reference.seen(law.shown)))),
+            told=float(np.linalg.norm(rest.weakened(rest.seen(law.shown)))),
             forms=FORMS.get(law.name, ()),
         )
         for law in truth.laws
