@@ -148,7 +148,7 @@ def test_sigmas_that_are_too_small_make_no_law() -> None:
 
 
 def test_what_is_left_beside_a_law_and_is_no_noise_is_said() -> None:
-    """As where the place is another, or what is missing is no law of a place: the model without the law, by its name."""
+    """As where the place is another: the law is said of the model without it."""
     whole, campaign = friction_found(), bench("joint_friction.torque_Nmm", 600.0)
     assert not recorded(whole, campaign, 1.0).left
     wrong = recorded(replace(whole, end=whole.begin), campaign, 1.0)
