@@ -24,7 +24,9 @@ class Linear(CurveForm):
     effects: ClassVar[Mapping[str, tuple[str, ...]]] = {
         "hinge_torque": ("joint_torsional_stiffness",),
         **dict.fromkeys(("along", "across", "tilt_x", "tilt_z"), ("axis_flexibility",)),
-        **dict.fromkeys(tuple(f"base_{name}" for name in ("x", "y", "z", "rx", "ry", "rz")), ("base_compliance",)),
+        **dict.fromkeys(
+            tuple(f"base_{name}" for name in ("x", "y", "z", "rx", "ry", "rz")), ("base_compliance",)
+        ),
     }
 
     def points(self, x: Array, shapes: Array) -> Points:
