@@ -104,8 +104,9 @@ def _standing(it: Diagnosis, found: Discovery, best: Names) -> _Rival | None:
     numbers = sum(law.ways[0].numbers for law in found.laws)
     # That bars bend far costs nothing where the set has it too.
     numbers += int(found.bent and not root_of(it.cache, best))
-    beside = frozenset(found.end.model.names) & set(it.cache.candidates) - {*found.begin.model.names}
-    beside |= frozenset(found.given.model.names) - root_of(it.cache, frozenset(found.given.model.names))
+    # What the model has from the start is there in all that compete.
+    there = frozenset(found.end.model.names) & set(it.cache.candidates)
+    beside = there - root_of(it.cache, there)
     # Choices of sides cost a law what they cost an effect.
     left = found.end.chi_square + found.end.residual.doubt + found.end.residual.spread
     kinked = any(each.ways[0].formed.form.kinked for each in found.laws)
@@ -138,22 +139,24 @@ def _judged(it: Diagnosis, found: Discovery, rival: _Rival, several: bool, begin
 def _cost_of_set(it: Diagnosis, names: Names, several: bool) -> float:
     """Of one effect with the numbers that it needs, of several with all."""
     own, one = names - root_of(it.cache, names), _of_one(it)
-    priced = taken(it.cache, own) * one if several else _needed(it.cache.fit(names), one)
+    priced = taken(it.cache, own) * one if several else _needed(it.cache.fit(names), own, one)
     return misfit(it.cache, names) + priced
 
 
-def _needed(found: Fit, one: float) -> float:
-    """What the numbers of a fit cost at one each where those are taken out, the one that explains least first, that
-    explain less than they cost, and what is left more without them, to first order."""
+def _needed(found: Fit, own: Names, one: float) -> float:
+    """What the numbers of some effects of a fit cost at one each where those are taken out, the one that explains least
+    first, that explain less than they cost, and what is left more without them, to first order."""
     free = found.model.free
     moved = np.array([v - f.parameter.null for f, v in zip(free, found.model.values, strict=True)])
     columns = found.jacobian
     aim = found.whitened + columns @ moved
+    other = [k for k, each in enumerate(free) if each.effect not in own]
     # What stands at null, as at its bound, is not needed.
-    kept = [int(k) for k in np.flatnonzero(np.abs(moved) > AT_NULL * found.std)]
-    first = left = _left(columns[:, kept], aim)
+    there = np.flatnonzero(np.abs(moved) > AT_NULL * found.std)
+    kept = [int(k) for k in there if free[k].effect in own]
+    first = left = _left(columns[:, other + kept], aim)
     while kept:
-        each = {k: _left(columns[:, [j for j in kept if j != k]], aim) for k in kept}
+        each = {k: _left(columns[:, other + [j for j in kept if j != k]], aim) for k in kept}
         least = min(each, key=lambda k: each[k])
         if each[least] - left >= one:
             break

@@ -13,9 +13,11 @@ from pipeline.inference.model import Model
 from pipeline.selection.diagnosis import Diagnosis
 from tests.pipeline.bench import bench
 from tests.pipeline.discover.fits import GEOMETRY, effects_for, fitted_tests, friction_found
+from vjm.effects import catalogue
 from vjm.effects.base import Effect
 
 SPRING, BASE = "joint_torsional_stiffness", "base_compliance"
+OWN = frozenset({BASE})
 
 
 def named(unknown: Diagnosis, *sets: tuple[str, ...]) -> Diagnosis:
@@ -76,6 +78,25 @@ def test_a_law_that_is_the_effect_by_other_words_takes_no_name(
     assert costing(named(unknown, (SPRING,)), whole, 20.0, monkeypatch).verdict == "identified"
 
 
+def test_an_effect_that_entered_beside_a_law_is_priced_and_one_of_the_model_is_not(
+    unknown: Diagnosis,
+) -> None:
+    whole, it = friction_found(), named(unknown, (SPRING,))
+    plain = competition._standing(it, whole, frozenset(it.sets[0]))
+    assert plain is not None and plain.things == 1 and not plain.beside
+
+    def having(name: str) -> competition._Rival:
+        model = whole.end.model.with_effects([catalogue()[name]])
+        found = replace(whole, end=replace(whole.end, model=model))
+        rival = competition._standing(it, found, frozenset(it.sets[0]))
+        assert rival is not None
+        return rival
+
+    assert having(BASE).beside == {BASE} and having(BASE).cost > plain.cost
+    assert BASE in it.cache.candidates and "bar_initial_bow" not in it.cache.candidates
+    assert having("bar_initial_bow").cost == plain.cost
+
+
 def test_laws_are_looked_for_without_the_effect_and_beside_what_sets_have_in_common(
     unknown: Diagnosis,
 ) -> None:
@@ -96,10 +117,12 @@ def base_fit() -> Fit:
 
 def test_an_effect_costs_the_numbers_that_it_needs(base_fit: Fit) -> None:
     one = float(np.log(base_fit.whitened.size))
-    cost = competition._needed(base_fit, one)
+    cost = competition._needed(base_fit, OWN, one)
     assert one < cost < 3.0 * one < 6.0 * one
+    # Numbers of other effects are those of the model, whatever competes.
+    assert competition._needed(base_fit, frozenset(), one) == 0.0
     # A number that costs nothing is never taken out.
-    assert competition._needed(base_fit, 0.0) == pytest.approx(0.0, abs=1e-9)
+    assert competition._needed(base_fit, OWN, 0.0) == pytest.approx(0.0, abs=1e-9)
 
 
 def test_what_a_number_is_needed_for_is_what_is_left_more_without_it(base_fit: Fit) -> None:
@@ -107,4 +130,4 @@ def test_what_a_number_is_needed_for_is_what_is_left_more_without_it(base_fit: F
     base that gives little."""
     without = fit(Model().with_effects([GEOMETRY]), fitted_tests(bench("base_compliance.x_mm_per_N", 6e-6)))
     rise = without.chi_square - base_fit.chi_square
-    assert competition._needed(base_fit, 1e12) == pytest.approx(rise, rel=0.05)
+    assert competition._needed(base_fit, OWN, 1e12) == pytest.approx(rise, rel=0.05)
