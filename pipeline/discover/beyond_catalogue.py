@@ -63,14 +63,10 @@ def _where_there_are_sites(it: Diagnosis, on_progress: OnProgress) -> Looked:
 
 def _with_laws(it: Diagnosis, on_progress: OnProgress) -> Looked:
     best, settled = frozenset(it.sets[0]), it.decision.zero is None
-    if (
-        it.judgement.noise
-        and settled
-        and any(names - root_of(it.cache, names) for names in map(frozenset, it.sets))
-    ):
+    if it.judgement.noise and settled and best - root_of(it.cache, best):
         return competing(it, best, on_progress)
     begin, found = perf_counter(), _beside_certain(it, on_progress)
-    if not found.laws and it.verdict == "within_noise":
+    if not found.laws and (it.judgement.noise or not settled):
         return it, found
     if not settled and not explains(it, found):
         return it, found

@@ -30,6 +30,9 @@ from pipeline.selection.diagnosis import Diagnosis
 from pipeline.selection.fit_cache import Names
 from vjm.effects.sensor_fault import SensorFault
 
+AT_NULL = 1e-3
+"""Standard errors within which a number stands at null."""
+
 
 def competing(it: Diagnosis, best: Names, on_progress: OnProgress) -> Looked:
     """The diagnosis after its sets have competed with laws, and what was found, where laws were looked for.
@@ -77,10 +80,6 @@ def _may_compete(it: Diagnosis, best: Names) -> bool:
     seen = mapped(fitted_to(without.model, fitted(it)), it.cache.candidates)
     gained = without.chi_square - misfit(it.cache, best)
     return 2.0 * CRITERIA.law_gains * seen.best + CRITERIA.law_gains_more >= gained
-
-
-AT_NULL = 1e-3
-"""Standard errors within which a number stands at null."""
 
 
 @dataclass(frozen=True)

@@ -67,7 +67,11 @@ class LawCriteria:
         0.3, SIGMA, GROUP, "by which they may differ there before it is said"
     )
     law_several: int = criterion(
-        2, COUNT, GROUP, "effects with numbers from which a set competes with laws: one alone mimics no law"
+        2,
+        COUNT,
+        GROUP,
+        "effects with numbers from which a set pays for all of them and is not named against laws that explain as "
+        "much: one alone pays for those that it needs and keeps its name against what is no better",
     )
     law_left_by_set: float = criterion(
         4.0,

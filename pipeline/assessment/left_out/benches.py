@@ -12,8 +12,9 @@ from fem.frame.bench import Readings
 from pipeline.assessment.challenge.benches import FAIR, RICH, Bench, drawn_noise, drawn_plan, drawn_rig
 from pipeline.assessment.challenge.cases import STEPS
 from pipeline.assessment.challenge.dirty.dirt import Dirt, read_dirty, true_rig
+from pipeline.assessment.challenge.laws.cases import bar_off
 from pipeline.assessment.challenge.laws.measured import SEEN
-from pipeline.assessment.challenge.laws.size import OutOfSight, Scale, scale_of
+from pipeline.assessment.challenge.laws.size import WITHIN, OutOfSight, Scale, scale_of
 from pipeline.assessment.challenge.outcome import SHARES
 from pipeline.assessment.coverage.cases import is_size
 from pipeline.assessment.left_out.entries import ENTRIES, Entry
@@ -28,11 +29,9 @@ Array = NDArray[np.float64]
 SEED = 20_261_201
 MU = (15.0, 50.0, 200.0)
 """Sigmas by which the effect shows in the fitted tests."""
-BAR_OFF, BAR_MOST = 0.01, 0.02
-"""Standard deviation and largest deviation of the bar's stiffnesses from the drawing."""
-SMALL, LARGE, HALVINGS, WITHIN = 1e-4, 1e3, 40, 0.02
-"""Sizes between which the effect is brought to its mu, in typical ones; halvings of their ratio at most, and the share
-by which mu may be missed."""
+SMALL, LARGE, HALVINGS = 1e-4, 1e3, 16
+"""Sizes between which the effect is brought to its mu, in typical ones; halvings of the logarithm of their ratio at
+most: it is known to 3e-4 then."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -77,7 +76,7 @@ def _measured(number: int, share: float) -> tuple[LeftOut, Campaign]:
     rig, noise, steps = drawn_rig(generator), drawn_noise(generator), int(generator.choice(STEPS))
     label, seed = str(generator.choice((RICH, FAIR))), int(generator.integers(2**62))
     plan = scaled(drawn_plan(generator, label, steps), rig, share)
-    dirt = Dirt.of_bar(1.0 + np.clip(BAR_OFF * generator.normal(size=4), -BAR_MOST, BAR_MOST))
+    dirt = Dirt.of_bar(bar_off(generator))
     bench, true = Bench(rig, noise, plan, label), true_rig(rig, dirt.bar)
     way = _way(ENTRIES[name], generator)
     fitted = replace(bench, plan=tuple(test for test in plan if not test.holdout))

@@ -2,24 +2,19 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from time import process_time
 
 import numpy as np
 
-from pipeline.assessment.challenge.laws.outcome import reference
+from pipeline.assessment.challenge.laws.outcome import discovered, reference
 from pipeline.assessment.left_out.benches import LeftOut, measured
 from pipeline.campaign import Campaign
-from pipeline.discover.search import Discovery, Law, discover
+from pipeline.discover.search import Discovery, Law
 from pipeline.inference.fit import unfitted
 from pipeline.inference.load_cases import load_cases
-from pipeline.inference.model import Model
-from pipeline.inference.suitable import scale_for
 from pipeline.record import Record
 from pipeline.selection.adequacy.judgement import judge
-from pipeline.selection.diagnosis import suitable
 from vjm.effects import catalogue
-from vjm.effects.sized import all_sized
 
 
 class Trial(Record):
@@ -52,7 +47,7 @@ def trial(number: int, name: str, commit: str, code: str) -> Trial:
     try:
         it, campaign = measured(number)
         began = process_time()
-        found = without(campaign, it.entry.effect)
+        found = discovered(campaign, it.entry.effect)
         seconds = round(process_time() - began, 2)
     except (RuntimeError, ArithmeticError, ValueError) as error:
         return Trial(**common, error=f"{type(error).__name__}: {error}")
@@ -70,14 +65,6 @@ def trial(number: int, name: str, commit: str, code: str) -> Trial:
         held_out=_held_out(it, campaign, found),
         seconds=seconds,
     )
-
-
-def without(campaign: Campaign, effect: str) -> Discovery:
-    """What is found in the fitted tests where the catalogue lacks an effect."""
-    known = {name: each for name, each in catalogue().items() if name != effect}
-    effects, _ = suitable(campaign, Model(), all_sized(known, scale_for(campaign)))
-    fitted = tuple(test for test in campaign.tests if test.role == "fit")
-    return discover(load_cases(replace(campaign, tests=fitted)), Model(), effects)
 
 
 def is_right(it: LeftOut, laws: tuple[Law, ...], doubted: bool) -> bool:

@@ -240,6 +240,19 @@ def test_laws_that_explain_all_beside_what_is_certain_or_without_it(
     assert not of(there, whole).certain
 
 
+def test_where_noise_is_left_and_no_law_is_found_the_answer_is_as_it_was(
+    unknown: Diagnosis, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Bars that bend far and nothing else: no law is looked for in their place, and none inside the noise is told."""
+    none = replace(friction_found(), steps=(), end=friction_found().begin)
+    monkeypatch.setattr(looking, "discover", lambda *_: none)
+    decision = replace(unknown.decision, verdict="identified", sets=(frozenset({GEOMETRY.name}),))
+    noise = replace(unknown, decision=decision, judgement=replace(unknown.judgement, checks=()))
+    again = with_laws(noise)
+    assert again.verdict == "identified" and not again.laws and not again.law_words and not again.failed
+    assert with_laws(unknown).law_words
+
+
 def test_a_place_without_a_form_takes_nothing_with_it(
     unknown: Diagnosis, monkeypatch: pytest.MonkeyPatch
 ) -> None:

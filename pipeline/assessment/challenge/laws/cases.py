@@ -118,7 +118,7 @@ def clean_case(number: int, share: float = 1.0) -> LawCase:
     found = case(_clean_numbers(ROUND, number), share)
     bar = np.ones(4)
     if number >= 100:
-        bar = _off(np.random.default_rng([SEED, 2, number]))
+        bar = bar_off(np.random.default_rng([SEED, 2, number]))
     return LawCase(
         number, "clean", found.bench, {}, None, found.seed, (), False, Dirt.of_bar(bar), exact=number < 100
     )
@@ -201,12 +201,13 @@ def _size(generator: np.random.Generator) -> float:
     return float(np.exp(generator.uniform(*np.log(MU))))
 
 
-def _off(generator: np.random.Generator) -> np.ndarray:
+def bar_off(generator: np.random.Generator) -> np.ndarray:
+    """(4,) true over nominal EA, EIy, EIz, GJ of a bar that is a little beside its drawing."""
     return 1.0 + np.clip(BAR_OFF * generator.normal(size=4), -BAR_MOST, BAR_MOST)
 
 
 def _drawn_dirt(generator: np.random.Generator, kind: str) -> Dirt:
-    dirt = Dirt.of_bar(_off(generator))
+    dirt = Dirt.of_bar(bar_off(generator))
     share, channel, r = (
         float(generator.uniform(0.25 * BAD_MOST, BAD_MOST)),
         int(generator.choice([*CELL[:3], *DIALS, 12])),

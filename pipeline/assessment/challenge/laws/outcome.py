@@ -154,9 +154,11 @@ def law_outcome(kind: Kind, number: int, commit: str, code: str, diagnosing: boo
     return LawOutcome(**common)
 
 
-def discovered(campaign: Campaign) -> Discovery:
-    """The laws of a campaign's fitted tests beside the plain model. ValueError for a rig without sites."""
-    effects, _ = suitable(campaign, Model(), all_sized(catalogue(), scale_for(campaign)))
+def discovered(campaign: Campaign, but: str = "") -> Discovery:
+    """The laws of a campaign's fitted tests beside the plain model. but: effect that the catalogue lacks. ValueError
+    for a rig without sites."""
+    known = {name: effect for name, effect in catalogue().items() if name != but}
+    effects, _ = suitable(campaign, Model(), all_sized(known, scale_for(campaign)))
     fitted = tuple(test for test in campaign.tests if test.role == "fit")
     return discover(load_cases(replace(campaign, tests=fitted)), Model(), effects)
 
