@@ -120,7 +120,8 @@ class Compliance:
         k = int(np.argmax(slopes <= least))
         low, high = (_LOADS[k - 1] if k else 0.0), float(_LOADS[k])
         # The first place where the slope is no more than that, between ever nearer loads, which are looked at together.
-        while high - low > NEAR * high:
+        # With a kink at no load it is there: nearer than the least load that is looked at it is not asked.
+        while high - low > NEAR * max(high, float(_LOADS[0])):
             between = np.linspace(low, high, BETWEEN)
             k = max(int(np.argmax(self._curve(sign * between)[1] <= least)), 1)
             low, high = float(between[k - 1]), float(between[k])

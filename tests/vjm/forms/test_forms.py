@@ -147,6 +147,14 @@ def test_a_compliance_that_would_fall_goes_on_straight() -> None:
     assert (work[1] - work[0]) / (2.0 * step) == pytest.approx(loads, rel=1e-6)
 
 
+def test_a_compliance_that_falls_from_no_load_on_has_its_end_there() -> None:
+    """Two slopes of unlike signs: the search for the end came never nearer than half of nothing, and did not stop."""
+    it: Law = forms()["two_slopes"].law(np.array([-1e-6, 2e-6]), np.zeros(0), series=True)
+    assert it.give(np.array([-10.0, 0.0])) == pytest.approx([-2e-5, 0.0])
+    rising = it.respond(np.array([[-1e-5]]), np.zeros((1, 0)))
+    assert rising.force[0] == pytest.approx(-5.0) and rising.tangent[0, 0, 0] == pytest.approx(5e5)
+
+
 def test_friction_of_iwan_is_a_parabola_and_masing_comes_back() -> None:
     """W. D. Iwan, J. Appl. Mech. 33 (1966) 893-900: limits spread evenly from zero on springs alike make
     y = T (2 x/r - (x/r)²), and a way back of twice that over half of it (G. Masing, 1926)."""
