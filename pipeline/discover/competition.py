@@ -21,6 +21,7 @@ from pipeline.callbacks import OnProgress
 from pipeline.discover.locating import mapped
 from pipeline.discover.looking import Looked, discovered, effects_of, explains, fitted, less_certain, record
 from pipeline.discover.search import Discovery, fitted_to
+from pipeline.discover.through import left_by
 from pipeline.discover.words import law_sentences
 from pipeline.inference.fit import Fit
 from pipeline.inference.model import Model
@@ -106,10 +107,8 @@ def _standing(it: Diagnosis, found: Discovery, best: Names) -> _Rival | None:
     # What the model has from the start is there in all that compete.
     there = frozenset(found.end.model.names) & set(it.cache.candidates)
     beside = there - root_of(it.cache, there)
-    # Choices of sides cost a law what they cost an effect.
-    left = found.end.chi_square + found.end.residual.doubt + found.end.residual.spread
     kinked = any(each.ways[0].formed.form.kinked for each in found.laws)
-    cost = left + (numbers + taken(it.cache, beside)) * _of_one(it)
+    cost = left_by(found.end) + (numbers + taken(it.cache, beside)) * _of_one(it)
     things = len(found.laws) + len(beside)
     return _Rival(cost, numbers, things, beside, explains(it, found), kinked)
 

@@ -5,6 +5,10 @@ of inputs x with covariance S before them, readings with derivative J and covari
 S - S J^T (C + J S J^T)^-1 J S. Where a place is moved by no more than that, a function of its coordinate is a function
 of noise, and readings tell nothing of a law there; a law that is soft enough may take up noise then, as in every fit
 with noise on both sides without a signal (W. A. Fuller, Measurement Error Models, Wiley 1987, section 1.1).
+
+Inputs have to be found as far as they are known. A residual is linear about its inputs, and a fit settles these to a
+tenth of their sigmas; what a stiff place bears changes with that by many sigmas of a reading, in proportion to the
+noise of the input: a function of that load would explain noise.
 """
 
 from __future__ import annotations
@@ -16,14 +20,34 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pipeline.inference.fit import Fit
-from pipeline.inference.residual import whitening
+from pipeline.inference.objective import Objective
+from pipeline.inference.prediction import predict
+from pipeline.inference.residual import residual, whitening
+from pipeline.inference.settings import INPUTS
 from vjm.equilibrium import Equilibrium
 from vjm.sensitivity import by_targets
+from vjm.work import over
 
 Array = NDArray[np.float64]
 TARGETS = 6
 STEP = 1e-3
 """Standard deviations that inputs are moved by, for differences."""
+
+
+def at_known_inputs(found: Fit) -> Fit:
+    """A fit predicted at its inputs, as far as all readings of each load step tell them: to a tenth of what
+    these leave unknown, or as near as a fit's own steps of the inputs come."""
+    cases, model = found.residual.load_cases, found.model
+    objective = Objective(model, cases)
+    for _ in range(INPUTS.rounds):
+        known = np.linalg.norm(input_roots(found), axis=-1)
+        off = np.abs(found.residual.shift - found.prediction.shift)
+        if np.all((off <= INPUTS.near * known)[~found.prediction.lost]) or over():
+            break
+        here = predict(model, cases, start=found.prediction, shift=found.residual.shift)
+        here = objective.about(here)
+        found = replace(found, prediction=here, residual=residual(cases, here))
+    return found
 
 
 def input_roots(found: Fit) -> Array:

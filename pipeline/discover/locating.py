@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from pipeline.discover.bases import basis_of, unloaded
 from pipeline.discover.bodies import Body, bodies, weighed
+from pipeline.discover.coordinate_noise import at_known_inputs
 from pipeline.discover.elements import Element, elements
 from pipeline.discover.evidence import Columns, Evidence, Rest
 from pipeline.discover.sites import Site, sites
@@ -78,6 +79,7 @@ def mapped(
 
     Where a law might be proposed, noise that is correlated from row to row beside it counts as what it is.
     """
+    found = at_known_inputs(found)
     every, rest = elements(found), Rest.of(found.residual)
     if beside is not None:
         rest = replace(rest, tolerance=np.hstack([rest.tolerance, beside]))

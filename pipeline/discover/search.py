@@ -15,13 +15,14 @@ from numpy.typing import NDArray
 from pipeline.callbacks import OnProgress
 from pipeline.campaign import Campaign
 from pipeline.discover.bodies import Body, started
+from pipeline.discover.coordinate_noise import at_known_inputs
 from pipeline.discover.elements import elements
 from pipeline.discover.evidence import Evidence, Rest
 from pipeline.discover.forming import Formed, columns_of, formed
 from pipeline.discover.locating import Located, Map, mapped
 from pipeline.discover.settling import beside
 from pipeline.discover.sites import Site
-from pipeline.discover.through import Through, through
+from pipeline.discover.through import Through, left_by, through
 from pipeline.inference.fit import Fit, fit, unfitted
 from pipeline.inference.load_cases import LoadCases, load_cases
 from pipeline.inference.model import Model
@@ -265,7 +266,7 @@ def _is_column(it: Located) -> bool:
 
 def _unexplained(seen: Map) -> float:
     """Chi-square from which a law leaves as much as the model without it: none is there."""
-    return seen.found.chi_square - CRITERIA.law_proposed
+    return left_by(seen.found) - CRITERIA.law_proposed
 
 
 def _ways(
@@ -301,10 +302,11 @@ def _ways(
 def _about(way: Through, noise: Rest) -> list[Formed]:
     """Forms near the best, fitted anew about the fit with one of them, whose loads and coordinates are nearer to those
     that are there."""
-    old, rest = way.formed.site, Rest.of(way.fit.residual)
+    here = at_known_inputs(way.fit)
+    old, rest = way.formed.site, Rest.of(here.residual)
     rest = rest if noise.correlated is None else rest.with_noise(noise.correlated)
     places = {(each.kind, each.place) for each in old.elements}
-    some = tuple(each for each in elements(way.fit) if (each.kind, each.place) in places)
+    some = tuple(each for each in elements(here) if (each.kind, each.place) in places)
     site, form = replace(old, elements=some), way.there
     done = columns_of(form.form, site, rest, form.shapes) @ form.amplitudes
     largest = max(float(np.max(np.abs(each.coordinate))) for each in some)

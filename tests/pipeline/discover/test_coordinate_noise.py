@@ -4,13 +4,15 @@ from dataclasses import replace
 
 import numpy as np
 
-from pipeline.discover.coordinate_noise import input_roots
+from pipeline.discover.coordinate_noise import at_known_inputs, input_roots
 from pipeline.discover.elements import elements
 from pipeline.inference.prediction import predict
 from pipeline.inference.residual import residual
 from tests.pipeline.discover.fits import fit_of, map_of
 
 DRAWS = 6
+SETTLED = 0.09
+"""Sigmas of its inputs by which a fit may leave them where they fit best."""
 
 
 def test_of_one_input_that_one_reading_tells_of() -> None:
@@ -55,3 +57,16 @@ def test_no_law_is_looked_for_where_noise_alone_moves_a_place() -> None:
     assert 0.5 < ratio["base_ry"] < 1.6, "the plan does not load the base about y"
     assert "base_ry" not in names
     assert {"base_x", "base_z", "hinge_torque", "along"} <= names
+
+
+def test_inputs_are_found_as_far_as_all_readings_tell_them() -> None:
+    """What a stiff place bears is known far better than the input that moves it by its own sigma."""
+    found = fit_of()
+    cases, here = found.residual.load_cases, found.prediction
+    there = predict(found.model, cases, start=here, shift=here.shift + SETTLED * cases.input_sigma)
+    rough = replace(found, prediction=there, residual=residual(cases, there))
+    every = [{each.kind: each for each in elements(it)} for it in (found, rough, at_known_inputs(rough))]
+    best, off, mended = (it["base_ry"].coordinate for it in every)
+    unsure = np.linalg.norm(every[0]["base_ry"].unsure)
+    assert np.linalg.norm(off - best) > 2.0 * unsure
+    assert np.linalg.norm(mended - best) < 0.2 * unsure
