@@ -85,11 +85,11 @@ def formed(site: Site, rest: Rest, largest: float) -> list[Formed]:
     place = "series" if SITE_KINDS[site.kind].series else "parallel"
     bars = greatest_load(site) > 0.0
     some = (form for form in forms().values() if place in form.places and (bars or not form.loaded))
-    found = [it for form in some if (it := _fitted(form, site, rest, largest)) is not None]
+    found = [it for form in some if (it := fitted_form(form, site, rest, largest)) is not None]
     return sorted(found, key=lambda it: it.cost)
 
 
-def _fitted(form: Form, site: Site, rest: Rest, largest: float) -> Formed | None:
+def fitted_form(form: Form, site: Site, rest: Rest, largest: float) -> Formed | None:
     """A form at its best shapes; None where none is a law."""
     best: Formed | None = None
     load = greatest_load(site)

@@ -35,6 +35,11 @@ class Located:
         """E."""
         return self.evidence.value
 
+    @property
+    def largest(self) -> float:
+        """Of the site's coordinate."""
+        return self.evidence.site.largest
+
 
 @dataclass(frozen=True, eq=False)
 class Map:

@@ -15,14 +15,13 @@ from numpy.typing import NDArray
 from pipeline.callbacks import OnProgress
 from pipeline.campaign import Campaign
 from pipeline.discover.bodies import Body, started
-from pipeline.discover.coordinate_noise import at_known_inputs
-from pipeline.discover.elements import elements
 from pipeline.discover.evidence import Evidence, Rest
-from pipeline.discover.forming import Formed, columns_of, formed
+from pipeline.discover.forming import fitted_form, formed
 from pipeline.discover.locating import Located, Map, mapped
 from pipeline.discover.settling import beside
 from pipeline.discover.sites import Site
-from pipeline.discover.through import Through, left_by, through
+from pipeline.discover.through import Through, through
+from pipeline.discover.ways import unexplained, ways_of
 from pipeline.inference.fit import Fit, fit, unfitted
 from pipeline.inference.load_cases import LoadCases, load_cases
 from pipeline.inference.model import Model
@@ -34,8 +33,6 @@ from vjm.effects.base import Effect
 
 Array = NDArray[np.float64]
 GEOMETRY = "bar_geometric_nonlinearity"
-FASTER = {"bounded": 0, "linear": 0, "power": 1, "exponential": 2}
-"""Times that a form is to be better by what is preferred, by how it grows beyond the loads."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -144,6 +141,13 @@ def discover(
             given, begin = (fitted_to(each.model, cases) for each in (given, begin))
             here = begin if not steps else fitted_to(here.model, cases)
             continue
+        if (
+            steps
+            and seen.best >= CRITERIA.law_proposed
+            and (better := _elsewhere(steps[-1], here, cases, on_progress))
+        ):
+            steps[-1], here = better, better.ways[0].fit
+            continue
         step = _step(seen, cases, len(steps) + 1, on_progress)
         if isinstance(step, Law) and step.ways:
             known = [it.group[0] for it in steps if isinstance(it, Law)]
@@ -192,12 +196,35 @@ def _step(seen: Map, cases: LoadCases, number: int, on_progress: OnProgress) -> 
     for it in group:
         if _is_column(it):
             break
-        first = formed(it.site, seen.rest, it.evidence.site.largest)
-        if any(form.left < _unexplained(seen) for form in first):
+        first = formed(it.site, seen.rest, it.largest)
+        if any(form.left < unexplained(seen) for form in first):
             others = tuple(other for other in group if other is not it)
-            return Law(seen, (it, *others), gains, _ways(seen, first, cases, f"law{number}", on_progress))
+            return Law(seen, (it, *others), gains, ways_of(seen, first, cases, f"law{number}", on_progress))
     # A free function may fall with the load that a place bears, as no compliance does: that is no law.
     return None
+
+
+def _elsewhere(step: Law | Added, here: Fit, cases: LoadCases, on_progress: OnProgress) -> Law | None:
+    """A law that left a pattern, at the place of its group where that form leaves least through the mechanism; None
+    where none is better. Influences that are known to some parts in a hundred do not tell places apart that the
+    mechanism does. here: the fit with it."""
+    if isinstance(step, Added) or not step.ways:
+        return None
+    kept, chosen = [step.group[0]], step.ways[0]
+    base, name, best = step.map.found.model, chosen.law.name, replace(chosen, fit=here).cost
+    for it in step.group[1:]:
+        on_progress(f"the law at {it.site.name} instead")
+        form = None if _is_column(it) else fitted_form(chosen.formed.form, it.site, step.map.rest, it.largest)
+        cost = np.inf if form is None else through(form, base, cases, name).cost
+        if cost < best - CRITERIA.law_alike:
+            kept, best = [it], cost
+        elif cost <= best + CRITERIA.law_alike:
+            kept.append(it)
+    if kept[0] is step.group[0]:
+        return None
+    first = formed(kept[0].site, step.map.rest, kept[0].largest)
+    ways = ways_of(step.map, first, cases, name, on_progress)
+    return replace(step, group=tuple(kept), ways=ways) if ways else None
 
 
 def _in_its_place(law: Law) -> Iterator[str]:
@@ -262,56 +289,3 @@ def _coarsest_first(group: tuple[Located, ...]) -> tuple[Located, ...]:
 
 def _is_column(it: Located) -> bool:
     return it.site.kind.startswith("column")
-
-
-def _unexplained(seen: Map) -> float:
-    """Chi-square from which a law leaves as much as the model without it: none is there."""
-    return left_by(seen.found) - CRITERIA.law_proposed
-
-
-def _ways(
-    seen: Map, first: list[Formed], cases: LoadCases, name: str, on_progress: OnProgress
-) -> tuple[Through, ...]:
-    """Forms through the mechanism: the best that explains anything there of those where influences are known, then all
-    near ones about where that stands."""
-    base, before = seen.found.model, _unexplained(seen)
-    done: dict[str, Through] = {}
-    for each in first[: CRITERIA.law_forms]:
-        on_progress(f"{each.form.title} through the mechanism")
-        done[each.form.name] = through(each, base, cases, name)
-        if done[each.form.name].cost < before:
-            break
-    else:
-        return ()
-    about = list(done.values())[-1]
-    for other in _about(about, seen.rest)[: CRITERIA.law_forms]:
-        if other.form.name not in done:
-            on_progress(f"{other.form.title} through the mechanism")
-            done[other.form.name] = through(other, base, cases, name)
-    ordered = sorted((way for way in done.values() if way.cost < before), key=lambda way: way.cost)
-    if not ordered:
-        return ()
-    tied = [way for way in ordered if way.cost <= ordered[0].cost + CRITERIA.law_alike]
-    # Of those that are as good, what stays finite or grows linearly beyond the loads comes before a power, and that
-    # before an exponential.
-    return tuple(
-        sorted(tied, key=lambda way: way.cost + CRITERIA.law_preferred * FASTER[way.formed.form.grows])
-    )
-
-
-def _about(way: Through, noise: Rest) -> list[Formed]:
-    """Forms near the best, fitted anew about the fit with one of them, whose loads and coordinates are nearer to those
-    that are there."""
-    here = at_known_inputs(way.fit)
-    old, rest = way.formed.site, Rest.of(here.residual)
-    rest = rest if noise.correlated is None else rest.with_noise(noise.correlated)
-    places = {(each.kind, each.place) for each in old.elements}
-    some = tuple(each for each in elements(here) if (each.kind, each.place) in places)
-    site, form = replace(old, elements=some), way.there
-    done = columns_of(form.form, site, rest, form.shapes) @ form.amplitudes
-    largest = max(float(np.max(np.abs(each.coordinate))) for each in some)
-    return _near(formed(site, replace(rest, residuals=rest.residuals + done), largest))
-
-
-def _near(every: list[Formed]) -> list[Formed]:
-    return [it for it in every if it.cost <= every[0].cost + CRITERIA.law_forms_near]

@@ -19,12 +19,6 @@ SHARE = 0.3
 """Of the work of a fit: one of a law begins near its end."""
 
 
-def left_by(found: Fit) -> float:
-    """Chi-square that a fit leaves, with what its rows took off it by choosing their sides of a stop: choices cost a
-    law what they cost an effect."""
-    return found.chi_square + found.residual.doubt + found.residual.spread
-
-
 @dataclass(frozen=True, eq=False)
 class Through:
     """A form fitted through the mechanism. formed: as it was where influences are known. law: the effect. fit: of the
@@ -37,10 +31,16 @@ class Through:
 
     @property
     def cost(self) -> float:
-        """What it leaves and what the law's numbers cost; beyond all where rows are lost."""
+        """Chi-square and what the law's numbers cost; beyond all where rows are lost."""
         if self.fit.lost:
             return np.inf
-        return left_by(self.fit) + self.numbers * float(np.log(self.fit.whitened.size))
+        return self.fit.chi_square + self.numbers * float(np.log(self.fit.whitened.size))
+
+    @property
+    def with_sides(self) -> float:
+        """The same with what rows took off it by choosing their sides of a stop: choices cost a law what they cost an
+        effect, though not beside other laws."""
+        return self.cost + self.fit.residual.doubt + self.fit.residual.spread
 
     @property
     def values(self) -> dict[str, float]:

@@ -41,6 +41,11 @@ class Points:
         """One triple of value, slope and integral for each amplitude."""
         return cls(*(np.stack(np.broadcast_arrays(*each), axis=-1) for each in zip(*parts, strict=True)))
 
+    def beside(self, other: Points) -> Points:
+        """These amplitudes, then those of another."""
+        pairs = ((self.value, other.value), (self.slope, other.slope), (self.integral, other.integral))
+        return Points(*(np.concatenate(each, axis=-1) for each in pairs))
+
 
 class CurveForm(Form):
     """A form that is a curve."""

@@ -29,13 +29,8 @@ class WithLinear(CurveForm):
         vars(self).update(of, other=other, fixed=other.fixed)
 
     def points(self, x: Array, shapes: Array) -> Points:
-        there = vars(self)["other"].points(x, shapes)
-        own = Points.of((x, np.ones_like(x), 0.5 * x**2))
-        return Points(
-            np.concatenate([own.value, there.value], axis=-1),
-            np.concatenate([own.slope, there.slope], axis=-1),
-            np.concatenate([own.integral, there.integral], axis=-1),
-        )
+        there: Points = vars(self)["other"].points(x, shapes)
+        return Points.of((x, np.ones_like(x), 0.5 * x**2)).beside(there)
 
     def starts(self, largest: float) -> Sequence[Array]:
         found: Sequence[Array] = vars(self)["other"].starts(largest)

@@ -7,6 +7,9 @@ import numpy as np
 import pytest
 
 from pipeline.answer.of_diagnosis import answered
+from pipeline.assessment.challenge.laws.cases import law_case
+from pipeline.assessment.challenge.laws.measured import measured
+from pipeline.assessment.challenge.laws.outcome import discovered
 from pipeline.discover import looking, search
 from pipeline.discover.beyond_catalogue import with_laws
 from pipeline.discover.effect_file import effect_text, name_of, write_effect
@@ -172,6 +175,15 @@ def test_a_play_is_found_as_a_gap() -> None:
     parts = 2.0 if "@" not in law.site.name else 1.0
     assert parts * law.ways[0].values["gap_mm"] == pytest.approx(0.02, rel=0.05)
     assert found.whole
+
+
+@pytest.mark.long
+def test_a_law_of_one_end_of_the_bars_is_placed_there() -> None:
+    """Influences that are known to some parts in a hundred do not tell it from one of both ends, the mechanism does."""
+    campaign, _ = measured(law_case, 11)
+    (law,) = discovered(campaign).laws
+    names = {it.site.name for it in law.group}
+    assert "hinge_torque@base" in names and "hinge_torque" not in names
 
 
 @pytest.mark.usefixtures("known_laws")

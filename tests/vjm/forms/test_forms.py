@@ -123,6 +123,18 @@ def test_a_gap_has_its_free_travel() -> None:
     )
 
 
+@pytest.mark.parametrize("side", [1.0, -1.0])
+def test_a_landing_in_series_is_never_rigid(side: float) -> None:
+    form = forms()["step"]
+    x = np.linspace(-3.0, 3.0, 601)
+    y = form.columns(x, np.array([0, x.size]), np.array([0.5, 0.1, side])) @ np.array([2.0, 0.0])
+    slopes = np.diff(y) / np.diff(x)
+    flat = x[:-1][np.argmin(slopes)]
+    assert flat == pytest.approx(0.5 * side, abs=0.02)
+    assert LEAST_SLOPE * 2.0 < np.min(slopes) < 1.1 * LEAST_SLOPE * 2.0
+    assert np.max(slopes) == pytest.approx(2.0)
+
+
 def test_names_of_units() -> None:
     cubic = forms()["cubic"].amplitudes[0]
     assert cubic.unit("N·mm", "rad") == "N·mm/rad³"
