@@ -100,18 +100,13 @@ def _standing(it: Diagnosis, found: Discovery, best: Names) -> _Rival | None:
     """What the laws that were found cost; None where there are none, where one has no form, or by other readings."""
     if found.settled or found.end.lost or not found.laws or not all(law.ways for law in found.laws):
         return None
-    chosen = [law.ways[0] for law in found.laws]
-    # Of forms that explain as much, one whose rows choose no sides may be the cheaper rival of an effect.
-    cheapest = min(found.laws[-1].ways, key=lambda way: way.with_sides)
-    if found.steps[-1] is found.laws[-1] and cheapest is not chosen[-1]:
-        chosen[-1], found = cheapest, replace(found, end=cheapest.fit)
-    numbers = sum(way.numbers for way in chosen)
+    numbers = sum(law.ways[0].numbers for law in found.laws)
     # That bars bend far costs nothing where the set has it too.
     numbers += int(found.bent and not root_of(it.cache, best))
     # What the model has from the start is there in all that compete.
     there = frozenset(found.end.model.names) & set(it.cache.candidates)
     beside = there - root_of(it.cache, there)
-    kinked = any(way.formed.form.kinked for way in chosen)
+    kinked = any(each.ways[0].formed.form.kinked for each in found.laws)
     # Choices of sides cost a law what they cost an effect.
     left = found.end.chi_square + found.end.residual.doubt + found.end.residual.spread
     cost = left + (numbers + taken(it.cache, beside)) * _of_one(it)

@@ -45,6 +45,8 @@ def at_known_inputs(found: Fit) -> Fit:
         if np.all((off <= INPUTS.near * known)[~found.prediction.lost]) or over():
             break
         here = predict(model, cases, start=found.prediction, shift=found.residual.shift)
+        if np.any(here.lost & ~found.prediction.lost):
+            break
         here = objective.about(here)
         found = replace(found, prediction=here, residual=residual(cases, here))
     return found

@@ -82,15 +82,15 @@ def greatest_load(site: Site) -> float:
 
 def formed(site: Site, rest: Rest, largest: float) -> list[Formed]:
     """All forms that a site may follow, the least cost first."""
-    place = "series" if SITE_KINDS[site.kind].series else "parallel"
-    bars = greatest_load(site) > 0.0
-    some = (form for form in forms().values() if place in form.places and (bars or not form.loaded))
-    found = [it for form in some if (it := fitted_form(form, site, rest, largest)) is not None]
+    found = [it for form in forms().values() if (it := fitted_form(form, site, rest, largest)) is not None]
     return sorted(found, key=lambda it: it.cost)
 
 
 def fitted_form(form: Form, site: Site, rest: Rest, largest: float) -> Formed | None:
-    """A form at its best shapes; None where none is a law."""
+    """A form at its best shapes; None where none is a law, or the site may not follow it."""
+    place = "series" if SITE_KINDS[site.kind].series else "parallel"
+    if place not in form.places or (form.loaded and not greatest_load(site) > 0.0):
+        return None
     best: Formed | None = None
     load = greatest_load(site)
     for start in form.starts(largest):

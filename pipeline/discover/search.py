@@ -39,12 +39,14 @@ GEOMETRY = "bar_geometric_nonlinearity"
 class Law:
     """A law that was found. map: what was seen before it. group: sites that are not told apart, the best first.
     left_out: (parts,) gains of `Rest.gains`. ways: forms fitted through the mechanism, the chosen one first, then those
-    tied with it; empty for a sensor's column, of which there is no law in the mechanism, and where no form is one."""
+    tied with it; empty for a sensor's column, of which there is no law in the mechanism, and where no form is one.
+    apart: names of places with as much evidence at which that form explains less through the mechanism."""
 
     map: Map
     group: tuple[Located, ...]
     left_out: Array
     ways: tuple[Through, ...]
+    apart: frozenset[str] = frozenset()
 
     @property
     def site(self) -> Site:
@@ -59,7 +61,7 @@ class Law:
     @property
     def margin(self) -> float:
         """Evidence above the best site outside the group; infinite where there is none."""
-        names = {it.site.name for it in self.group}
+        names = {it.site.name for it in self.group} | self.apart
         others = [it.value for it in self.map.sites if it.site.name not in names]
         others += [it.value for it in self.map.bodies]
         return self.evidence - max(others) if others else np.inf
@@ -129,7 +131,7 @@ def discover(
     """
     on_progress("the model as it is")
     given, begin = _begin(cases, model, effects)
-    here, steps, settled = begin, list[Law | Added](), list[Readings]()
+    here, steps, settled, begun = begin, list[Law | Added](), list[Readings](), cases
     while True:
         on_progress("where the rest sits")
         seen = mapped(here, effects, known=[step.group[0] for step in steps if isinstance(step, Law)])
@@ -141,13 +143,12 @@ def discover(
             given, begin = (fitted_to(each.model, cases) for each in (given, begin))
             here = begin if not steps else fitted_to(here.model, cases)
             continue
-        if (
-            steps
-            and seen.best >= CRITERIA.law_proposed
-            and (better := _elsewhere(steps[-1], here, cases, on_progress))
-        ):
-            steps[-1], here = better, better.ways[0].fit
-            continue
+        last = steps[-1] if steps and begun is cases else None
+        if isinstance(last, Law) and seen.best >= CRITERIA.law_proposed:
+            better = _elsewhere(last, here, cases, on_progress)
+            if better is not None:
+                steps[-1], here = better, better.ways[0].fit
+                continue
         step = _step(seen, cases, len(steps) + 1, on_progress)
         if isinstance(step, Law) and step.ways:
             known = [it.group[0] for it in steps if isinstance(it, Law)]
@@ -158,6 +159,7 @@ def discover(
         if step is None or len(steps) >= CRITERIA.laws_at_most:
             return Discovery(given, begin, tuple(steps), here, seen, step is None, tuple(settled))
         steps.append(step)
+        begun = cases
         if isinstance(step, Added):
             here = fit(started(here.model, step.body), cases)
         elif step.ways:
@@ -204,27 +206,33 @@ def _step(seen: Map, cases: LoadCases, number: int, on_progress: OnProgress) -> 
     return None
 
 
-def _elsewhere(step: Law | Added, here: Fit, cases: LoadCases, on_progress: OnProgress) -> Law | None:
-    """A law that left a pattern, at the place of its group where that form leaves least through the mechanism; None
-    where none is better. Influences that are known to some parts in a hundred do not tell places apart that the
-    mechanism does. here: the fit with it."""
-    if isinstance(step, Added) or not step.ways:
+def _elsewhere(law: Law, here: Fit, cases: LoadCases, on_progress: OnProgress) -> Law | None:
+    """A law that left a pattern, at the place of its kind and group where it leaves least through the mechanism; None
+    where no other is better. Influences that are known to some parts in a hundred do not tell places apart that the
+    mechanism does. here: the fit with it, of the readings by which it was found."""
+    chosen, rest, base = law.ways[0], law.map.rest, law.map.found.model
+    tried = {law.site.name: replace(chosen, fit=here)}
+    for it in law.group[1:]:
+        form = (
+            fitted_form(chosen.formed.form, it.site, rest, it.largest)
+            if it.site.kind == law.site.kind
+            else None
+        )
+        if form is not None:
+            on_progress(f"the law at {it.site.name} instead")
+            tried[it.site.name] = through(form, base, cases, chosen.law.name)
+    least = min(tried, key=lambda name: tried[name].cost)
+    told = tried[least].cost + CRITERIA.law_alike
+    if tried[law.site.name].cost <= told:
         return None
-    kept, chosen = [step.group[0]], step.ways[0]
-    base, name, best = step.map.found.model, chosen.law.name, replace(chosen, fit=here).cost
-    for it in step.group[1:]:
-        on_progress(f"the law at {it.site.name} instead")
-        form = None if _is_column(it) else fitted_form(chosen.formed.form, it.site, step.map.rest, it.largest)
-        cost = np.inf if form is None else through(form, base, cases, name).cost
-        if cost < best - CRITERIA.law_alike:
-            kept, best = [it], cost
-        elif cost <= best + CRITERIA.law_alike:
-            kept.append(it)
-    if kept[0] is step.group[0]:
+    it = next(each for each in law.group if each.site.name == least)
+    apart = frozenset(name for name, way in tried.items() if way.cost > told)
+    group = (it, *(each for each in law.group if each is not it and each.site.name not in apart))
+    ways = ways_of(law.map, formed(it.site, rest, it.largest), cases, chosen.law.name, on_progress)
+    if not ways or ways[0].cost > told:
         return None
-    first = formed(kept[0].site, step.map.rest, kept[0].largest)
-    ways = ways_of(step.map, first, cases, name, on_progress)
-    return replace(step, group=tuple(kept), ways=ways) if ways else None
+    left_out = _gained_at(law.map, it.evidence)[0]
+    return replace(law, group=group, left_out=left_out, ways=ways, apart=law.apart | apart)
 
 
 def _in_its_place(law: Law) -> Iterator[str]:

@@ -37,12 +37,6 @@ class Through:
         return self.fit.chi_square + self.numbers * float(np.log(self.fit.whitened.size))
 
     @property
-    def with_sides(self) -> float:
-        """The same with what rows took off it by choosing their sides of a stop: choices cost a law what they cost an
-        effect, though not beside other laws."""
-        return self.cost + self.fit.residual.doubt + self.fit.residual.spread
-
-    @property
     def values(self) -> dict[str, float]:
         """Of its numbers, by parameter."""
         own = next(term for term in self.fit.model.terms if term.effect is self.law)

@@ -14,7 +14,7 @@ from pipeline.discover import looking, search
 from pipeline.discover.beyond_catalogue import with_laws
 from pipeline.discover.effect_file import effect_text, name_of, write_effect
 from pipeline.discover.evidence import Array, Evidence
-from pipeline.discover.forming import formed
+from pipeline.discover.forming import fitted_form, formed
 from pipeline.discover.locating import Located, mapped
 from pipeline.discover.recording import recorded
 from pipeline.discover.search import Discovery, discover, fitted_to
@@ -177,13 +177,27 @@ def test_a_play_is_found_as_a_gap() -> None:
     assert found.whole
 
 
+def test_a_form_that_a_place_cannot_have_is_not_tried_there(
+    found: Discovery, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Dry friction holds a hinge; what is rigid is never in a group with it by that form."""
+    law = found.laws[0]
+    along = next(it for it in law.map.sites if it.site.name == "along")
+    assert fitted_form(law.ways[0].formed.form, along.site, law.map.rest, along.largest) is None
+    monkeypatch.setattr(search, "through", lambda *_: pytest.fail("it was tried"))
+    wide = replace(law, group=(law.group[0], along))
+    cases = found.end.residual.load_cases
+    assert search._elsewhere(wide, found.end, cases, lambda _: None) is None
+
+
 @pytest.mark.long
 def test_a_law_of_one_end_of_the_bars_is_placed_there() -> None:
     """Influences that are known to some parts in a hundred do not tell it from one of both ends, the mechanism does."""
     campaign, _ = measured(law_case, 11)
     (law,) = discovered(campaign).laws
     names = {it.site.name for it in law.group}
-    assert "hinge_torque@base" in names and "hinge_torque" not in names
+    assert "hinge_torque@base" in names and "hinge_torque" in law.apart and not names & law.apart
+    assert law.margin > 0.0
 
 
 @pytest.mark.usefixtures("known_laws")

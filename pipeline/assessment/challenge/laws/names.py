@@ -10,7 +10,7 @@ FORMS: Mapping[str, tuple[str, ...]] = {
     "EvenPart": ("linear+square", "square+cubic", "square"),
     "Tanh": ("tanh", "linear+tanh"),
     "Atan": ("atan", "linear+atan"),
-    "DeadZone": ("dead_zone", "gap", "linear+dead_zone"),
+    "DeadZone": ("dead_zone", "gap", "linear+dead_zone", "two_zones", "linear+two_zones"),
     "TwoSlopes": ("two_slopes",),
     "Power": ("power", "linear+power"),
     "Exponential": ("exponential",),
