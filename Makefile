@@ -86,7 +86,7 @@ mistaken: $(STAMP)
 left_out: $(STAMP)
 	$(PYTHON) -m pipeline.assessment.left_out
 
-# Bars off, lugs, long tails, knocked readings, rounding, each alone on many benches: hours, to be stopped and started too.
+# Bars off, lugs, long tails, knocked readings, rounding, soft drives, each alone on many benches: hours, to be stopped and started too.
 .PHONY: doubts
 doubts: $(STAMP)
 	$(PYTHON) -m pipeline.assessment.doubts

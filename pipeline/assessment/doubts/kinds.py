@@ -12,6 +12,7 @@ from pipeline.assessment.challenge.cases import HIDDEN
 from pipeline.assessment.challenge.dirty.dirt import DIALS, OFF, Dirt, true_rig
 from pipeline.assessment.doubts.answers import Told
 from pipeline.assessment.doubts.benches import KNOCKED, Drawn
+from pipeline.assessment.doubts.machines import Factors
 from pipeline.campaign import ParallelogramRig, UniformBar
 
 Array = NDArray[np.float64]
@@ -25,22 +26,38 @@ ROUNDED = 2.0
 """Resolution of displays, in sigmas."""
 OF_BAR = frozenset({"modulus_error", "bar_section_error"})
 """Names that say that the bar is not as it is written."""
+SOFT_DRIVES, SOFT_FEET = 0.8, 0.7
+"""Stiffness of a machine's drives and of its feet over that of its file."""
+EXPLANATIONS = 3
+"""Of which one is right, at most."""
 NO_LUG = frozenset({"axis_flexibility", "base_compliance"})
 """What a lugged bar must not be taken for."""
 
 
 @dataclass(frozen=True)
 class Kind:
-    """made, right: in words. wanted: how often. draw: what a bench has, by its rig and a generator, and whether an
-    effect is hidden on every other one. judged: why an answer is not right, empty where it is."""
+    """made, right: in words. wanted: how often. judged: why an answer is not right, empty where it is."""
 
     made: str
     right: str
     wanted: str
-    draw: Callable[[ParallelogramRig, np.random.Generator, bool], Drawn]
     judged: Callable[[Told], str]
+
+
+@dataclass(frozen=True)
+class OfBench(Kind):
+    """draw: what a bench has, by its rig and a generator, and whether an effect is hidden on every other one. beside:
+    whether the same bench is diagnosed without it too."""
+
+    draw: Callable[[ParallelogramRig, np.random.Generator, bool], Drawn]
     beside: bool = False
-    """Whether the same bench is diagnosed without it too."""
+
+
+@dataclass(frozen=True)
+class OfMachine(Kind):
+    """draw: stiffness of a machine's parts over that of its file, by a generator."""
+
+    draw: Callable[[np.random.Generator], Factors]
 
 
 def _plain(rig: ParallelogramRig, _: np.random.Generator, hidden: bool) -> Drawn:
@@ -143,47 +160,88 @@ def _not_bad(it: Told) -> str:
     return f"{len(it.aside)} readings set aside" if it.aside else ""
 
 
-KINDS: Mapping[str, Kind] = {
-    "bar within 3 %": Kind(
+def _named(name: str) -> Callable[[Told], str]:
+    """Whether an answer names an effect, alone or in one of few explanations."""
+
+    def judged(it: Told) -> str:
+        if it.verdict not in ("identified", "ambiguous") or not any(name in names for names in it.sets):
+            return f"{name} not named"
+        return f"one of {len(it.sets)}" if len(it.sets) > EXPLANATIONS else ""
+
+    return judged
+
+
+def _typed_in(generator: np.random.Generator) -> Factors:
+    return Factors(*(1.0 + generator.uniform(-OFF, OFF, 3)).tolist())
+
+
+BENCHES: Mapping[str, OfBench] = {
+    "bar within 3 %": OfBench(
         "each stiffness of the bars off by up to 3 %, evenly drawn; nothing hidden",
         "nothing is named",
         "98 %",
-        _bar_near,
         _nothing_named,
+        _bar_near,
     ),
-    "bar off by 10 %": Kind(
+    "bar off by 10 %": OfBench(
         "each stiffness of the bars off by 10 %, alike or each with a sign of its own; nothing hidden",
         "named as the bar in every set",
         "90 %",
-        _bar_far,
         _bar_named,
+        _bar_far,
     ),
-    "lugged bar": Kind(
+    "lugged bar": OfBench(
         "rigid ends of 0.5 to 2 % of the length each; written by the formulas of a uniform beam; nothing hidden",
         "neither axes nor base named",
         "always",
-        _lugged,
         _no_lug,
+        _lugged,
     ),
-    "long tails": Kind(
+    "long tails": OfBench(
         "noise of Student's t with 3 degrees of freedom",
         "tails found, nothing set aside, verdict as without",
         "always",
-        _tails,
         _tails_found,
+        _tails,
         beside=True,
     ),
-    "six knocked": Kind(
+    "six knocked": OfBench(
         "six readings off by 15 to 60 sigmas",
         "those that show set aside and no others, verdict as without",
         "always",
-        _knocked,
         _these_cells,
+        _knocked,
         beside=True,
     ),
-    "rounded": Kind("dials rounded to two sigmas", "no sigma is changed", "always", _rounded, _not_rescaled),
-    "right sigmas": Kind("nothing besides", "no sigma is changed", "always", _plain, _not_rescaled),
-    "play, friction": Kind(
-        "a play or a friction in the hinges", "nothing is set aside", "always", _kinked, _not_bad
+    "rounded": OfBench(
+        "dials rounded to two sigmas", "no sigma is changed", "always", _not_rescaled, _rounded
+    ),
+    "right sigmas": OfBench("nothing besides", "no sigma is changed", "always", _not_rescaled, _plain),
+    "play, friction": OfBench(
+        "a play or a friction in the hinges", "nothing is set aside", "always", _not_bad, _kinked
     ),
 }
+MACHINES: Mapping[str, OfMachine] = {
+    "soft drives": OfMachine(
+        "Orthoglide, all drives 20 % softer",
+        "actuator_compliance, alone or in one of three explanations at most",
+        "always",
+        _named("actuator_compliance"),
+        lambda _: Factors(drives=SOFT_DRIVES),
+    ),
+    "soft feet": OfMachine(
+        "Orthoglide, all feet 30 % softer",
+        "link_compliance, alone or in one of three explanations at most",
+        "always",
+        _named("link_compliance"),
+        lambda _: Factors(links=SOFT_FEET),
+    ),
+    "typed in": OfMachine(
+        "Orthoglide, stiffness of drives, feet and bars each up to 3 % off, evenly drawn",
+        "nothing is named",
+        "95 %",
+        _nothing_named,
+        _typed_in,
+    ),
+}
+KINDS: Mapping[str, Kind] = {**BENCHES, **MACHINES}

@@ -8,16 +8,16 @@ import numpy as np
 
 from pipeline.assessment.challenge.laws.outcome import discovered, reference
 from pipeline.assessment.left_out.benches import LeftOut, measured
+from pipeline.assessment.study import Tried
 from pipeline.campaign import Campaign
 from pipeline.discover.search import Discovery, Law
 from pipeline.inference.fit import unfitted
 from pipeline.inference.load_cases import load_cases
-from pipeline.record import Record
 from pipeline.selection.adequacy.judgement import judge
 from vjm.effects import catalogue
 
 
-class Trial(Record):
+class Trial(Tried):
     """A bench. name: of what is hidden. mu: sigmas by which it shows. told: sigmas beside all that tolerances explain.
     sites: the group of each place that was found, the best first; effects: what entered the model. right: whether a
     place is that of what is hidden, or, where there is none, that none was told without doubt. doubted: whether more
@@ -37,8 +37,6 @@ class Trial(Record):
     held_out: float | None = None
     error: str = ""
     seconds: float = 0.0
-    commit: str
-    code: str
 
 
 def trial(number: int, name: str, commit: str, code: str) -> Trial:

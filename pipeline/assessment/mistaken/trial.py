@@ -10,10 +10,10 @@ import numpy as np
 from pipeline.assessment.challenge.cases import ROUND
 from pipeline.assessment.challenge.outcome import campaign_of, measured
 from pipeline.assessment.mistaken.tables import KINDS, Made
+from pipeline.assessment.study import Tried
 from pipeline.campaign.tolerance import usual
 from pipeline.errors import InputError
 from pipeline.inference.model import Model
-from pipeline.record import Record
 from pipeline.selection.diagnosis import cached_fits
 from pipeline.selection.doctor import suspicions
 from vjm.effects import catalogue
@@ -24,7 +24,7 @@ NONE = "right"
 SEED = 20261129
 
 
-class Trial(Record):
+class Trial(Tried):
     """A table. kind: of mistake; number: of the bench among the cases of the challenge. hidden: names of effects that
     it has. made: the words that name the mistake; empty where it would not show. told: words of all that is said,
     the likeliest first. error: why nothing was looked at, or the look did not end."""
@@ -36,8 +36,6 @@ class Trial(Record):
     told: tuple[str, ...] = ()
     error: str = ""
     seconds: float = 0.0
-    commit: str
-    code: str
 
     @property
     def counts(self) -> bool:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from pipeline.assessment.challenge.cases import ALWAYS, Case
 from pipeline.assessment.challenge.outcome import Score, campaign_of, judged, measured
+from pipeline.assessment.study import Tried
 from pipeline.attempt import Attempts
 from pipeline.inference.model import Model
 from pipeline.record import Record
@@ -39,15 +40,13 @@ class Change(Record):
     answer: Verdict
 
 
-class Trial(Record):
+class Trial(Tried):
     """A case of the challenge: its answer, and every other one that a changed criterion leads to."""
 
     number: int
     answer: Verdict | None
     changes: tuple[Change, ...] = ()
     error: str = ""
-    commit: str
-    code: str
 
 
 def varied() -> tuple[str, ...]:

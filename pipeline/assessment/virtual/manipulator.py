@@ -73,8 +73,10 @@ def measure_manipulator(
     loadings: tuple[Loading, ...],
     hidden: Mapping[str, Mapping[str, float]],
     seed: int,
+    noise: Noise = NOISE,
 ) -> Campaign:
-    """The campaign that this manipulator with hidden effects (values by effect and parameter) gives, with noise.
+    """The campaign that this manipulator with hidden effects (values by effect and parameter) gives, with noise; what
+    has no sigma is not read.
 
     InputError for an effect that the frame at rest does not have.
     """
@@ -94,14 +96,14 @@ def measure_manipulator(
         own, way, loads = rigs[one.point], read[:, :6], read[:, 6:]
         data = Data(
             np.arange(len(one.loads)),
-            way + generator.normal(size=way.shape) * NOISE.displacement,
-            loads + generator.normal(size=way.shape) * NOISE.wrench,
+            way + generator.normal(size=way.shape) * noise.displacement,
+            loads + generator.normal(size=way.shape) * noise.wrench,
             np.zeros((len(one.loads), 0)),
             None,
             np.zeros(len(one.loads), dtype=np.int64),
         )
         tests.append(Test(one.id, 0.0, one.role, ("force",) * 6, "nominal", own, data))
-    return Campaign(name, rig, NOISE, (), tuple(tests))
+    return Campaign(name, rig, noise, (), tuple(tests))
 
 
 def _weight(rig: ManipulatorRig) -> Array:

@@ -9,7 +9,7 @@ import pytest
 
 from pipeline.assessment.doubts.answers import Cells, Told
 from pipeline.assessment.doubts.benches import KNOCKED, doubt_case, rig_of, table
-from pipeline.assessment.doubts.kinds import FAR_OFF, KINDS, typed, with_lugs
+from pipeline.assessment.doubts.kinds import BENCHES, FAR_OFF, KINDS, typed, with_lugs
 from pipeline.assessment.doubts.page import page
 from pipeline.assessment.doubts.trial import Trial, drawn_for, trial
 from pipeline.campaign import UniformBar
@@ -47,14 +47,14 @@ def test_what_is_typed_of_a_uniform_bar_is_its_section() -> None:
         assert getattr(again, name) == pytest.approx(getattr(BAR, name))
 
 
-@pytest.mark.parametrize("kind", KINDS)
+@pytest.mark.parametrize("kind", BENCHES)
 def test_benches_are_the_same_but_for_the_doubt(kind: str) -> None:
     for number in (0, 1):
         it = doubt_case(number, drawn_for(kind, number))
         clear = doubt_case(number, drawn_for("right sigmas", number))
         assert (it.bench.label, it.seed) == (clear.bench.label, clear.seed)
         assert [t.id for t in it.bench.plan] == [t.id for t in clear.bench.plan]
-        if KINDS[kind].beside:
+        if BENCHES[kind].beside:
             assert it.hidden == clear.hidden
             assert bool(it.hidden) == bool(number)
 

@@ -1,5 +1,6 @@
 """Effects that are left out of the catalogue: what is hidden, what is right, and what the page counts."""
 
+from dataclasses import replace
 from pathlib import Path
 from types import SimpleNamespace
 from typing import Any, cast
@@ -9,7 +10,7 @@ import pytest
 
 from pipeline.assessment.challenge.benches import Bench, whole_plan
 from pipeline.assessment.challenge.laws.size import OutOfSight, scale_of
-from pipeline.assessment.left_out import __main__ as command
+from pipeline.assessment.left_out.__main__ import STUDY
 from pipeline.assessment.left_out.benches import MU, LeftOut, Way, measured, sized
 from pipeline.assessment.left_out.entries import ENTRIES
 from pipeline.assessment.left_out.page import page
@@ -98,7 +99,7 @@ def test_the_page_counts_what_it_says() -> None:
     assert all(len(line) <= 120 for line in text.splitlines() if not line.startswith("|"))
 
 
-def test_a_study_goes_on_from_what_is_kept(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_study_goes_on_from_what_is_kept(tmp_path: Path) -> None:
     """Of the trials of one round all but the first are there already."""
     code = code_digest()
     store = tmp_path / "trials.jsonl"
@@ -106,8 +107,8 @@ def test_a_study_goes_on_from_what_is_kept(tmp_path: Path, monkeypatch: pytest.M
     store.write_text(
         "".join(made(k, code=code).model_dump_json() + "\n" for k in range(1, count)), encoding="utf-8"
     )
-    monkeypatch.setattr(command, "trial", lambda number, name, *_: made(number, code=code, mu=15.0))
-    command.main(rounds=1, workers=1, store=store, out=tmp_path)
+    study = replace(STUDY, trial=lambda number, name, *_: made(number, code=code, mu=15.0))
+    study.run(1, 1, store, tmp_path)
     assert len(kept(store, Trial)) == count and (tmp_path / "left_out.md").is_file()
 
 
