@@ -207,26 +207,25 @@ def _step(seen: Map, cases: LoadCases, number: int, on_progress: OnProgress) -> 
 
 
 def _elsewhere(law: Law, here: Fit, cases: LoadCases, on_progress: OnProgress) -> Law | None:
-    """A law that left a pattern, at the place of its kind and group where it leaves least through the mechanism; None
-    where no other is better. Influences that are known to some parts in a hundred do not tell places apart that the
-    mechanism does. here: the fit with it, of the readings by which it was found."""
+    """A law that left a pattern, at the place of its kind and group where it leaves least through the mechanism, of
+    those with more evidence; None where no other is better. Influences that are known to some parts in a hundred do not
+    tell places apart that the mechanism does. here: the fit with it, of the readings by which it was found."""
     chosen, rest, base = law.ways[0], law.map.rest, law.map.found.model
     tried = {law.site.name: replace(chosen, fit=here)}
     for it in law.group[1:]:
-        form = (
-            fitted_form(chosen.formed.form, it.site, rest, it.largest)
-            if it.site.kind == law.site.kind
-            else None
-        )
+        likelier = it.site.kind == law.site.kind and it.value > law.evidence
+        form = fitted_form(chosen.formed.form, it.site, rest, it.largest) if likelier else None
         if form is not None:
             on_progress(f"the law at {it.site.name} instead")
             tried[it.site.name] = through(form, base, cases, chosen.law.name)
-    least = min(tried, key=lambda name: tried[name].cost)
-    told = tried[least].cost + CRITERIA.law_alike
-    if tried[law.site.name].cost <= told:
-        return None
-    it = next(each for each in law.group if each.site.name == least)
+    told = min(way.cost for way in tried.values()) + CRITERIA.law_alike
     apart = frozenset(name for name, way in tried.items() if way.cost > told)
+    if law.site.name not in apart:
+        return None
+    # The coarsest of those that are as good.
+    it = max(
+        (each for each in law.group if each.site.name in {*tried} - apart), key=lambda each: each.site.parts
+    )
     group = (it, *(each for each in law.group if each is not it and each.site.name not in apart))
     ways = ways_of(law.map, formed(it.site, rest, it.largest), cases, chosen.law.name, on_progress)
     if not ways or ways[0].cost > told:
