@@ -177,6 +177,12 @@ def test_a_play_is_found_as_a_gap() -> None:
     assert found.whole
 
 
+def test_what_a_function_at_a_place_explains_is_no_noise(unknown: Diagnosis, found: Discovery) -> None:
+    """Also where no form is that function, and sums of squares are those of noise."""
+    assert looking.explains(unknown, found)
+    assert not looking.explains(unknown, replace(found, last=found.laws[0].map))
+
+
 def test_a_form_that_a_place_cannot_have_is_not_tried_there(
     found: Discovery, monkeypatch: pytest.MonkeyPatch
 ) -> None:
