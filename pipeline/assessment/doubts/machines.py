@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from pipeline.assessment.doubts.benches import SEED
 from pipeline.assessment.virtual.manipulator import Loading, measure_manipulator
 from pipeline.campaign import Campaign, ManipulatorRig, Noise
+from pipeline.campaign.tolerance import usual
 from pipeline.manipulator.description import read
 from vjm.manipulator.parts import Manipulator, Parallelogram
 from vjm.parts import Actuator, Elastic, Part
@@ -86,4 +87,4 @@ def measured(number: int, by: Factors, noise: Noise = NOISE) -> Campaign:
     tests = tuple(
         replace(test, rig=replace(rig, at=one.point)) for test, one in zip(found.tests, plan, strict=True)
     )
-    return replace(found, rig=rig, tests=tests)
+    return replace(found, rig=rig, tests=tests, tolerance=usual(rig.written))

@@ -39,6 +39,7 @@ def test_position_and_force_alone_are_read() -> None:
     data = measured(0, AS_WRITTEN).tests[0].data
     assert np.isfinite(data.displacement[:, :3]).all() and np.isnan(data.displacement[:, 3:]).all()
     assert np.isfinite(data.wrench[:, :3]).all() and np.isnan(data.wrench[:, 3:]).all()
+    assert measured(0, AS_WRITTEN).tolerance == {"bars": 0.03, "drives": 0.03, "links": 0.03}
 
 
 def test_a_soft_drive_is_the_effect_of_the_catalogue() -> None:
