@@ -39,9 +39,6 @@ class Factors:
     bars: float = 1.0
 
 
-AS_WRITTEN = Factors()
-
-
 def stiffened(machine: Manipulator, by: Factors) -> Manipulator:
     """A machine with its parts so much stiffer."""
     legs = tuple(replace(leg, parts=tuple(_part(part, by) for part in leg.parts)) for leg in machine.legs)

@@ -9,7 +9,7 @@ import pytest
 
 from pipeline.assessment.doubts.answers import Told
 from pipeline.assessment.doubts.kinds import KINDS, MACHINES, SOFT_DRIVES
-from pipeline.assessment.doubts.machines import AS_WRITTEN, LOAD, NOISE, POSTURES, Factors, loadings, measured
+from pipeline.assessment.doubts.machines import LOAD, NOISE, POSTURES, Factors, loadings, measured
 from pipeline.assessment.doubts.trial import trial
 from pipeline.campaign import Noise
 from pipeline.inference.load_cases import load_cases
@@ -17,6 +17,7 @@ from pipeline.inference.model import Model, Term
 from pipeline.inference.prediction import predict
 from vjm.effects import catalogue
 
+AS_WRITTEN = Factors()
 SILENT = replace(NOISE, displacement=0.0 * NOISE.displacement, wrench=0.0 * NOISE.wrench)
 
 
