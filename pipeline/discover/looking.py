@@ -12,7 +12,6 @@ from pipeline.discover.search import Discovery, discover
 from pipeline.inference.load_cases import LoadCases, load_cases
 from pipeline.inference.model import Model
 from pipeline.selection.adequacy.judgement import judge
-from pipeline.selection.criteria import CRITERIA
 from pipeline.selection.diagnosis import Diagnosis
 from pipeline.selection.fit_cache import Names
 
@@ -33,7 +32,7 @@ def discovered(it: Diagnosis, start: Model, on_progress: OnProgress, but: Names 
 
 def explains(it: Diagnosis, found: Discovery) -> bool:
     """Whether nothing but noise is left beside what was found, and no place at which a function explains it."""
-    if found.end.lost or found.last.best >= CRITERIA.law_proposed:
+    if found.end.lost or found.last.best >= it.cache.criteria.law_proposed:
         return False
     return judge(found.end, it.cache.criteria).noise
 

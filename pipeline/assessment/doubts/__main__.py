@@ -11,7 +11,8 @@ STUDY = Study(
     of="benches",
     count=200,
     counted="Benches of each kind.",
-    tasks=lambda count: [(kind, number) for kind in KINDS for number in range(count)],
+    # Of every kind as many, wherever it is stopped.
+    tasks=lambda count: [(kind, number) for number in range(count) for kind in KINDS],
     trial=trial,
     kind=Trial,
     task=lambda it: (it.kind, it.number),

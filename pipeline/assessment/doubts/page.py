@@ -15,8 +15,8 @@ _ABOUT = """\
 Benches of the frame finite elements that have one thing besides the physics and nothing else. Rigs, sensors and plans
 are drawn as in the dirty programme, from a seed of their own, and are the same for every kind. Tolerances are the usual
 ones. Where an effect may be hidden every other bench has one. Of the Orthoglide position and force are read (10 um,
-0.5 N) in forty postures, each under 1000 N in a direction of its own; the truth are frame elements at rest. Bounds are
-those of Clopper and Pearson (95 %)."""
+0.5 N) in forty postures, each under 1000 N in a direction of its own; the truth is by frame elements at rest. Bounds
+are those of Clopper and Pearson (95 %)."""
 
 
 def page(found: Sequence[Trial]) -> str:
