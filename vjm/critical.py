@@ -43,12 +43,6 @@ class CriticalLoad:
     unstable: int
     reason: str
 
-    @property
-    def platform_direction(self) -> Array | None:
-        """(6,) platform part of the buckling direction; zero where all coordinates are held."""
-        place = lagrangian.layout(self.state.mechanism).platform
-        return None if self.direction is None else self.direction[place]
-
 
 def driven(mechanism: Mechanism, displacement: float) -> Array:
     """(6,) pose of the platform moved along x by `displacement`, mm, from the unloaded one."""

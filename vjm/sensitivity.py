@@ -172,19 +172,6 @@ def by_parameters(
     return Sensitivity(state, unknowns, change, own + read_change(state, unknowns), regular)
 
 
-def by_parameter(
-    state: Equilibrium,
-    build: Callable[[float], Mechanism],
-    value: float,
-    size: float,
-    target_slope: ArrayLike = 0.0,
-    memory_slope: ArrayLike = 0.0,
-) -> Sensitivity:
-    """By one parameter, see `Direction`; target_slope (..., 6), memory_slope (..., M)."""
-    target, memory = (np.asarray(slope, dtype=float)[..., None] for slope in (target_slope, memory_slope))
-    return by_parameters(state, [Direction(build, value, size)], target, memory)
-
-
 def _residual(state: Equilibrium, memory: Array, place: lagrangian.Layout, still: bool = False) -> Array:
     """Dimensionless residual (..., N) with zero targets, in the scales of `place`; still: of the chains, which do not
     change, zeros."""

@@ -11,16 +11,6 @@ def base_coordinates(X: Floats, R: Floats) -> Floats:
     return np.concatenate((X, log(R)), axis=-1)
 
 
-def base_spring(X: Floats, R: Floats, stiffness: Floats) -> tuple[Floats, Floats]:
-    """Force (B, 6) and tangent (B, 6, 6) of linear springs on a body at X (B, 3), R (B, 3, 3), at rest at zero.
-
-    stiffness (B, 6): N/mm and N mm/rad along and about the axes of the base frame. The energy is half the sum of
-    k X² and k θ² with θ the rotation vector.
-    """
-    coordinates = base_coordinates(X, R)
-    return base_forces(coordinates, stiffness * coordinates, stiffness)
-
-
 def base_forces(coordinates: Floats, own: Floats, stiffness: Floats) -> tuple[Floats, Floats]:
     """Force (B, 6) and tangent (B, 6, 6) on the base body, along and about the axes of the base frame.
 

@@ -9,7 +9,6 @@ import scipy.sparse as sp
 
 from fem.material import Isotropic
 from fem.reduction import node_dofs
-from fem.rigid_motions import rigid_motions
 from fem.slices.classes import classes, mirrors, said
 from fem.slices.condensed import Slice
 from fem.slices.layer_matrix import LayerMatrix
@@ -115,12 +114,6 @@ class Chain:
             planes, middles = chain.solve(parts[:count], parts[count:], view[last].bases[2].T @ end)
             out += own.spread @ np.concatenate((*planes, *middles))
         return out
-
-    def unit_fields(self) -> Floats:
-        """Node displacements (dofs, 6), mm, for the six unit motions of the rigid tip about the middle of its face."""
-        places = self.swept.sweep.shapes[self.swept.sweep.shape_of[-1]].last_places
-        motions = rigid_motions(np.insert(places, 0, 0.0, axis=1))
-        return self.solve(np.zeros((self.swept.mesh.dofs, 6)), motions)
 
     def product(self, u: Floats) -> Floats:
         """Nodal forces (dofs, r) of node displacements `u`: the stiffness of the whole mesh, layer by layer."""

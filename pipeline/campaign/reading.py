@@ -69,7 +69,10 @@ def read(folder: Path, instead: str | None = None) -> Campaign:
         if head.id in data:
             remarks += judge(head, data[head.id], description.gauges, noise, columns, complaints)
     complaints.check()
-    tests = tuple(_test(head, data[head.id], description, first) for head in description.heads)
+    turns = {name: turn for turn, name in enumerate(dict.fromkeys(measured.tests))}
+    tests = tuple(
+        _test(head, data[head.id], turns[head.id], description, first) for head in description.heads
+    )
     first.check()
     known, said = _tolerance(description)
     asked = [f"{DESCRIPTION}, {said}" for said in description.questions]
@@ -95,11 +98,10 @@ def read(folder: Path, instead: str | None = None) -> Campaign:
     )
 
 
-def _test(head: Head, data: Data, description: Description, complaints: Complaints) -> Test:
+def _test(head: Head, data: Data, turn: int, description: Description, complaints: Complaints) -> Test:
     """A test with its readings, without those that were set aside by hand."""
-    test = Test(
-        head.id, head.q_deg, head.role, head.control, head.zero, head.rig, data, head.set_aside, head.keep
-    )
+    by_hands = (head.set_aside, head.keep)
+    test = Test(head.id, head.q_deg, head.role, head.control, head.zero, head.rig, data, *by_hands, turn)
     return by_hand(test, description.gauges, head.line, complaints)
 
 

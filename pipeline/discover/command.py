@@ -11,6 +11,7 @@ from meshes.files import replacing
 from pipeline.add.command import starting_model
 from pipeline.callbacks import OnProgress
 from pipeline.campaign import Campaign, read
+from pipeline.campaign.order import by_name
 from pipeline.command import usable
 from pipeline.discover.effect_file import effect_text, name_of, write_effect
 from pipeline.discover.record import Discovered
@@ -91,7 +92,7 @@ def searched(
 ) -> tuple[Discovery, Campaign]:
     """What is found in the tests that may be fitted, and the campaign with all that it lacks of sigmas."""
     check_suitable([term.effect for term in model.terms], campaign)
-    whole, _ = trusted_and_fit(completed(campaign), model, None)
+    whole, _ = trusted_and_fit(completed(by_name(campaign)), model, None)
     effects, _ = suitable(whole, model, known.effects)
     fitted = tuple(test for test in whole.tests if test.role == "fit")
     if not fitted:

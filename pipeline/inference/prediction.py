@@ -10,7 +10,6 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from pipeline.campaign.names import COORDINATES
 from pipeline.campaign.rig import Solvable
 from pipeline.inference.bifurcation import Sight, branched
 from pipeline.inference.history import history
@@ -308,9 +307,3 @@ def _direction(model: Model, number: int, group: Group, load_cases: LoadCases) -
     if model.reads_alone(each, value + change, group, gauges):
         return SensorDirection(lambda other: moved(other).sensors, value, size)
     return Direction(moved, value, size, lambda other: group.standing(moved(other)))
-
-
-def coordinate_names(load_cases: LoadCases) -> tuple[str, ...]:
-    """Names of the channels as columns of measurements.csv without units."""
-    wrench = tuple(f"{'f' if k < 3 else 'm'}{'xyz'[k % 3]}" for k in range(6))
-    return (*COORDINATES, *wrench, *(g.name for g in load_cases.campaign.gauges))

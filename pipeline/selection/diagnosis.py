@@ -12,6 +12,7 @@ from pipeline.answer.record import Verdict
 from pipeline.attempt import Attempts
 from pipeline.callbacks import OnProgress
 from pipeline.campaign import Campaign
+from pipeline.campaign.order import by_name
 from pipeline.errors import InputError
 from pipeline.inference.declared_sigmas import trusted_and_fit
 from pipeline.inference.estimated_sigmas import completed
@@ -145,7 +146,7 @@ def diagnose(
     criteria: Criteria = CRITERIA,
 ) -> Diagnosis:
     """Look for what the model lacks. InputError for a campaign that cannot be judged or a model that it cannot have."""
-    begin = perf_counter()
+    begin, campaign = perf_counter(), by_name(campaign)
     cache, refused = _prepared(campaign, model, known, on_progress, criteria)
     attempts = Attempts()
     beginning(cache)
@@ -248,7 +249,7 @@ def cached_fits(
     campaign: Campaign, model: Model, known: Mapping[str, Effect], on_progress: OnProgress = lambda _: None
 ) -> FitCache:
     """Where fits of the campaign are kept, none made yet. InputError as of `diagnose`."""
-    return _prepared(campaign, model, known, on_progress, CRITERIA)[0]
+    return _prepared(by_name(campaign), model, known, on_progress, CRITERIA)[0]
 
 
 def _prepared(

@@ -20,7 +20,7 @@ from vjm.mechanisms.assembly import GaugeAt
 from vjm.mechanisms.bar import Bar
 from vjm.mechanisms.parallelogram import Parallelogram
 from vjm.refined import Refined
-from vjm.sensitivity import by_parameter, by_targets
+from vjm.sensitivity import Direction, by_parameters, by_targets
 
 HELD = ("x", "z", "ry")
 MODELS = {
@@ -120,7 +120,7 @@ def test_derivatives_by_parameters_of_the_chains(name: str, parameter: str) -> N
     state = solve(value)
     assert np.all(state.converged)
     slope = difference(lambda p: targets_of(build(p)), value, 1e-2 * size)
-    found = by_parameter(state, build, value, size, target_slope=slope)
+    found = by_parameters(state, [Direction(build, value, size)], slope[..., None])
     expected = difference(lambda p: outputs(solve(p)), value, 0.02 * size)
     assert_close(np.concatenate([found.pose, found.load], axis=-2)[..., 0], expected, state, size)
     again = difference(lambda p: solve(p).readings[..., 12], value, 0.02 * size)
@@ -141,7 +141,8 @@ def test_derivatives_pass_through_a_history_with_friction() -> None:
     state, memory = None, np.zeros(1)
     for target in targets:
         state = equilibrium(build(350.0), target, held, state)
-        found = by_parameter(state, build, 350.0, 350.0, memory_slope=memory if memory.size > 1 else 0.0)
+        past = memory[:, None] if memory.size > 1 else 0.0
+        found = by_parameters(state, [Direction(build, 350.0, 350.0)], memory_slope=past)
         memory = found.memory[:, 0]
     assert state is not None
     expected = difference(lambda p: outputs(load_path(build(p), targets, held).member(-1)), 350.0, 0.5)

@@ -12,6 +12,7 @@ from vjm import closed_forms, paper
 from vjm.branch import branch_amplitude, buckled_path
 from vjm.critical import critical_load, drive
 from vjm.frames import move_stiffness
+from vjm.lagrangian import layout
 from vjm.mechanisms.parallelogram import Parallelogram
 from vjm.stability import negative_eigenvalues, reduced_modes
 
@@ -111,8 +112,8 @@ def test_sideways_instability_needs_a_lever_behind_the_spring(place: str) -> Non
         return
     assert found.load == pytest.approx(expected, rel=1e-8)
     assert found.unstable == 1
-    direction = found.platform_direction
-    assert direction is not None
+    assert found.direction is not None
+    direction = found.direction[layout(mechanism).platform]
     # It moves in y and turns about z, nothing else.
     assert np.abs(direction[[0, 2, 3, 4]]).max() < 1e-6 * np.abs(direction[1])
 
