@@ -15,7 +15,10 @@ import numpy as np
 from vjm.frames import Array
 from vjm.lagrangian import ChainRows, Layout, layout
 from vjm.mechanism import Mechanism
-from vjm.newton import negatives, solve_each
+from vjm.newton import negatives, solve_each, solve_symmetric
+
+NOBODY = np.zeros(0, dtype=int)
+"""Of no member unstable directions are counted."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -37,7 +40,8 @@ class Control:
 @dataclass(frozen=True, eq=False)
 class Solution:
     """step: (B, N, r) dimensionless. regular: (B,). stiffness: (B, 6, 6) dimensionless, the sum of Eq. 10 over the
-    chains that are eliminated.
+    chains that are eliminated. counted: (m,) numbers of members; beyond: (m,) what the matrices of these chains have of
+    negative eigenvalues beyond the six of each of their closures.
 
     control: (B, 6, K) the platform's equations by its motion and the unknowns of chains that are not eliminated, all
     else following.
@@ -47,12 +51,19 @@ class Solution:
     regular: np.ndarray
     stiffness: Array
     control: Array
+    counted: np.ndarray
+    beyond: np.ndarray
 
 
 def newton_step(
-    mechanism: Mechanism, rows: tuple[ChainRows, ...], right: Array, control: Control
+    mechanism: Mechanism,
+    rows: tuple[ChainRows, ...],
+    right: Array,
+    control: Control,
+    counted: np.ndarray = NOBODY,
 ) -> Solution:
     """Dimensionless solutions of H step = right, chain by chain; the platform's rows are those of the control.
+    counted: numbers (m,) of the members of which `unstable_directions` are counted.
 
     right: (B, N, r) dimensionless. Each chain is solved for its own right side and for six unit motions of the
     platform, which leaves 6x6 equations with the sum of the chains' stiffness (Eq. 10). A chain that is rigid in some
@@ -64,11 +75,13 @@ def newton_step(
     platform, matrix = right[:, place.platform], control.by_pose
     carried = np.zeros((len(right), 6, count))
     regular, answers = np.ones(len(right), dtype=bool), {}
+    beyond = np.zeros(counted.size, dtype=int)
     for k, (chain, by) in enumerate(zip(mechanism.chains, control.by_coordinates, strict=True)):
         if chain.rigid:
             continue
         m = place.coordinates[k].stop - place.coordinates[k].start
-        answer, solvable = _answers(place, rows[k], k, right)
+        answer, solvable, below = _answers(place, rows[k], k, right, counted)
+        beyond += below - chain.closures
         load, own = np.split(answer[:, m : m + 6], [count], axis=-1)
         carried += load
         if by is not None:
@@ -88,18 +101,20 @@ def newton_step(
         x = place.coordinates[k]
         both = answer[..., :count] + answer[..., count:] @ motion[:, :6]
         step[:, x], step[:, place.closing[k]] = both[:, : x.stop - x.start], both[:, x.stop - x.start :]
-    return Solution(step, regular & solvable, stiffness, matrix[:, :6])
+    return Solution(step, regular & solvable, stiffness, matrix[:, :6], counted, beyond)
 
 
-def _answers(place: Layout, row: ChainRows, number: int, right: Array) -> tuple[Array, np.ndarray]:
+def _answers(
+    place: Layout, row: ChainRows, number: int, right: Array, counted: np.ndarray
+) -> tuple[Array, np.ndarray, np.ndarray]:
     """Solutions (B, m + c, r + 6) of a chain's block for its own right side and for six unit motions of the platform,
-    and whether it is regular (B,)."""
+    whether it is regular (B,), and the negative eigenvalues of the counted members."""
     x, dual = place.coordinates[number], place.closing[number]
     m, count = x.stop - x.start, right.shape[-1]
     sides = np.zeros((len(right), m + dual.stop - dual.start, count + 6))
     sides[:, :m, :count], sides[:, m:, :count] = right[:, x], right[:, dual]
     sides[:, m : m + 6, count:] = -np.eye(6)
-    return solve_each(_dimensionless(place, row, x, dual), sides)
+    return solve_symmetric(_dimensionless(place, row, x, dual), sides, counted)
 
 
 def chain_stiffnesses(mechanism: Mechanism, rows: tuple[ChainRows, ...]) -> Array:
@@ -112,7 +127,7 @@ def chain_stiffnesses(mechanism: Mechanism, rows: tuple[ChainRows, ...]) -> Arra
     out = []
     for k, row in enumerate(rows):
         m = place.coordinates[k].stop - place.coordinates[k].start
-        answer, regular = _answers(place, row, k, none)
+        answer, regular, _ = _answers(place, row, k, none, NOBODY)
         if mechanism.chains[k].rigid or not regular.all():
             raise np.linalg.LinAlgError("a chain has no stiffness of its own there")
         own = answer[:, m : m + 6] * place.load_scale[:, None] / place.pose_scale
@@ -167,26 +182,22 @@ class _Whole:
 
 
 def unstable_directions(
-    mechanism: Mechanism, rows: tuple[ChainRows, ...], found: Solution, control: Control, members: np.ndarray
+    mechanism: Mechanism, rows: tuple[ChainRows, ...], found: Solution, control: Control
 ) -> np.ndarray:
-    """Number (m,) of unstable directions of these members (m,), chain by chain; -1 where it is not known.
+    """Number (m,) of unstable directions of the counted members, chain by chain; -1 where it is not known.
 
     Inertia adds up over the elimination (E. V. Haynsworth, "Determination of the inertia of a partitioned
     Hermitian matrix", Linear Algebra and its Applications 1, 1968): what each chain's matrix has beyond the six
     negative eigenvalues of each of its closures, and what is left on the motions of the platform that the control
     allows.
     """
-    place = layout(mechanism)
-    count = np.zeros(members.size, dtype=int)
+    members, count = found.counted, found.beyond
     if members.size == 0:
         return count
-    taken = tuple(ChainRows(r.balance, r.gap, r.matrix[members]) for r in rows)
-    for chain, row, x, dual in zip(mechanism.chains, taken, place.coordinates, place.closing, strict=True):
-        if not chain.rigid:
-            count += negatives(_dimensionless(place, row, x, dual)) - chain.closures
     stiffness, held = found.stiffness[members], control.held[members]
     whole = _Whole.of(mechanism)
     if whole.numbers:
+        taken = tuple(ChainRows(r.balance, r.gap, r.matrix[members]) for r in rows)
         return _beside(whole, taken, stiffness, found.control[members], control, held, count)
     if not control.plain:
         return count + _on_allowed(stiffness, found.control[members], held)

@@ -15,7 +15,7 @@ state estimation in robotics", 2018, eqs. 134, 145, 146 (left Jacobian of SO(3) 
 
 from __future__ import annotations
 
-from math import factorial
+from math import factorial, prod
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -210,3 +210,9 @@ def _inverse_closed(square: Array) -> tuple[Array, Array]:
     c = (1.0 - 0.5 * t * cot) / s
     h_slope = (0.5 * cot - 0.25 * t * (1.0 + cot * cot)) / (2.0 * t)
     return c, -(h_slope + c) / s
+
+
+def flat(rows: Array) -> Array:
+    """(..., n) as a contiguous (B, n) of floats that can be written to, as compiled functions are made for."""
+    whole = np.require(rows, dtype=float, requirements=("C", "W"))
+    return whole.reshape(prod(rows.shape[:-1]), rows.shape[-1])

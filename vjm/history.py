@@ -19,9 +19,9 @@ from vjm.frames import Array
 from vjm.laws import Law
 from vjm.sensitivity import (
     AnyDirection,
+    Force,
     Sensitivity,
     Target,
-    by_forces,
     by_parameters,
     differences,
     read_change,
@@ -34,8 +34,15 @@ def by_history(state: Equilibrium, directions: Sequence[AnyDirection], order: in
     A parameter or an input changes at all steps, a target at its own alone: what it leaves in the memory is not
     followed. order: see `by_parameters`. `memory` of the answer is what each step by itself changes in it.
     """
-    alone = by_parameters(state, directions, order=order)
-    handed = [k for k, d in enumerate(directions) if not isinstance(d, Target)]
+    laws, count = _Laws.of(state), len(directions)
+    forces = [Force(int(place)) for place in laws.places]
+    # Few sides more cost less than the same matrices once more.
+    at_once = forces if len(forces) <= count else []
+    alone = by_parameters(state, [*directions, *at_once], order=order)
+    gain = alone.unknowns[..., count:]
+    alone = replace(alone, **{n: getattr(alone, n)[..., :count] for n in ("unknowns", "memory", "readings")})
+    sizes = {k: d.size for k, d in enumerate(directions) if not isinstance(d, Target | Force)}
+    handed = list(sizes)
     left = alone.memory[..., handed]
     marked = np.any(left != 0.0, axis=(-2, -1))
     tests = np.flatnonzero(marked[:, :-1].any(axis=1))
@@ -43,10 +50,8 @@ def by_history(state: Equilibrium, directions: Sequence[AnyDirection], order: in
         return alone
     first = int(np.argmax(marked[tests].any(axis=0))) + 1
     part = state.member((tests, slice(first, None)))
-    laws = _Laws.of(state)
-    sizes = [d.size for d in directions if not isinstance(d, Target)]
-    steps = differences(order, np.array(sizes))
-    gain = by_forces(part, laws.places)
+    gain = gain[tests, first:] if at_once else by_parameters(part, forces).unknowns
+    steps = differences(order, np.array(list(sizes.values())))
     strain, memory = part.unknowns[..., laws.places] - laws.rest(part), part.memory
     slope = left[tests, first - 1]
     force = np.zeros((*strain.shape, len(handed)))

@@ -14,8 +14,6 @@ from vjm.reasons import Reason
 FIRST_STEP, LARGEST_STEP, LEAST_STEP = 1.0 / 16.0, 1.0 / 4.0, 1.0 / 128.0
 # Increments of one load case. Of 30 benches none needs more than 12; one that creeps at the least step is lost.
 _TRIES = 48
-# Numbers of a chunk's matrices; a few MB, so that they stay in a cache and memory does not grow with the batch.
-_NUMBERS = 400_000
 _SOON = 8
 # Beyond a quarter of the first step, or this many iterations, there may be other solutions as near.
 _FAR, MANY = 0.25, 6
@@ -91,11 +89,9 @@ def _newton(problem: Problem, start: Array, tolerance: float, limit: int) -> Ite
 def _in_chunks(problem: Problem, start: Array, tolerance: float, limit: int) -> Iterate:
     place = problem.place
     motion = np.arange(place.platform.stop)
-    sizes = zip(place.coordinates, place.closing, strict=True)
-    step = max(4, _NUMBERS // max(x.stop - x.start + dual.stop - dual.start for x, dual in sizes) ** 2)
     end = unsolved(start)
-    for first in range(0, len(start), step):
-        part = np.arange(first, min(first + step, len(start)))
+    for first in range(0, len(start), place.several):
+        part = np.arange(first, min(first + place.several, len(start)))
         system = problem.take(part).blockwise
         end.put(part, newton(system, start[part], place.scale, tolerance, limit, motion))
     return end

@@ -1,8 +1,12 @@
 """Compiled kinematics of a chain: what closures, dead loads and gauges need of it, state by state.
 
-The same as `vjm.chain.Kinematics`, which is written with whole arrays and is what this is tested against. A chain has
-some tens of joints, each a few products of three numbers: with whole arrays most of the time goes into calls. numba
-compiles these functions at their first use and keeps them on disk.
+A chain has some tens of joints, each a few products of three numbers: with whole arrays most of the time would go into
+calls. numba compiles these functions at their first use and keeps them on disk.
+
+A joint nearer the base carries those after it: d²p/dx_i dx_j = w_i x v_j and dw_j/dx_i = w_i x w_j for i before j, v
+and w being columns of the spatial velocity Jacobian. With the force f and m = B(phi)^T mu of a multiplier lambda and
+phi_dot = B omega, the second derivative of pose^T lambda at fixed lambda sums to w_i·z_j for i up to j,
+z = v x f + w x m + (dm/dphi B)^T w.
 
 A frame is kept as rows (4, 3): its three axes and its origin, in the base frame, mm. Arrays are contiguous, of floats;
 their sizes have to fit, nothing here looks after that.
@@ -10,59 +14,19 @@ their sizes have to fit, nothing here looks after that.
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import Any, NamedTuple, TypeVar, cast
-
 import numpy as np
-from numba import njit
 
+from vjm.compiled import compiled
 from vjm.frames import B_SQUARE, B_SQUARE_SLOPE, SERIES_LIMIT, Array
+from vjm.program import Marks, Program
 
-Function = TypeVar("Function", bound=Callable[..., Any])
 SHIFT, FIXED, SLIDE, TURN = 0, 1, 2, 3
 """Kinds of elements: a constant translation, any other constant transform, a joint that slides, one that turns."""
 NO_COLUMN = -1
 """Of a coordinate that does not move."""
 
 
-class Program(NamedTuple):
-    """A chain as arrays, E elements with J joints.
-
-    kinds: (E,). along: (E,) number of the own axis that a joint has, -1 for any other direction. vectors: (E, 3)
-    translation, or axis of the joint. rotations: (E, 3, 3) of constant transforms. coordinate: (J,) that moves a joint,
-    share: (J,) by which. turns: (J,) of bool. reference: (3, 3) from which the rotation vector counts.
-    """
-
-    kinds: np.ndarray
-    along: np.ndarray
-    vectors: Array
-    rotations: Array
-    coordinate: np.ndarray
-    share: Array
-    turns: np.ndarray
-    reference: Array
-
-
-class Marks(NamedTuple):
-    """Points of a chain, those nearer the base first.
-
-    elements: (s,) before each. offsets: (s, 3) in the frame there, mm.
-    """
-
-    elements: np.ndarray
-    offsets: Array
-
-
-def _compiled(function: Function) -> Function:
-    """The function compiled at its first use; kept on disk where there is a place for it."""
-    try:
-        return cast(Function, njit(cache=True)(function))
-    except RuntimeError:
-        # Neither the folder of the program nor that of the user can be written to.
-        return cast(Function, njit(function))
-
-
-@_compiled
+@compiled
 def _in_base(vector: Array, frame: Array) -> tuple[float, float, float]:
     """A vector (3,) of a frame in the base frame."""
     return (
@@ -72,12 +36,12 @@ def _in_base(vector: Array, frame: Array) -> tuple[float, float, float]:
     )
 
 
-@_compiled
+@compiled
 def _cross(a: Array, b: Array) -> tuple[float, float, float]:
     return a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]
 
 
-@_compiled
+@compiled
 def _rotate(frame: Array, rotation: Array) -> None:
     """Turn a frame by a constant rotation, in its own axes."""
     for i in range(3):
@@ -86,7 +50,7 @@ def _rotate(frame: Array, rotation: Array) -> None:
             frame[k, i] = rotation[0, k] * a + rotation[1, k] * b + rotation[2, k] * c
 
 
-@_compiled
+@compiled
 def _turn(frame: Array, along: int, own: Array, axis: Array, angle: float) -> None:
     """Turn a frame about an axis (3,) of the base frame, which has the number `along` or the components `own` in it."""
     sine, cosine = np.sin(angle), np.cos(angle)
@@ -106,7 +70,7 @@ def _turn(frame: Array, along: int, own: Array, axis: Array, angle: float) -> No
         frame[i, 2] = cosine * frame[i, 2] + sine * z + part * axis[2]
 
 
-@_compiled
+@compiled
 def _walk(
     p: Program, marks: Marks, x: Array, frame: Array, axes: Array, origins: Array, places: Array
 ) -> None:
@@ -140,7 +104,7 @@ def _walk(
         joint += 1
 
 
-@_compiled
+@compiled
 def _rotation_vector(frame: Array, reference: Array, phi: Array) -> None:
     """`vjm.frames.log` of the frame's rotation from the reference."""
     r, q, s = np.empty((3, 3)), np.empty(4), np.empty((4, 4))
@@ -175,7 +139,7 @@ def _rotation_vector(frame: Array, reference: Array, phi: Array) -> None:
 
 # The series of `vjm.frames` are compiled in: where they change this file has to change as well, or what is kept on disk
 # stays (tests/vjm/test_kernels.py is red then).
-@_compiled
+@compiled
 def _coefficients(square: float) -> tuple[float, float]:
     """c = (1 - (t/2) cot(t/2)) / t² of t², and dc/d(t²), as in `vjm.frames`."""
     if square < SERIES_LIMIT:
@@ -191,10 +155,10 @@ def _coefficients(square: float) -> tuple[float, float]:
     return c, -((0.5 * cot - 0.25 * t * (1.0 + cot * cot)) / (2.0 * t) + c) / square
 
 
-@_compiled
+@compiled
 def _rate(phi: Array, mu: Array, rate: Array, turned: Array) -> None:
     """B (3, 3) of the rotation vector, and what second derivatives need of the multiplier mu: as `turned` (3, 3) the
-    transposed d(B^T mu)/dphi B less the cross product with the moment B^T mu; see `Kinematics.hessian`."""
+    transposed d(B^T mu)/dphi B less the cross product with the moment B^T mu; see above."""
     square = phi[0] ** 2 + phi[1] ** 2 + phi[2] ** 2
     along = phi[0] * mu[0] + phi[1] * mu[1] + phi[2] * mu[2]
     c, slope = _coefficients(square)
@@ -224,25 +188,40 @@ def _rate(phi: Array, mu: Array, rate: Array, turned: Array) -> None:
         turned[k, j] -= moment[i]
 
 
-@_compiled
-def _ordered(p: Program, columns: np.ndarray, w: Array, z: Array, sign: float, matrix: Array) -> None:
-    """Add sign x what is w_i·z_j for joints i up to j, and symmetric, by the coordinates, to the matrix (., .)."""
-    for i in range(p.turns.size):
-        row = columns[p.coordinate[i]]
+@compiled
+def _own_columns(p: Program, columns: np.ndarray) -> np.ndarray:
+    """(J,) column of the coordinate that moves each joint."""
+    own = np.empty(p.coordinate.size, dtype=np.int64)
+    for k in range(own.size):
+        own[k] = columns[p.coordinate[k]]
+    return own
+
+
+@compiled
+def _ordered(p: Program, own: np.ndarray, w: Array, z: Array, sign: float, matrix: Array) -> None:
+    """Add sign x what is w_i·z_j for joints i up to j, and symmetric, by the coordinates, to the matrix (., .).
+
+    The joints' shares are taken into z.
+    """
+    for j in range(own.size):
+        for k in range(3):
+            z[j, k] *= sign * p.share[j]
+    for i in range(own.size):
+        row, share = own[i], p.share[i]
         if not p.turns[i] or row == NO_COLUMN:
             continue
-        for j in range(i, p.turns.size):
-            column = columns[p.coordinate[j]]
+        a, b, c, line = share * w[i, 0], share * w[i, 1], share * w[i, 2], matrix[row]
+        for j in range(i, own.size):
+            column = own[j]
             if column == NO_COLUMN:
                 continue
-            entry = w[i, 0] * z[j, 0] + w[i, 1] * z[j, 1] + w[i, 2] * z[j, 2]
-            entry *= sign * p.share[i] * p.share[j]
-            matrix[row, column] += entry
+            entry = a * z[j, 0] + b * z[j, 1] + c * z[j, 2]
+            line[column] += entry
             if i != j:
                 matrix[column, row] += entry
 
 
-@_compiled
+@compiled
 def poses(p: Program, coordinates: Array, out: Array) -> None:
     """(B, 6) of the last frame at coordinates (B, n), into `out`."""
     joints, marks = p.coordinate.size, Marks(np.empty(0, dtype=np.int64), np.empty((0, 3)))
@@ -254,7 +233,7 @@ def poses(p: Program, coordinates: Array, out: Array) -> None:
         out[b, :3], out[b, 3:] = frame[3], phi
 
 
-@_compiled
+@compiled
 def close(
     p: Program,
     columns: np.ndarray,
@@ -274,66 +253,80 @@ def close(
     curvature to the matrix (B, m + c, m + c). columns: (n,) of the path's coordinates among the moving ones,
     `NO_COLUMN` where one does not move.
     """
-    joints, row, marks = (
-        p.coordinate.size,
-        moving + dual,
-        Marks(np.empty(0, dtype=np.int64), np.empty((0, 3))),
-    )
-    frame, places, phi = np.empty((4, 3)), np.empty((0, 3)), np.empty(3)
+    joints, row, own = p.coordinate.size, moving + dual, _own_columns(p, columns)
+    frame, phi, marks = np.empty((4, 3)), np.empty(3), Marks(np.empty(0, dtype=np.int64), np.empty((0, 3)))
     axes, origins, linear = np.empty((joints, 3)), np.empty((joints, 3)), np.empty((joints, 3))
     z, rate, turned = np.empty((joints, 3)), np.empty((3, 3)), np.empty((3, 3))
     for b in range(coordinates.shape[0]):
-        _walk(p, marks, coordinates[b], frame, axes, origins, places)
+        _walk(p, marks, coordinates[b], frame, axes, origins, marks.offsets)
         _rotation_vector(frame, p.reference, phi)
         for i in range(3):
             gap[b, dual + i] += sign * frame[3, i]
             gap[b, dual + i + 3] += sign * phi[i]
         multiplier = multipliers[b, dual : dual + 6]
         _rate(phi, multiplier[3:], rate, turned)
-        for k in range(joints):
-            linear[k] = axes[k]
-            if p.turns[k]:
-                linear[k, 0], linear[k, 1], linear[k, 2] = _cross(axes[k], frame[3] - origins[k])
-            column = columns[p.coordinate[k]]
-            if column != NO_COLUMN:
-                _column(p, k, column, axes[k], linear[k], rate, multiplier, sign, row, balance[b], matrix, b)
+        _velocities(p, axes, origins, frame[3], linear)
+        _pull(p, own, axes, linear, multiplier, _in_base(multiplier[3:], rate), sign, balance[b])
         if matrix.size:
+            _border(p, own, axes, linear, rate, sign, row, matrix[b])
             _pulled(p, axes, linear, turned, multiplier, z)
-            _ordered(p, columns, axes, z, sign, matrix[b])
+            _ordered(p, own, axes, z, sign, matrix[b])
 
 
-@_compiled
-def _column(
+@compiled
+def _velocities(p: Program, axes: Array, origins: Array, end: Array, linear: Array) -> None:
+    """(J, 3) of the end (3,) by the joints."""
+    for k in range(p.turns.size):
+        x, y, z = axes[k, 0], axes[k, 1], axes[k, 2]
+        if p.turns[k]:
+            a, b, c = end[0] - origins[k, 0], end[1] - origins[k, 1], end[2] - origins[k, 2]
+            x, y, z = y * c - z * b, z * a - x * c, x * b - y * a
+        linear[k, 0], linear[k, 1], linear[k, 2] = x, y, z
+
+
+@compiled
+def _pull(
     p: Program,
-    k: int,
-    column: int,
-    axis: Array,
+    own: np.ndarray,
+    axes: Array,
     linear: Array,
-    rate: Array,
-    multiplier: Array,
+    force: Array,
+    moment: tuple[float, float, float],
     sign: float,
-    row: int,
     balance: Array,
-    matrix: Array,
-    b: int,
 ) -> None:
-    """Add what joint k has of sign x Jacobian: its product with the multiplier (6,), and, in the matrix of state b, the
-    column and the row."""
-    share, pull = sign * p.share[k], 0.0
-    for i in range(6):
-        entry = linear[i] if i < 3 else 0.0
-        if i >= 3 and p.turns[k]:
-            entry = rate[i - 3, 0] * axis[0] + rate[i - 3, 1] * axis[1] + rate[i - 3, 2] * axis[2]
-        pull += entry * multiplier[i]
-        if matrix.size:
-            matrix[b, row + i, column] += share * entry
-            matrix[b, column, row + i] += share * entry
-    balance[column] += share * pull
+    """Add sign x what each joint feels of a force and a moment at the end to the balance (m,)."""
+    for k in range(own.size):
+        if own[k] != NO_COLUMN:
+            felt = linear[k, 0] * force[0] + linear[k, 1] * force[1] + linear[k, 2] * force[2]
+            if p.turns[k]:
+                felt += axes[k, 0] * moment[0] + axes[k, 1] * moment[1] + axes[k, 2] * moment[2]
+            balance[own[k]] += sign * p.share[k] * felt
 
 
-@_compiled
+@compiled
+def _border(
+    p: Program, own: np.ndarray, axes: Array, linear: Array, rate: Array, sign: float, row: int, matrix: Array
+) -> None:
+    """Add sign x Jacobian, from that row on, and its transpose to the matrix (., .)."""
+    for i in range(3):
+        moved, turned = matrix[row + i], matrix[row + i + 3]
+        for k in range(own.size):
+            column, share = own[k], sign * p.share[k]
+            if column == NO_COLUMN:
+                continue
+            entry = share * linear[k, i]
+            moved[column] += entry
+            matrix[column, row + i] += entry
+            if p.turns[k]:
+                about = rate[i, 0] * axes[k, 0] + rate[i, 1] * axes[k, 1] + rate[i, 2] * axes[k, 2]
+                turned[column] += share * about
+                matrix[column, row + i + 3] += share * about
+
+
+@compiled
 def _pulled(p: Program, axes: Array, linear: Array, turned: Array, multiplier: Array, z: Array) -> None:
-    """z (J, 3) of `Kinematics.hessian`."""
+    """z (J, 3), see above."""
     for k in range(p.turns.size):
         x, y, w = _cross(multiplier[:3], linear[k])
         z[k, 0], z[k, 1], z[k, 2] = -x, -y, -w
@@ -342,7 +335,7 @@ def _pulled(p: Program, axes: Array, linear: Array, turned: Array, multiplier: A
                 z[k, i] += turned[i, 0] * axes[k, 0] + turned[i, 1] * axes[k, 1] + turned[i, 2] * axes[k, 2]
 
 
-@_compiled
+@compiled
 def load(
     p: Program,
     marks: Marks,
@@ -359,7 +352,7 @@ def load(
     Adds sign x the generalised force to the balance (B, m) and, unless it is empty, sign x its derivative to the matrix
     (B, ., .); columns: as in `close`. The formulas are those of `vjm.loads.DeadLoads.pull`.
     """
-    joints, count = p.coordinate.size, marks.elements.size
+    joints, count, own = p.coordinate.size, marks.elements.size, _own_columns(p, columns)
     frame, places = np.empty((4, 3)), np.empty((count, 3))
     axes, origins, z = np.empty((joints, 3)), np.empty((joints, 3)), np.empty((joints, 3))
     beyond, whole, spread = np.empty(3), np.empty((3, 3)), np.empty((3, 3))
@@ -377,14 +370,13 @@ def load(
                 for j in range(3):
                     spread[i, j] = whole[i, j] - origins[k, i] * beyond[j]
             felt = _felt(p.turns[k], axes[k], beyond, spread, z[k])
-            column = columns[p.coordinate[k]]
-            if column != NO_COLUMN:
-                balance[b, column] += sign * p.share[k] * felt
+            if own[k] != NO_COLUMN:
+                balance[b, own[k]] += sign * p.share[k] * felt
         if matrix.size:
-            _ordered(p, columns, axes, z, sign, matrix[b])
+            _ordered(p, own, axes, z, sign, matrix[b])
 
 
-@_compiled
+@compiled
 def _felt(turns: bool, axis: Array, beyond: Array, spread: Array, z: Array) -> float:
     """What a joint feels of the forces beyond it, and its z (3,)."""
     if not turns:

@@ -17,10 +17,12 @@ from math import prod
 import numpy as np
 
 from vjm import kernels
-from vjm.chain import flat
-from vjm.frames import Array
+from vjm.frames import Array, flat
 from vjm.mechanism import ElasticChain, Mechanism
 from vjm.work import note
+
+NUMBERS = 100_000
+"""Of the matrices of each chain that are made at once: less than a MB."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -54,6 +56,12 @@ class Layout:
     def multipliers(self) -> tuple[slice, ...]:
         """lambda (6) of each chain."""
         return tuple(slice(dual.start, dual.start + 6) for dual in self.closing)
+
+    @cached_property
+    def several(self) -> int:
+        """Load cases whose matrices stay in a cache together; memory does not grow with the batch either."""
+        sizes = zip(self.coordinates, self.closing, strict=True)
+        return max(4, NUMBERS // max(x.stop - x.start + dual.stop - dual.start for x, dual in sizes) ** 2)
 
     @property
     def closures(self) -> int:
@@ -159,13 +167,13 @@ def chain_rows(
     coordinates = chain_coordinates(chain, moving, rest)
     strain = moving - rest[..., chain.moving]
     m, batch = chain.moving.size, moving.shape[:-1]
+    matrix, stiffness = np.zeros(0), chain.full_stiffness if linear is None else linear
     if second:
-        answer = chain.respond(strain, memory, linear)
-        size = m + chain.closures
-        matrix, balance = np.zeros((*batch, size, size)), answer.force
-        matrix[..., :m, :m] = answer.tangent
-    else:
-        matrix, balance = np.zeros(0), chain.force(strain, memory, linear)
+        whole = np.zeros((*stiffness.shape[:-2], m + chain.closures, m + chain.closures))
+        whole[..., :m, :m] = stiffness
+        matrix = np.empty((*batch, *whole.shape[-2:]))
+        matrix[...] = whole
+    balance = chain.force(strain, memory, linear, matrix if second else None)
     balance, gap = np.ascontiguousarray(balance), np.zeros((*batch, chain.closures))
     gap[..., :6] = pose
     _close(chain, coordinates, multipliers, gap, balance, matrix)

@@ -7,11 +7,13 @@ strain (..., k), force (..., k), tangent (..., k, k), memory (..., m). Laws of o
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Protocol, runtime_checkable
 
 import numpy as np
 
-from vjm.frames import Array
+from vjm.bending import bend
+from vjm.frames import Array, flat
 
 
 @dataclass(frozen=True, eq=False)
@@ -46,6 +48,14 @@ class Direct(Protocol):
     """A law whose force (..., k) is to be had alone, at less cost than the whole `Response`."""
 
     def force(self, strain: Array, memory: Array) -> Array: ...
+
+
+@runtime_checkable
+class Adding(Protocol):
+    """A law that adds its tangent to a matrix of more coordinates, (..., M, M), from a row and column on, and returns
+    its force (..., k)."""
+
+    def add(self, strain: Array, memory: Array, first: int, matrix: Array) -> Array: ...
 
 
 @dataclass(frozen=True, eq=False)
@@ -135,77 +145,31 @@ class BeamColumn:
         return np.zeros(0)
 
     def respond(self, strain: Array, memory: Array) -> Response:
-        block = np.zeros((*strain.shape[:-1], len(self.stiffness), 6, 6))
-        energy, force = self._answer(strain, block)
-        return Response(energy, force, block_diagonal(block), memory)
+        tangent = np.zeros((*strain.shape, strain.shape[-1]))
+        energy, force = self._bent(strain, 0, tangent)
+        return Response(energy, force, tangent, memory)
 
     def force(self, strain: Array, memory: Array) -> Array:
         """(..., k) without what a tangent costs."""
-        return self._answer(strain, None)[1]
+        return self._bent(strain, 0, np.zeros((0, 0, 0)))[1]
 
-    def _answer(self, strain: Array, block: Array | None) -> tuple[Array, Array]:
-        """Energy (...) and force (..., k); adds second derivatives to the block (..., n, 6, 6) of each segment."""
-        theta = strain.reshape(*strain.shape[:-1], -1, 6)
-        k, axial = self.stiffness[:, :, 0], self.stiffness[:, 0, 0]
-        whole = theta + self.shape
-        bow, give = self.curvature * whole, self.softening * whole
-        h = 0.5 * np.sum(theta * (bow + self.curvature * self.shape), axis=-1)
-        g = 0.5 * np.sum(whole * give, axis=-1)
-        linear = np.sum(k * theta, axis=-1)
-        ease = 1.0 + axial * g
-        tension = (linear + axial * h) / ease
-        relief = tension * g
-        slope = k + axial[:, None] * bow
-        force = h[..., None] * k + (tension * ease)[..., None] * bow
-        force -= relief[..., None] * slope + 0.5 * (tension**2)[..., None] * give
-        energy = h * linear + 0.5 * axial * h * h - 0.5 * ease * g * tension**2
-        if block is not None:
-            block += self._tangent(bow, give, slope, ease, tension, g)
-        for coupling, triple in zip(self.coupling.T, _TWISTED, strict=True):
-            energy += self._twist(coupling, triple, theta, force, block)
-        return np.asarray(np.sum(energy, axis=-1)), force.reshape(strain.shape)
+    def add(self, strain: Array, memory: Array, first: int, matrix: Array) -> Array:
+        """(..., k), and the tangent added to the matrix (..., M, M), contiguous, from that row and column on."""
+        return self._bent(strain, first, matrix)[1]
 
-    def _twist(
-        self, b: Array, triple: tuple[int, int, int], theta: Array, force: Array, block: Array | None
-    ) -> Array:
-        """Energy (..., n) of b phi_x phi s completed to a square; adds to force and, where there is one, to tangent."""
-        x, turn, shift = triple
-        fourth = b * b / self.stiffness[:, shift, shift]
-        for i, j, k in (triple, (turn, shift, x), (shift, x, turn)):
-            force[..., i] += b * theta[..., j] * theta[..., k]
-        for i, j in ((x, turn), (turn, x)):
-            force[..., i] += fourth * theta[..., i] * theta[..., j] ** 2
-        if block is not None:
-            for i, j, k in (triple, (turn, shift, x), (shift, x, turn)):
-                block[..., j, k] += b * theta[..., i]
-                block[..., k, j] += b * theta[..., i]
-            for i, j in ((x, turn), (turn, x)):
-                block[..., i, i] += fourth * theta[..., j] ** 2
-                block[..., i, j] += 2.0 * fourth * theta[..., i] * theta[..., j]
-        product = theta[..., x] * theta[..., turn]
-        return np.asarray(b * product * theta[..., shift] + 0.5 * fourth * product**2)
+    @cached_property
+    def _numbers(self) -> tuple[Array, Array, Array, Array, Array]:
+        stiffness, curvature = np.ascontiguousarray(self.stiffness), np.ascontiguousarray(self.curvature)
+        softening, coupling = np.ascontiguousarray(self.softening), np.ascontiguousarray(self.coupling)
+        return stiffness, curvature, softening, coupling, np.ascontiguousarray(self.shape)
 
-    def _tangent(self, bow: Array, give: Array, slope: Array, ease: Array, tension: Array, g: Array) -> Array:
-        """Second derivative of the energy, (..., n, 6, 6)."""
-        k, axial = self.stiffness[:, :, 0], self.stiffness[:, 0, 0]
-        # k b^T + b k^T + K11 b b^T is the difference of two squares, slope slope^T - k k^T over K11.
-        change = give * (tension / ease)[..., None]
-        block = _square(slope, (1.0 / axial - g / ease)) - _square(k, 1.0 / axial)
-        mixed = slope[..., :, None] * change[..., None, :]
-        block -= mixed + np.swapaxes(mixed, -1, -2)
-        block += _square(change, axial * ease)
-        diagonal = np.arange(6)
-        block[..., diagonal, diagonal] += tension[..., None] * self.curvature
-        block[..., diagonal, diagonal] -= 0.5 * (tension**2)[..., None] * self.softening
-        return block
-
-
-# phi_x, phi_y, s_y and phi_x, phi_z, s_z among the coordinates of a segment.
-_TWISTED = ((3, 4, 1), (3, 5, 2))
-
-
-def _square(v: Array, factor: Array) -> Array:
-    return (factor[..., None] * v)[..., :, None] * v[..., None, :]
+    def _bent(self, strain: Array, first: int, matrix: Array) -> tuple[Array, Array]:
+        """Energy (...) and force (..., k); the tangent is added unless the matrix is empty."""
+        theta = flat(strain)
+        energy, force = np.empty(len(theta)), np.empty(theta.shape)
+        matrices = matrix.reshape(len(theta) if matrix.size else 0, *matrix.shape[-2:])
+        bend(*self._numbers, theta, energy, force, first, matrices)
+        return energy.reshape(strain.shape[:-1]), force.reshape(strain.shape)
 
 
 def block_diagonal(blocks: Array) -> Array:

@@ -8,8 +8,9 @@ from functools import cached_property
 import numpy as np
 
 from vjm import kernels
-from vjm.chain import Chain, Kinematics, Mark, flat
-from vjm.frames import Array
+from vjm.chain import Chain, Mark
+from vjm.frames import Array, flat
+from vjm.program import Marks
 
 
 @dataclass(frozen=True, eq=False)
@@ -35,11 +36,6 @@ class DeadLoads:
         if places != sorted(places) or (places and places[-1] > len(self.path.elements)):
             raise ValueError(f"points stand along {len(self.path.elements)} elements in order, got {places}")
 
-    def potential(self, coordinates: Array) -> Array:
-        """Potential energy (...), N·mm, at all coordinates (..., n) of the chain."""
-        places = self._walk(coordinates).places
-        return -np.einsum("ks...,sk->...", places, self.forces)
-
     def pull(self, coordinates: Array, second: bool) -> tuple[Array, Array]:
         """Generalised force (..., n) and, if `second`, its derivative (..., n, n), else an empty array.
 
@@ -62,12 +58,9 @@ class DeadLoads:
         parts = (self.path.program, self._marked, self._joints, flat(self.forces))
         kernels.load(*parts, columns, here, sign, force.reshape(len(here), force.shape[-1]), slopes)
 
-    def _walk(self, coordinates: Array) -> Kinematics:
-        return self.path.kinematics(coordinates[..., self.coordinates], self.marks)
-
     @cached_property
-    def _marked(self) -> kernels.Marks:
-        return kernels.Marks(
+    def _marked(self) -> Marks:
+        return Marks(
             np.array([mark.elements for mark in self.marks], dtype=np.int64),
             np.array([mark.offset for mark in self.marks], dtype=float).reshape(-1, 3),
         )

@@ -17,7 +17,7 @@ from vjm.chain import Chain, Joint, Role
 from vjm.frames import Array
 from vjm.gauges import Gauge
 from vjm.kernels import NO_COLUMN
-from vjm.laws import Direct, Response, Spring
+from vjm.laws import Adding, Direct, Response, Spring
 from vjm.loads import DeadLoads
 from vjm.sensors import Sensor
 
@@ -270,13 +270,23 @@ class ElasticChain:
             remembered.append(answer.memory)
         return Response(energy, force, tangent, np.concatenate(remembered, axis=-1))
 
-    def force(self, strain: Array, memory: Array, linear: Array | None = None) -> Array:
-        """(..., m) as in `respond`; laws that can do so leave out their tangent."""
+    def force(
+        self, strain: Array, memory: Array, linear: Array | None = None, matrix: Array | None = None
+    ) -> Array:
+        """(..., m) as in `respond`. matrix: (..., M, M), contiguous, that begins with the coordinates and to which the
+        tangent of the laws is added; without it laws that can do so leave theirs out."""
         force = _along(self.full_stiffness if linear is None else linear, strain)
         for spring, numbers, part in zip(self.springs, self._groups, self._memories, strict=True):
-            own, past = strain[..., numbers], memory[..., part]
-            law = spring.law
-            alone = law.force(own, past) if isinstance(law, Direct) else law.respond(own, past).force
+            own, past, law = strain[..., numbers], memory[..., part], spring.law
+            if matrix is None:
+                alone = law.force(own, past) if isinstance(law, Direct) else law.respond(own, past).force
+            elif isinstance(law, Adding) and isinstance(numbers, slice):
+                alone = law.add(own, past, numbers.start, matrix)
+            else:
+                answer = law.respond(own, past)
+                alone = answer.force
+                both = (numbers, numbers) if isinstance(numbers, slice) else np.ix_(numbers, numbers)
+                matrix[..., *both] += answer.tangent
             force[..., numbers] += alone
         return np.asarray(force)
 

@@ -6,7 +6,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.linalg.lapack import dsytrf
+from scipy.linalg.lapack import dsytrf, dsytrs
 
 from vjm.frames import Array
 from vjm.reasons import Reason
@@ -112,7 +112,8 @@ def newton(
     start: (B, N). scale: (N,) sizes of the unknowns. motion: numbers of the unknowns that are displacements;
     a step that would change one of them by more than `LARGEST_STEP` of its size is shortened.
     The step after the residual has met the tolerance is still taken: it costs one solve and brings the
-    residual to rounding. Members that fail keep their last finite unknowns and a reason.
+    residual to rounding. It is none where the matrix is singular there, as of a linkage that swings freely. Members
+    that fail keep their last finite unknowns and a reason.
     """
     end, first = unsolved(start), None
     active = np.arange(len(start))
@@ -124,10 +125,10 @@ def newton(
         end.residual[active] = size = np.max(np.abs(rows), axis=-1)
         done = size < tolerance
         step, regular, end.unstable[active[done]] = solve(np.flatnonzero(done))
-        end.reason[active[~regular]] = SINGULAR
+        end.reason[active[~(regular | done)]] = SINGULAR
         far = ~(size < DIVERGED_ABOVE)
         end.reason[active[far]] = DIVERGED
-        moving = regular & ~far
+        moving = (regular | done) & ~far
         end.unknowns[active[moving]] += _shortened(step[moving], motion) * scale
         end.iterations[active] += 1
         end.reason[active[moving & done]] = CONVERGED
@@ -146,22 +147,57 @@ def newton(
     return end
 
 
-def negatives(symmetric: Array) -> np.ndarray:
-    """Number (B,) of negative eigenvalues of (B, n, n), by Sylvester's law of inertia.
+def solve_symmetric(
+    matrices: Array, right: Array, counted: np.ndarray
+) -> tuple[Array, np.ndarray, np.ndarray]:
+    """As `solve_each`, of symmetric matrices (B, n, n), and the number (m,) of negative eigenvalues of the members with
+    the numbers `counted` (m,), by the factors that solve them."""
+    if not counted.size:
+        return *solve_each(matrices, right), np.zeros(0, dtype=int)
+    solution, regular = np.zeros_like(right), np.ones(len(right), dtype=bool)
+    other = np.isin(np.arange(len(right)), counted, invert=True)
+    if other.any():
+        solution[other], regular[other] = solve_each(matrices[other], right[other])
+    factors = _Factors.of(matrices[counted] if other.any() else matrices)
+    for member, factor, pivots in zip(counted, factors.factors, factors.pivots, strict=True):
+        solution[member] = dsytrs(factor, pivots, right[member], lower=1)[0]
+    regular[counted] = factors.regular & np.isfinite(solution[counted]).all(axis=(-2, -1))
+    solution[~regular] = 0.0
+    return solution, regular, factors.negatives
 
-    L D L^T with pivots of one or two rows (J. R. Bunch, L. Kaufman, Mathematics of Computation 31, 1977; LAPACK's
-    sytrf): each of two has one negative eigenvalue. A pivot that is rounding beside the matrix is none: along a motion
-    that meets no stiffness.
-    """
-    count, n, _ = symmetric.shape
-    pivots, kinds = np.zeros((count, n)), np.zeros((count, n), dtype=np.int32)
-    for k, matrix in enumerate(symmetric):
-        # Transposed it stands as LAPACK wants it, and is the same.
-        factor, kinds[k], _ = dsytrf(matrix.T, lower=1, lwork=WORKSPACE * max(n, 1))
-        pivots[k] = np.diagonal(factor)
-    single = kinds > 0
-    tiny = NO_PIVOT * np.max(np.abs(symmetric), axis=(-2, -1), initial=0.0)[:, None]
-    return np.asarray(np.sum((pivots < -tiny) & single, axis=-1) + np.sum(~single, axis=-1) // 2)
+
+def negatives(symmetric: Array) -> np.ndarray:
+    """Number (B,) of negative eigenvalues of (B, n, n), by Sylvester's law of inertia."""
+    return _Factors.of(symmetric).negatives
+
+
+@dataclass(frozen=True, eq=False)
+class _Factors:
+    """L D L^T with pivots of one or two rows (J. R. Bunch, L. Kaufman, Mathematics of Computation 31, 1977; LAPACK's
+    sytrf). factors, pivots: of each matrix as LAPACK leaves them. regular: (B,) whether no pivot is zero. negatives:
+    (B,) negative eigenvalues."""
+
+    factors: list[Array]
+    pivots: np.ndarray
+    regular: np.ndarray
+    negatives: np.ndarray
+
+    @classmethod
+    def of(cls, symmetric: Array) -> _Factors:
+        """Of (B, n, n). A pivot that is rounding beside its matrix counts as none: along a motion that meets no
+        stiffness. Of two rows each has one negative eigenvalue."""
+        count, n, _ = symmetric.shape
+        factors, failed = [], np.zeros(count, dtype=int)
+        diagonals, pivots = np.zeros((count, n)), np.zeros((count, n), dtype=np.int32)
+        for k, matrix in enumerate(symmetric):
+            # Transposed it stands as LAPACK wants it, and is the same.
+            factor, pivots[k], failed[k] = dsytrf(matrix.T, lower=1, lwork=WORKSPACE * max(n, 1))
+            diagonals[k] = np.diagonal(factor)
+            factors.append(factor)
+        single = pivots > 0
+        tiny = NO_PIVOT * np.max(np.abs(symmetric), axis=(-2, -1), initial=0.0)[:, None]
+        below = np.sum((diagonals < -tiny) & single, axis=-1) + np.sum(~single, axis=-1) // 2
+        return cls(factors, pivots, failed == 0, np.asarray(below))
 
 
 def _shortened(step: Array, motion: np.ndarray | None) -> Array:

@@ -101,8 +101,8 @@ class Problem:
         rows = part.residual(chains, seen)
 
         def step(done: np.ndarray) -> tuple[Array, np.ndarray, np.ndarray]:
-            found = blocks.newton_step(self.mechanism, chains, -rows[..., None], control)
-            unstable = blocks.unstable_directions(self.mechanism, chains, found, control, done)
+            found = blocks.newton_step(self.mechanism, chains, -rows[..., None], control, done)
+            unstable = blocks.unstable_directions(self.mechanism, chains, found, control)
             return found.step[..., 0], found.regular, unstable
 
         return rows, step

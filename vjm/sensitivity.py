@@ -123,7 +123,14 @@ class Target:
     coordinate: int
 
 
-AnyDirection = Direction | SensorDirection | DriveDirection | Target
+@dataclass(frozen=True)
+class Force:
+    """A force on a coordinate, the unknown of this number, that its law holds against it beside its own."""
+
+    number: int
+
+
+AnyDirection = Direction | SensorDirection | DriveDirection | Target | Force
 TARGETS = tuple(Target(k) for k in range(6))
 
 
@@ -157,6 +164,9 @@ def by_parameters(
             sides = channel_scale(place, state.channels)[..., direction.coordinate]
             slope[..., place.platform.start + direction.coordinate, k] -= 1.0 / sides
             continue
+        if isinstance(direction, Force):
+            slope[..., direction.number, k] += place.scale[direction.number] / place.energy
+            continue
         still = isinstance(direction, SensorDirection) and not state.memory.shape[-1]
         for step, weight in differences(order, direction.size):
             if not step:
@@ -184,15 +194,6 @@ def _residual(state: Equilibrium, memory: Array, place: lagrangian.Layout, still
     return np.asarray(rows)
 
 
-def by_forces(state: Equilibrium, places: np.ndarray) -> Array:
-    """Derivatives (..., N, c) of the unknowns by forces on c coordinates, unknowns of these numbers, that laws hold
-    against them beside their own."""
-    place = lagrangian.layout(state.mechanism)
-    sides = np.zeros((*state.unknowns.shape, places.size))
-    sides[..., places, range(places.size)] = place.scale[places] / place.energy
-    return _solve(state, -sides)[0]
-
-
 def read_change(state: Equilibrium, unknowns: Array) -> Array:
     """Change (..., 12 + G, k) of the readings along k changes (..., N, k) of the unknowns."""
     return state.seen.change(unknowns)
@@ -202,12 +203,16 @@ def _solve(state: Equilibrium, right: Array) -> tuple[Array, np.ndarray]:
     """Solutions in the units of the unknowns of the dimensionless right sides (..., N, k)."""
     place = lagrangian.layout(state.mechanism)
     flat = state.reshaped(state.converged.size)
-    chains = lagrangian.all_rows(state.mechanism, flat.unknowns, flat.memory, flat.drives)
-    control = flat.seen.control(flat.channels)
     sides = right.reshape(len(flat.unknowns), place.size, right.shape[-1])
-    found = blocks.newton_step(state.mechanism, chains, sides, control)
-    unknowns = (found.step * place.scale[:, None]).reshape(right.shape)
-    return unknowns, found.regular.reshape(state.converged.shape)
+    unknowns, regular = np.empty(sides.shape), np.empty(len(sides), dtype=bool)
+    for first in range(0, len(sides), place.several):
+        part = slice(first, first + place.several)
+        here = flat.member(part)
+        chains = lagrangian.all_rows(state.mechanism, here.unknowns, here.memory, here.drives)
+        control = here.seen.control(here.channels)
+        found = blocks.newton_step(state.mechanism, chains, sides[part], control)
+        unknowns[part], regular[part] = found.step * place.scale[:, None], found.regular
+    return unknowns.reshape(right.shape), regular.reshape(state.converged.shape)
 
 
 def differences(order: int, size: Size) -> list[tuple[Size, Size]]:
@@ -221,14 +226,14 @@ def _memory_change(
 ) -> Array:
     """Derivative (..., M, k) of the memory after the step along the changes of unknowns and memory.
 
-    What a target leaves in the memory is not followed: it belongs to its own step.
+    What a target or a force leaves in the memory is not followed: it belongs to its own step.
     """
     if not memory.shape[-2]:
         return np.zeros(memory.shape)
     # Each direction in one piece: memories are long, and a sum into every k-th number takes several times as long.
     out = np.zeros((memory.shape[-1], *memory.shape[:-1]))
     for k, direction in enumerate(directions):
-        if isinstance(direction, Target):
+        if isinstance(direction, Target | Force):
             continue
         for step, weight in differences(order, direction.size):
             moved = replace(

@@ -28,8 +28,7 @@ def _by_closures(chain: ElasticChain, coordinates: Array, multipliers: Array) ->
     for number, sides in enumerate(closures):
         dual = multipliers[..., 6 * number : 6 * number + 6]
         for path, sign in sides:
-            here = path.chain.kinematics(coordinates[..., path.numbers])
-            out[..., path.numbers] -= sign * here.pull(dual)
+            out[..., path.numbers] -= sign * path.chain.kinematics(coordinates[..., path.numbers], dual).pull
     for load in chain.loads:
         out += load.pull(coordinates, False)[0]
     return out

@@ -56,14 +56,13 @@ def chain_stiffness(
     multiplier None: unloaded. memory: (..., M) of its laws, default the initial one.
     """
     coordinates = np.asarray(coordinates, dtype=float)
-    kinematics = chain.chain.kinematics(coordinates)
+    kinematics = chain.chain.kinematics(coordinates, 0.0 if multiplier is None else multiplier)
     strain = (coordinates - chain.rest)[..., chain.moving]
     past = chain.initial_memory if memory is None else memory
     past = np.broadcast_to(past, (*strain.shape[:-1], past.shape[-1]))
     tangent = np.zeros((*strain.shape[:-1], chain.chain.size, chain.chain.size))
     tangent[..., chain.moving[:, None], chain.moving] = chain.respond(strain, past).tangent
-    if multiplier is not None:
-        tangent -= kinematics.hessian(multiplier)
+    tangent -= kinematics.hessian
     theta, q = chain.virtual, chain.passive
     return eliminate(
         kinematics.jacobian[..., theta],

@@ -26,7 +26,7 @@ from vjm.link import Link
 from vjm.mechanisms.bar import Bar
 from vjm.mechanisms.parallelogram import Parallelogram
 from vjm.mechanisms.sites import Place
-from vjm.sensitivity import DriveDirection, by_forces, by_parameters, read_change
+from vjm.sensitivity import DriveDirection, Force, by_parameters
 from vjm.site_joint import SiteJoint
 from vjm.site_loads import carried
 
@@ -207,10 +207,7 @@ def _turns(state: Equilibrium) -> Array:
 
 def _by_torques(state: Equilibrium) -> Array:
     """Change of the readings (T, S, C, K) by torques that hold against all hinges."""
-    numbers = [unknown for _, _, unknown in _numbers(state)]
-    if not numbers:
-        return np.zeros((*state.readings.shape, 0))
-    return read_change(state, by_forces(state, np.array(numbers, dtype=int)))
+    return by_parameters(state, [Force(unknown) for _, _, unknown in _numbers(state)]).readings
 
 
 def _through(state: Equilibrium, series: Sequence[Where]) -> dict[Where, Array]:

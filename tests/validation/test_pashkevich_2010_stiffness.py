@@ -75,8 +75,8 @@ def test_erratum_2_dropping_the_cross_hessian_is_wrong() -> None:
     state = equilibrium(linkage, pose)
     without = np.zeros((6, 6))
     for chain, x, multiplier in zip(linkage.chains, state.coordinates, state.multipliers, strict=True):
-        kinematics = chain.chain.kinematics(x)
-        h, v, p = kinematics.hessian(multiplier), chain.virtual, chain.passive
+        kinematics = chain.chain.kinematics(x, multiplier)
+        h, v, p = kinematics.hessian, chain.virtual, chain.passive
         j = kinematics.jacobian
         without += stiffness.eliminate(
             j[:, v], j[:, p], chain.stiffness, h[np.ix_(v, v)], hessian_q=h[np.ix_(p, p)]

@@ -71,3 +71,13 @@ def test_without_marks_no_step_counts_for_another() -> None:
     state = histories(run(rig_with(names), directions(names)).states)
     every: Array = by_history(state, [*TARGETS, *directions(names)]).readings
     np.testing.assert_array_equal(every, by_parameters(state, [*TARGETS, *directions(names)]).readings)
+
+
+def test_few_forces_are_solved_with_what_is_asked_and_many_by_themselves() -> None:
+    """The same derivatives, whether the asked ones are fewer than the coordinates of the laws or not."""
+    names = HIDDEN["friction"]
+    asked = directions(names)
+    state = histories(run(rig_with(names), asked).states)
+    few = by_history(state, asked[:1]).readings
+    many = by_history(state, [*TARGETS, *asked]).readings[..., 6:7]
+    np.testing.assert_allclose(few, many, rtol=1e-9, atol=1e-12 * np.abs(many).max())
