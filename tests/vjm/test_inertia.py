@@ -8,7 +8,7 @@ import pytest
 from vjm.equilibrium import equilibrium
 from vjm.frames import POSE_NAMES
 from vjm.mechanisms.parallelogram import Parallelogram
-from vjm.newton import negatives
+from vjm.newton import negatives, solve_symmetric
 from vjm.paper import BAR_STIFFNESS
 
 
@@ -46,6 +46,22 @@ def test_a_linkage_that_swings_freely_is_not_unstable(q: float) -> None:
     for held in ((), ("y", "rx", "ry", "rz")):
         given = np.where([name in held for name in POSE_NAMES], linkage.unloaded_pose, 0.0)
         assert equilibrium(linkage, given[None, :], held).unstable.max() == 0
+
+
+@pytest.mark.parametrize("counted", [[], [1], [3, 0], [0, 1, 2, 3, 4]])
+def test_solved_and_counted_by_the_same_factors(counted: list[int]) -> None:
+    """Whether some members are counted, all or none; the last two matrices are singular."""
+    generator = np.random.default_rng(4)
+    matrices = generator.normal(size=(5, 6, 6))
+    matrices = matrices + np.swapaxes(matrices, -1, -2)
+    matrices[3, 2, :] = matrices[3, :, 2] = matrices[4] = 0.0
+    right = generator.normal(size=(5, 6, 2))
+    found, regular, below = solve_symmetric(matrices, right, np.array(counted, dtype=int))
+    np.testing.assert_array_equal(regular, [True, True, True, False, False])
+    np.testing.assert_allclose(matrices[:3] @ found[:3], right[:3], atol=1e-12)
+    np.testing.assert_array_equal(found[3:], 0.0)
+    values = np.linalg.eigvalsh(matrices[counted])
+    np.testing.assert_array_equal(below, np.sum(values < -1e-12, axis=-1))
 
 
 def test_none_of_no_member_and_none_of_zeros() -> None:
