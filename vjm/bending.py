@@ -21,15 +21,15 @@ def bend(
     theta: Array,
     energy: Array,
     force: Array,
-    first: int,
+    columns: np.ndarray,
     matrix: Array,
 ) -> None:
     """Of n segments at strains theta (B, 6 n): energy (B,), force (B, 6 n), and their tangent added to the matrix
-    (B, ., .) from that row and column on, unless it is empty.
+    (B, ., .) at the rows and columns (6 n,), unless it is empty.
 
     stiffness (n, 6, 6), curvature, softening, shape (n, 6), coupling (n, 2): as of `BeamColumn`.
     """
-    bow, give, slope, change = np.empty(6), np.empty(6), np.empty(6), np.empty(6)
+    bow, give, slope, change, block = np.empty(6), np.empty(6), np.empty(6), np.empty(6), np.empty((6, 6))
     for b in range(theta.shape[0]):
         energy[b] = 0.0
         for s in range(stiffness.shape[0]):
@@ -51,24 +51,27 @@ def bend(
                 felt[i] -= 0.5 * tension**2 * give[i]
             energy[b] += _twist(stiffness[s], coupling[s], own, felt)
             if matrix.size:
-                block = matrix[b, first + start : first + start + 6, first + start : first + start + 6]
                 _tangent(k, g / ease, axial * ease, bow, slope, change, block)
                 for i in range(6):
                     block[i, i] += tension * curvature[s, i] - 0.5 * tension**2 * softening[s, i]
                 _twisted(stiffness[s], coupling[s], own, block)
+                for i in range(6):
+                    row = matrix[b, columns[start + i]]
+                    for j in range(6):
+                        row[columns[start + j]] += block[i, j]
 
 
 @compiled
 def _tangent(
     k: Array, eased: float, stiff: float, bow: Array, slope: Array, change: Array, block: Array
 ) -> None:
-    """Add the part of the tension to the second derivative (6, 6) of a segment's energy."""
+    """The part of the tension in the second derivative (6, 6) of a segment's energy."""
     for i in range(6):
         for j in range(6):
             # K11 b b^T + k b^T + b k^T, of which slope slope^T / K11 is the square.
             entry = k[i] * bow[j] + bow[i] * k[j] + k[0] * bow[i] * bow[j] - eased * slope[i] * slope[j]
             entry -= slope[i] * change[j] + change[i] * slope[j]
-            block[i, j] += entry + stiff * change[i] * change[j]
+            block[i, j] = entry + stiff * change[i] * change[j]
 
 
 @compiled

@@ -40,8 +40,8 @@ class Control:
 @dataclass(frozen=True, eq=False)
 class Solution:
     """step: (B, N, r) dimensionless. regular: (B,). stiffness: (B, 6, 6) dimensionless, the sum of Eq. 10 over the
-    chains that are eliminated. counted: (m,) numbers of members; beyond: (m,) what the matrices of these chains have of
-    negative eigenvalues beyond the six of each of their closures.
+    chains that are eliminated; eliminated: (B,) whether these can be. counted: (m,) numbers of members; beyond: (m,)
+    what the matrices of these chains have of negative eigenvalues beyond the six of each of their closures.
 
     control: (B, 6, K) the platform's equations by its motion and the unknowns of chains that are not eliminated, all
     else following.
@@ -50,6 +50,7 @@ class Solution:
     step: Array
     regular: np.ndarray
     stiffness: Array
+    eliminated: np.ndarray
     control: Array
     counted: np.ndarray
     beyond: np.ndarray
@@ -101,7 +102,7 @@ def newton_step(
         x = place.coordinates[k]
         both = answer[..., :count] + answer[..., count:] @ motion[:, :6]
         step[:, x], step[:, place.closing[k]] = both[:, : x.stop - x.start], both[:, x.stop - x.start :]
-    return Solution(step, regular & solvable, stiffness, matrix[:, :6], counted, beyond)
+    return Solution(step, regular & solvable, stiffness, regular, matrix[:, :6], counted, beyond)
 
 
 def _answers(

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from vjm.frames import Array, move_stiffness
+from vjm.frames import move_stiffness
 from vjm.lumped import STATION
 from vjm.mechanisms.parallelogram import Parallelogram
 
@@ -42,7 +42,7 @@ def in_plane_critical(linkage: Parallelogram) -> InPlane:
 
     r = 0 (tip): P = D L / (K55 - D/K11), tension only; 2 L (K33 - K35²/K55) for rigid axial springs.
     r = L (base), rigid axial: (K33' - P/L) K55' = (K35' + P)².
-    r = L/2 (middle): see `middle_uniform` and `middle_hinge_only`.
+    r = L/2 (middle): see `middle_hinge_only`.
     The chord keeps the height L sin q, so Fx = 2 P sqrt(1 - (L sin q / c)²).
     """
     k = linkage.bar_stiffness
@@ -69,15 +69,6 @@ def out_of_plane_cantilever(linkage: Parallelogram) -> float | None:
     return None if r == 0 else -2.0 * float(k[5, 5] - k[1, 5] ** 2 / k[1, 1]) / r
 
 
-def middle_uniform(bending: float, length: float) -> float:
-    """Springs at the middle of uniform bars, EI_y in N·mm², axially rigid: -4 (sqrt 7 - 1) EI_y / L².
-
-    There K33' = 12 EI/L³, K35' = 0, K55' = EI/L, and with p = -P L²/EI the Hessian of `in_plane_critical`
-    gives (12 + p)(1 - p/4) = p²/4, that is p² + 4 p - 24 = 0, p = 2 (sqrt 7 - 1) per bar.
-    """
-    return -4.0 * (np.sqrt(7.0) - 1.0) * bending / length**2
-
-
 def middle_hinge_only(bar_stiffness: ArrayLike, length: float) -> float:
     """Springs at the middle with the transverse spring rigid: -8 K55' / L, uniform -8 EI_y / L².
 
@@ -87,19 +78,6 @@ def middle_hinge_only(bar_stiffness: ArrayLike, length: float) -> float:
     """
     moved = move_stiffness(bar_stiffness, [-0.5 * length, 0.0, 0.0])
     return -8.0 * float(moved[4, 4]) / length
-
-
-def tip_tension_branch(linkage: Parallelogram, x: ArrayLike) -> Array:
-    """Fx (...), N, on the post-critical branch of springs at the tip, q = 0, platform at x (...), mm.
-
-    With k = K33 - K35²/K55 and bars at the angle a: U = K11 (x cos a - L)²/2 + k x² sin² a / 2 per bar;
-    dU/da = 0 gives K11 (x cos a - L) = k x cos a, then dU/dx = k x.
-    ValueError for springs elsewhere or q not 0.
-    """
-    if linkage.spring_at != "tip" or linkage.q != 0.0:
-        raise ValueError("this branch is that of springs at the tip at q = 0")
-    k = linkage.bar_stiffness
-    return np.asarray(2.0 * (k[2, 2] - k[2, 4] ** 2 / k[4, 4]) * np.asarray(x, dtype=float))
 
 
 @dataclass(frozen=True)

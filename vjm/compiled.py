@@ -11,9 +11,12 @@ Function = TypeVar("Function", bound=Callable[..., Any])
 
 
 def compiled(function: Function) -> Function:
-    """The function compiled at its first use, for arrays as they come there."""
+    """The function compiled at its first use, for arrays as they come there; division by zero is as in arrays.
+
+    What is kept on disk is made anew where the file of the function changes: not where another file does that it reads.
+    """
     try:
-        return cast(Function, njit(cache=True)(function))
+        return cast(Function, njit(cache=True, error_model="numpy")(function))
     except RuntimeError:
         # Neither the folder of the program nor that of the user can be written to.
-        return cast(Function, njit(function))
+        return cast(Function, njit(error_model="numpy")(function))

@@ -41,8 +41,7 @@ def by_history(state: Equilibrium, directions: Sequence[AnyDirection], order: in
     alone = by_parameters(state, [*directions, *at_once], order=order)
     gain = alone.unknowns[..., count:]
     alone = replace(alone, **{n: getattr(alone, n)[..., :count] for n in ("unknowns", "memory", "readings")})
-    sizes = {k: d.size for k, d in enumerate(directions) if not isinstance(d, Target | Force)}
-    handed = list(sizes)
+    handed = [k for k, d in enumerate(directions) if not isinstance(d, Target | Force)]
     left = alone.memory[..., handed]
     marked = np.any(left != 0.0, axis=(-2, -1))
     tests = np.flatnonzero(marked[:, :-1].any(axis=1))
@@ -51,7 +50,7 @@ def by_history(state: Equilibrium, directions: Sequence[AnyDirection], order: in
     first = int(np.argmax(marked[tests].any(axis=0))) + 1
     part = state.member((tests, slice(first, None)))
     gain = gain[tests, first:] if at_once else by_parameters(part, forces).unknowns
-    steps = differences(order, np.array(list(sizes.values())))
+    steps = differences(order, np.array([d.size for d in directions if not isinstance(d, Target | Force)]))
     strain, memory = part.unknowns[..., laws.places] - laws.rest(part), part.memory
     slope = left[tests, first - 1]
     force = np.zeros((*strain.shape, len(handed)))
@@ -88,7 +87,7 @@ class _Laws:
                     each.append((spring.law, slice(count, count + size), slice(past, past + keeps)))
                     places.append(x.start + np.searchsorted(chain.moving, spring.coordinates))
                     count, past = count + size, past + keeps
-        return cls(tuple(each), np.concatenate(places))
+        return cls(tuple(each), np.concatenate([np.zeros(0, dtype=int), *places]))
 
     def rest(self, state: Equilibrium) -> Array:
         """(..., c) rest values of their coordinates."""

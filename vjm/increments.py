@@ -88,12 +88,13 @@ def _newton(problem: Problem, start: Array, tolerance: float, limit: int) -> Ite
 
 def _in_chunks(problem: Problem, start: Array, tolerance: float, limit: int) -> Iterate:
     place = problem.place
-    motion = np.arange(place.platform.stop)
     end = unsolved(start)
     for first in range(0, len(start), place.several):
         part = np.arange(first, min(first + place.several, len(start)))
         system = problem.take(part).blockwise
-        end.put(part, newton(system, start[part], place.scale, tolerance, limit, motion))
+        end.put(
+            part, newton(system, start[part], place.scale, tolerance, limit, np.arange(place.platform.stop))
+        )
     return end
 
 

@@ -137,8 +137,8 @@ def _rotation_vector(frame: Array, reference: Array, phi: Array) -> None:
         phi[i] = factor * q[i + 1]
 
 
-# The series of `vjm.frames` are compiled in: where they change this file has to change as well, or what is kept on disk
-# stays (tests/vjm/test_kernels.py is red then).
+# The series of `vjm.frames` and the fields of `vjm.program` are compiled in: where they change this file has to change
+# as well, or what is kept on disk stays (tests/vjm/test_kernels.py is red then).
 @compiled
 def _coefficients(square: float) -> tuple[float, float]:
     """c = (1 - (t/2) cot(t/2)) / t² of t², and dc/d(t²), as in `vjm.frames`."""

@@ -18,7 +18,7 @@ import numpy as np
 
 from vjm import kernels
 from vjm.frames import Array, flat
-from vjm.mechanism import ElasticChain, Mechanism
+from vjm.mechanism import NONE, ElasticChain, Mechanism
 from vjm.work import note
 
 NUMBERS = 100_000
@@ -167,13 +167,13 @@ def chain_rows(
     coordinates = chain_coordinates(chain, moving, rest)
     strain = moving - rest[..., chain.moving]
     m, batch = chain.moving.size, moving.shape[:-1]
-    matrix, stiffness = np.zeros(0), chain.full_stiffness if linear is None else linear
+    matrix, stiffness = NONE, chain.full_stiffness if linear is None else linear
     if second:
         whole = np.zeros((*stiffness.shape[:-2], m + chain.closures, m + chain.closures))
         whole[..., :m, :m] = stiffness
         matrix = np.empty((*batch, *whole.shape[-2:]))
         matrix[...] = whole
-    balance = chain.force(strain, memory, linear, matrix if second else None)
+    balance = chain.force(strain, memory, linear, matrix)
     balance, gap = np.ascontiguousarray(balance), np.zeros((*batch, chain.closures))
     gap[..., :6] = pose
     _close(chain, coordinates, multipliers, gap, balance, matrix)

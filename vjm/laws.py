@@ -44,18 +44,11 @@ class Law(Protocol):
 
 
 @runtime_checkable
-class Direct(Protocol):
-    """A law whose force (..., k) is to be had alone, at less cost than the whole `Response`."""
-
-    def force(self, strain: Array, memory: Array) -> Array: ...
-
-
-@runtime_checkable
 class Adding(Protocol):
-    """A law that adds its tangent to a matrix of more coordinates, (..., M, M), from a row and column on, and returns
-    its force (..., k)."""
+    """A law that is quicker without the whole `Response`: it returns its force (..., k) and adds its tangent to a
+    matrix of more coordinates, (..., M, M) and contiguous, at its rows and columns (k,), unless that is empty."""
 
-    def add(self, strain: Array, memory: Array, first: int, matrix: Array) -> Array: ...
+    def add(self, strain: Array, memory: Array, columns: np.ndarray, matrix: Array) -> Array: ...
 
 
 @dataclass(frozen=True, eq=False)
@@ -146,16 +139,12 @@ class BeamColumn:
 
     def respond(self, strain: Array, memory: Array) -> Response:
         tangent = np.zeros((*strain.shape, strain.shape[-1]))
-        energy, force = self._bent(strain, 0, tangent)
+        energy, force = self._bent(strain, np.arange(strain.shape[-1]), tangent)
         return Response(energy, force, tangent, memory)
 
-    def force(self, strain: Array, memory: Array) -> Array:
-        """(..., k) without what a tangent costs."""
-        return self._bent(strain, 0, np.zeros((0, 0, 0)))[1]
-
-    def add(self, strain: Array, memory: Array, first: int, matrix: Array) -> Array:
-        """(..., k), and the tangent added to the matrix (..., M, M), contiguous, from that row and column on."""
-        return self._bent(strain, first, matrix)[1]
+    def add(self, strain: Array, memory: Array, columns: np.ndarray, matrix: Array) -> Array:
+        """(..., k), and the tangent added to the matrix."""
+        return self._bent(strain, columns, matrix)[1]
 
     @cached_property
     def _numbers(self) -> tuple[Array, Array, Array, Array, Array]:
@@ -163,12 +152,12 @@ class BeamColumn:
         softening, coupling = np.ascontiguousarray(self.softening), np.ascontiguousarray(self.coupling)
         return stiffness, curvature, softening, coupling, np.ascontiguousarray(self.shape)
 
-    def _bent(self, strain: Array, first: int, matrix: Array) -> tuple[Array, Array]:
+    def _bent(self, strain: Array, columns: np.ndarray, matrix: Array) -> tuple[Array, Array]:
         """Energy (...) and force (..., k); the tangent is added unless the matrix is empty."""
         theta = flat(strain)
         energy, force = np.empty(len(theta)), np.empty(theta.shape)
         matrices = matrix.reshape(len(theta) if matrix.size else 0, *matrix.shape[-2:])
-        bend(*self._numbers, theta, energy, force, first, matrices)
+        bend(*self._numbers, theta, energy, force, columns, matrices)
         return energy.reshape(strain.shape[:-1]), force.reshape(strain.shape)
 
 

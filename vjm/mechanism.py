@@ -17,9 +17,12 @@ from vjm.chain import Chain, Joint, Role
 from vjm.frames import Array
 from vjm.gauges import Gauge
 from vjm.kernels import NO_COLUMN
-from vjm.laws import Adding, Direct, Response, Spring
+from vjm.laws import Adding, Response, Spring
 from vjm.loads import DeadLoads
 from vjm.sensors import Sensor
+
+NONE = np.zeros((0, 0, 0))
+"""No matrix: a tangent is not asked for."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -270,23 +273,21 @@ class ElasticChain:
             remembered.append(answer.memory)
         return Response(energy, force, tangent, np.concatenate(remembered, axis=-1))
 
-    def force(
-        self, strain: Array, memory: Array, linear: Array | None = None, matrix: Array | None = None
-    ) -> Array:
+    def force(self, strain: Array, memory: Array, linear: Array | None = None, matrix: Array = NONE) -> Array:
         """(..., m) as in `respond`. matrix: (..., M, M), contiguous, that begins with the coordinates and to which the
         tangent of the laws is added; without it laws that can do so leave theirs out."""
         force = _along(self.full_stiffness if linear is None else linear, strain)
+        every = np.arange(self.moving.size)
         for spring, numbers, part in zip(self.springs, self._groups, self._memories, strict=True):
             own, past, law = strain[..., numbers], memory[..., part], spring.law
-            if matrix is None:
-                alone = law.force(own, past) if isinstance(law, Direct) else law.respond(own, past).force
-            elif isinstance(law, Adding) and isinstance(numbers, slice):
-                alone = law.add(own, past, numbers.start, matrix)
+            if isinstance(law, Adding):
+                alone = law.add(own, past, every[numbers], matrix)
             else:
                 answer = law.respond(own, past)
                 alone = answer.force
-                both = (numbers, numbers) if isinstance(numbers, slice) else np.ix_(numbers, numbers)
-                matrix[..., *both] += answer.tangent
+                if matrix.size:
+                    both = (numbers, numbers) if isinstance(numbers, slice) else np.ix_(numbers, numbers)
+                    matrix[..., *both] += answer.tangent
             force[..., numbers] += alone
         return np.asarray(force)
 

@@ -112,10 +112,11 @@ def newton(
     start: (B, N). scale: (N,) sizes of the unknowns. motion: numbers of the unknowns that are displacements;
     a step that would change one of them by more than `LARGEST_STEP` of its size is shortened.
     The step after the residual has met the tolerance is still taken: it costs one solve and brings the
-    residual to rounding. It is none where the matrix is singular there, as of a linkage that swings freely. Members
-    that fail keep their last finite unknowns and a reason.
+    residual to rounding. A step that goes far there is along a motion without stiffness, as of a linkage that swings
+    freely, and is none. Members that fail keep their last finite unknowns and a reason.
     """
     end, first = unsolved(start), None
+    part = slice(None) if motion is None else motion
     active = np.arange(len(start))
     best, since = np.full(len(start), np.inf), np.zeros(len(start), dtype=int)
     for _ in range(limit):
@@ -125,10 +126,11 @@ def newton(
         end.residual[active] = size = np.max(np.abs(rows), axis=-1)
         done = size < tolerance
         step, regular, end.unstable[active[done]] = solve(np.flatnonzero(done))
-        end.reason[active[~(regular | done)]] = SINGULAR
+        step[done & (np.max(np.abs(step[:, part]), axis=-1, initial=0.0) > SMALL_STEP)] = 0.0
+        end.reason[active[~regular]] = SINGULAR
         far = ~(size < DIVERGED_ABOVE)
         end.reason[active[far]] = DIVERGED
-        moving = (regular | done) & ~far
+        moving = regular & ~far
         end.unknowns[active[moving]] += _shortened(step[moving], motion) * scale
         end.iterations[active] += 1
         end.reason[active[moving & done]] = CONVERGED
@@ -138,7 +140,6 @@ def newton(
         active = active[moving & ~done & (since[active] < patience)]
         first = end.unknowns.copy() if first is None else first
     if first is not None:
-        part = slice(None) if motion is None else motion
         ways = [
             np.max(np.abs((b - a) / scale)[:, part], axis=-1)
             for a, b in ((start, first), (first, end.unknowns))
@@ -156,9 +157,8 @@ def solve_symmetric(
         return *solve_each(matrices, right), np.zeros(0, dtype=int)
     solution, regular = np.zeros_like(right), np.ones(len(right), dtype=bool)
     other = np.isin(np.arange(len(right)), counted, invert=True)
-    if other.any():
-        solution[other], regular[other] = solve_each(matrices[other], right[other])
-    factors = _Factors.of(matrices[counted] if other.any() else matrices)
+    solution[other], regular[other] = solve_each(matrices[other], right[other])
+    factors = _Factors.of(matrices[counted])
     for member, factor, pivots in zip(counted, factors.factors, factors.pivots, strict=True):
         solution[member] = dsytrs(factor, pivots, right[member], lower=1)[0]
     regular[counted] = factors.regular & np.isfinite(solution[counted]).all(axis=(-2, -1))

@@ -103,7 +103,9 @@ class Problem:
         def step(done: np.ndarray) -> tuple[Array, np.ndarray, np.ndarray]:
             found = blocks.newton_step(self.mechanism, chains, -rows[..., None], control, done)
             unstable = blocks.unstable_directions(self.mechanism, chains, found, control)
-            return found.step[..., 0], found.regular, unstable
+            # In equilibrium, a platform that moves freely needs no step.
+            there = np.isin(np.arange(len(rows)), done) & found.eliminated
+            return found.step[..., 0], found.regular | there, np.where(there[done], unstable, -1)
 
         return rows, step
 

@@ -28,12 +28,12 @@ class Giving(Protocol):
 def with_slides(state: Equilibrium, mechanism: Mechanism) -> Equilibrium:
     """A state of the same mechanism without slides, or with other laws in them, as a start: it is no equilibrium.
 
-    ValueError for mechanisms that differ in anything else, or have laws with memory.
+    ValueError for mechanisms that differ in anything else, their memories too: slides have none.
     """
     old, new = lagrangian.layout(state.mechanism), lagrangian.layout(mechanism)
     before, after = ([_slides(chain) for chain in m.chains] for m in (state.mechanism, mechanism))
     added = sum(len(b) for b in after) - sum(len(a) for a in before)
-    if new.size != old.size + added or state.memory.shape[-1] or any(m.stop > m.start for m in new.memories):
+    if new.size != old.size + added or new.memories[-1].stop != state.memory.shape[-1]:
         raise ValueError(f"{new.size} unknowns are not {old.size} and {added} slides without memory")
     unknowns = np.zeros((*state.converged.shape, new.size))
     unknowns[..., new.platform] = state.unknowns[..., old.platform]

@@ -99,10 +99,12 @@ class _Beside:
         left[..., 0] = np.abs(self.axial(strain[..., 1:]))
         return Response(answer.energy, force, tangent, left)
 
-    def force(self, strain: Array, memory: Array) -> Array:
-        """(..., 1 + v) alone."""
-        out = np.zeros(strain.shape)
-        out[..., :1] = self.law.respond(strain[..., :1], memory).force
+    def add(self, strain: Array, memory: Array, columns: np.ndarray, matrix: Array) -> Array:
+        """(..., 1 + v), and the tangent added to the matrix."""
+        answer, out = self.law.respond(strain[..., :1], memory), np.zeros(strain.shape)
+        out[..., :1] = answer.force
+        if matrix.size:
+            matrix[..., columns[0], columns[0]] += answer.tangent[..., 0, 0]
         return out
 
 

@@ -14,6 +14,7 @@ from pipeline.answer.wording.added import sentences
 from pipeline.attempt import Attempts
 from pipeline.callbacks import OnProgress
 from pipeline.campaign import Campaign
+from pipeline.campaign.order import by_name
 from pipeline.errors import InputError
 from pipeline.inference.declared_sigmas import trusted
 from pipeline.inference.estimated_sigmas import completed
@@ -75,7 +76,7 @@ def add(
     model, scale = sized_model(model, campaign), scale_for(campaign)
     effects = [sized(effect, scale) for effect in effects]
     check_suitable([*(term.effect for term in model.terms), *effects], campaign)
-    whole = trusted(completed(campaign), model)
+    whole = trusted(completed(by_name(campaign)), model)
     cases = load_cases(whole)
     on_progress("the model as it was")
     before = unfitted(model, cases)
@@ -115,7 +116,7 @@ def remove(
             raise InputError(f"{name} is not in the model, allowed are its effects: {there}")
     model = sized_model(model, campaign)
     check_suitable([term.effect for term in model.terms], campaign)
-    whole = trusted(completed(campaign), model)
+    whole = trusted(completed(by_name(campaign)), model)
     cases = load_cases(whole)
     on_progress("the model as it was")
     before = unfitted(model, cases)

@@ -56,7 +56,7 @@ class Test:
     q_deg: nominal angle of the bars, degrees as it was given. control: what is prescribed for each of the six
     coordinates: "displacement", "force", the name of a gauge, or "held" where a clamp or the support of a bar's tip
     keeps the coordinate where it is unloaded. rig: that of the campaign with the test's own values. set_aside, keep:
-    step and column of readings that somebody left out, and of those that are to count whatever they look like. turn:
+    step and column of readings that somebody left out, and of those that are to count whatever they look like. run:
     tests with a smaller one were done before it; None where only its place among them tells.
     """
 
@@ -69,7 +69,7 @@ class Test:
     data: Data
     set_aside: Cells = ()
     keep: Cells = ()
-    turn: int | None = None
+    run: int | None = None
 
     # Not a class of tests, whatever its name suggests to a collector.
     __test__ = False

@@ -69,10 +69,8 @@ def read(folder: Path, instead: str | None = None) -> Campaign:
         if head.id in data:
             remarks += judge(head, data[head.id], description.gauges, noise, columns, complaints)
     complaints.check()
-    turns = {name: turn for turn, name in enumerate(dict.fromkeys(measured.tests))}
-    tests = tuple(
-        _test(head, data[head.id], turns[head.id], description, first) for head in description.heads
-    )
+    runs = {name: run for run, name in enumerate(dict.fromkeys(measured.tests))}
+    tests = tuple(_test(head, data[head.id], runs[head.id], description, first) for head in description.heads)
     first.check()
     known, said = _tolerance(description)
     asked = [f"{DESCRIPTION}, {said}" for said in description.questions]
@@ -98,10 +96,10 @@ def read(folder: Path, instead: str | None = None) -> Campaign:
     )
 
 
-def _test(head: Head, data: Data, turn: int, description: Description, complaints: Complaints) -> Test:
+def _test(head: Head, data: Data, run: int, description: Description, complaints: Complaints) -> Test:
     """A test with its readings, without those that were set aside by hand."""
     by_hands = (head.set_aside, head.keep)
-    test = Test(head.id, head.q_deg, head.role, head.control, head.zero, head.rig, data, *by_hands, turn)
+    test = Test(head.id, head.q_deg, head.role, head.control, head.zero, head.rig, data, *by_hands, run)
     return by_hand(test, description.gauges, head.line, complaints)
 
 

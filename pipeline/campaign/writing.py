@@ -18,7 +18,7 @@ from pipeline.campaign.names import (
     channel_columns,
     gauge_column,
 )
-from pipeline.campaign.order import turns_of
+from pipeline.campaign.order import run_order
 from pipeline.campaign.reading import DESCRIPTION, MEASUREMENTS, read
 from pipeline.campaign.tolerance import table as tolerance_table
 from pipeline.errors import InputError, unread
@@ -116,7 +116,7 @@ def measurements_text(campaign: Campaign) -> str:
     gauges = [gauge_column(gauge.name) for gauge in campaign.gauges]
     names = [*DISPLACEMENTS, *WRENCHES, *gauges, TEMPERATURE]
     tables = []
-    for test in (campaign.tests[k] for k in turns_of(campaign.tests)):
+    for test in (campaign.tests[k] for k in run_order(campaign.tests)):
         data = test.data
         heat = np.full(data.steps.size, np.nan) if data.temperature is None else data.temperature
         table = pd.DataFrame(

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from pipeline.campaign import Campaign, Gauge, Test
 from pipeline.campaign import Rig as Described
 from pipeline.campaign.names import DISPLACEMENT, FORCE, SUPPORT, channel_columns
-from pipeline.campaign.order import turns_of
+from pipeline.campaign.order import run_order
 from pipeline.campaign.rig import Solvable
 from vjm.effects.sensor_fault import Rows
 from vjm.effects.thermal_expansion import DRIVE
@@ -152,9 +152,8 @@ class LoadCases:
         steps = [test.data.steps - test.data.steps[0] for test in self.campaign.tests]
         clock = self.whole_clock
         if clock is None:
-            mine = [np.arange(self.first[k], self.first[k + 1]) for k in turns_of(self.campaign.tests)]
-            clock = np.empty(len(self.test))
-            clock[np.concatenate(mine)] = np.linspace(0.0, 1.0, clock.size)
+            each = [np.arange(self.first[k], self.first[k + 1]) for k in run_order(self.campaign.tests)]
+            clock = np.linspace(0.0, 1.0, len(self.test))[np.argsort(np.concatenate(each))]
         columns = tuple(channel_columns(self.campaign.gauges))
         return Rows(self.test, np.concatenate(steps).astype(float), clock, columns)
 

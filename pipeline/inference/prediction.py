@@ -264,17 +264,24 @@ def _begin(
     if start is not None and not remembers:
         # A model that remembers nothing may follow one that does.
         start = replace(start, memory=start.memory[..., :0])
-    sliding = slides(mechanism) and not remembers
+    sliding = slides(mechanism)
     if start is not None and start.unknowns.shape[-1] == layout(mechanism).size:
-        return with_slides(start, mechanism) if sliding else replace(start, mechanism=mechanism)
+        there = replace(start, mechanism=mechanism)
+        return with_slides(start, mechanism) if sliding and not remembers else there
     if not sliding:
         return None
     bare = mechanism.changed(tight(mechanism.view))
     fits = start is not None and start.unknowns.shape[-1] == layout(bare).size
     near = replace(start, mechanism=bare) if start is not None and fits else None
     # Its coordinates have other numbers, by which inputs are named.
-    state = equilibrium(bare, group.targets, group.channels[:, None], near, drives=_whole(group, bare))
-    return with_slides(replace(state, drives=drive_values(mechanism, inputs)), mechanism)
+    inputs = _whole(group, bare)
+    if remembers:
+        if near is None:
+            return None
+        state = history(bare, group, inputs, near)
+    else:
+        state = equilibrium(bare, group.targets, group.channels[:, None], near, drives=inputs)
+    return with_slides(replace(state, drives=drive_values(mechanism, _whole(group, mechanism))), mechanism)
 
 
 def _shifted(group: Group, shift: Array) -> Group:

@@ -81,3 +81,10 @@ def test_few_forces_are_solved_with_what_is_asked_and_many_by_themselves() -> No
     few = by_history(state, asked[:1]).readings
     many = by_history(state, [*TARGETS, *asked]).readings[..., 6:7]
     np.testing.assert_allclose(few, many, rtol=1e-9, atol=1e-12 * np.abs(many).max())
+
+
+def test_of_what_remembers_nothing_each_step_is_by_itself() -> None:
+    names = {"modulus_error": {}}
+    asked = directions(names)
+    state = histories(run(rig_with(names), asked).states)
+    np.testing.assert_array_equal(by_history(state, asked).readings, by_parameters(state, asked).readings)

@@ -14,7 +14,7 @@ from tests.vjm.strategies import LENGTH, WIDTH, fixed_seed
 from vjm import paper, stiffness
 from vjm.effects.joint_friction import Jenkins
 from vjm.equilibrium import equilibrium, load_path
-from vjm.laws import Direct, Law, Linear, Polynomial, Spring
+from vjm.laws import Adding, Law, Linear, Polynomial, Spring
 from vjm.link import Link
 from vjm.mechanism import ElasticChain
 from vjm.mechanisms.parallelogram import Parallelogram
@@ -50,7 +50,7 @@ def test_the_force_of_a_chain_alone_is_that_with_its_tangent() -> None:
         4
     )
     chain = linkage.chains[0]
-    assert [isinstance(spring.law, Direct) for spring in chain.springs].count(True) == 1
+    assert [isinstance(spring.law, Adding) for spring in chain.springs].count(True) == 1
     strain = np.random.default_rng(2).uniform(-0.1, 0.1, (3, 2, chain.moving.size))
     memory = np.broadcast_to(chain.initial_memory, (3, 2, chain.initial_memory.size))
     np.testing.assert_array_equal(chain.force(strain, memory), chain.respond(strain, memory).force)

@@ -7,6 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from tests.vjm.closed_forms import middle_uniform, tip_tension_branch
 from tests.vjm.strategies import LENGTH, WIDTH, angles, bar_stiffness, fixed_seed
 from vjm import closed_forms, paper
 from vjm.branch import branch_amplitude, buckled_path
@@ -84,7 +85,7 @@ def test_base_springs_meet_their_axially_rigid_condition() -> None:
 def test_middle_springs_of_uniform_bars() -> None:
     bending = 2.0e8
     mechanism = linkage(place="middle", k=uniform_bar(bending, 1e9))
-    expected = closed_forms.middle_uniform(bending, LENGTH)
+    expected = middle_uniform(bending, LENGTH)
     found = critical_load(mechanism, ("y", *GUIDED), -1, max_strain=1e-7)
     # 1e-6: the axial spring of 1e9 N/mm still gives 2e-8 of the length.
     assert found.load == pytest.approx(expected, rel=1e-6)
@@ -153,7 +154,7 @@ def test_post_critical_branch_of_tip_springs() -> None:
     displacements = critical.displacement + np.array([0.001, 0.01, 0.1, 1.0])
     branch = buckled_path(critical, displacements)
     assert np.all(branch.converged)
-    expected = closed_forms.tip_tension_branch(mechanism, branch.pose[:, 0])
+    expected = tip_tension_branch(mechanism, branch.pose[:, 0])
     np.testing.assert_allclose(branch.load[:, 0], expected, rtol=1e-9)
     # Both bars turn to the same side: cos a = K11 L / ((K11 - k) x).
     k = paper.BAR_STIFFNESS

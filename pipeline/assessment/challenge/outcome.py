@@ -17,6 +17,7 @@ from pipeline.assessment.coverage.cases import is_size
 from pipeline.assessment.virtual.bench import read_out, true_readings
 from pipeline.assessment.virtual.plan import GAUGES
 from pipeline.campaign import Campaign, ParallelogramRig
+from pipeline.campaign.order import by_name
 from pipeline.compare.error import Discrepancy
 from pipeline.inference.intervals import intervals, profile_likelihood
 from pipeline.inference.load_cases import LoadCases, load_cases
@@ -202,9 +203,10 @@ def each_alone(it: Case, found: list[Readings], rig: ParallelogramRig) -> Mappin
 
 
 def campaign_of(it: Case, found: list[Readings], seed: int | None) -> Campaign:
-    """The campaign that the case's sensors write of exact readings; seed: None for no noise."""
+    """The campaign that the case's sensors write of exact readings, its tests in the order of a diagnosis; seed: None
+    for no noise."""
     bench = it.bench
-    return read_out(f"case {it.number}", bench.rig, bench.plan, bench.noise, seed, found, GAUGES)
+    return by_name(read_out(f"case {it.number}", bench.rig, bench.plan, bench.noise, seed, found, GAUGES))
 
 
 def shows(it: Case, found: list[Readings], without: list[Readings]) -> Array:

@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from pipeline.campaign import Campaign, read
-from pipeline.campaign.order import by_name, turns_of
+from pipeline.campaign.order import by_name, run_order
 from pipeline.campaign.writing import write
 from pipeline.inference.load_cases import load_cases
 from tests.pipeline.bench import bench
@@ -44,20 +44,20 @@ def test_names_of_any_script_have_an_order() -> None:
     )
 
 
-def test_the_turn_of_each_test_stays_with_it() -> None:
+def test_the_run_of_each_test_stays_with_it() -> None:
     given = named("c", "a", "b")
     once = by_name(given)
-    assert [given.tests[k].id for k in turns_of(given.tests)] == ["c", "a", "b"]
-    assert [once.tests[k].id for k in turns_of(once.tests)] == ["c", "a", "b"]
+    assert [given.tests[k].id for k in run_order(given.tests)] == ["c", "a", "b"]
+    assert [once.tests[k].id for k in run_order(once.tests)] == ["c", "a", "b"]
     again = by_name(replace(once, tests=tuple(reversed(once.tests))))
     assert ids(again) == ids(once)
-    assert [test.turn for test in again.tests] == [test.turn for test in once.tests]
+    assert [test.run for test in again.tests] == [test.run for test in once.tests]
 
 
-def test_what_has_no_turn_comes_after_what_has_one() -> None:
+def test_what_does_not_say_when_comes_after_what_does() -> None:
     first = by_name(named("c", "a", "b"))
-    more = replace(first.tests[0], id="new", turn=None)
-    assert [it.id for it in (t[k] for t in [(more, *first.tests)] for k in turns_of(t))] == [
+    more = replace(first.tests[0], id="new", run=None)
+    assert [it.id for it in (t[k] for t in [(more, *first.tests)] for k in run_order(t))] == [
         "c",
         "a",
         "b",

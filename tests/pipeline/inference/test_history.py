@@ -163,3 +163,15 @@ def test_what_remembers_nothing_may_follow_what_does() -> None:
     np.testing.assert_allclose(
         found.by_free, expected.by_free, rtol=1e-6, atol=1e-6 * np.abs(expected.by_free).max()
     )
+
+
+@pytest.mark.parametrize("name", ["contact_stiffening", "joint_clearance"])
+def test_slides_beside_friction_begin_where_the_linkage_without_them_stands(name: str) -> None:
+    """From rest the way of friction with a contact is gone in increments, of dozens of iterations."""
+    first = predict(MODEL, CASES, slopes=False)
+    more = MODEL.with_effects([catalogue()[name]])
+    found, cold = (predict(more, CASES, slopes=False, start=start) for start in (first, None))
+    assert not found.lost.any()
+    np.testing.assert_allclose(found.values, cold.values, rtol=1e-9, atol=1e-6)
+    iterations = [max(int(state.iterations.max()) for state in it.states) for it in (found, cold)]
+    assert iterations[0] <= min(6, iterations[1])

@@ -17,6 +17,7 @@ from pipeline.assessment.challenge.outcome import difference, each_alone
 from pipeline.assessment.virtual.bench import read_out
 from pipeline.assessment.virtual.plan import GAUGES
 from pipeline.campaign import Campaign
+from pipeline.campaign.order import by_name
 from pipeline.inference.eliminated import Marginal
 from pipeline.inference.load_cases import load_cases
 from pipeline.inference.model import Model
@@ -59,7 +60,7 @@ def sizes_after_tolerances(
 def _exact(whole: Campaign, it: DirtyCase, found: list[Readings]) -> Campaign:
     """The campaign with readings as they would be without any noise, its sigmas and tolerances as they were told."""
     exact = read_out(whole.name, it.bench.rig, it.bench.plan, whole.noise, None, found, GAUGES)
-    return replace(exact, tolerance=whole.tolerance)
+    return by_name(replace(exact, tolerance=whole.tolerance))
 
 
 def after(given: Array, values: Array) -> Array:

@@ -8,9 +8,12 @@ import pytest
 from pipeline.assessment.challenge.benches import drawn_rig
 from pipeline.assessment.challenge.cases import ALWAYS, HIDDEN, ROUND, Case, case
 from pipeline.assessment.challenge.faults import FAULTS
-from pipeline.assessment.challenge.outcome import judged
+from pipeline.assessment.challenge.outcome import campaign_of, judged, measured
 from pipeline.assessment.virtual.bench import true_readings
 from pipeline.assessment.virtual.plan import GAUGES, bench_plan
+from pipeline.inference.load_cases import load_cases
+from pipeline.inference.model import Model
+from pipeline.selection.diagnosis import cached_fits
 from pipeline.simulate import bench_rig, scaled
 from vjm.effects import catalogue, for_kind
 
@@ -102,3 +105,15 @@ def test_answers_are_judged(
     kind = "outside" if fault else "pair" if len(effects) == 2 else "single" if effects else "clean"
     hidden = {f"{name}.{catalogue()[name].parameters[0].name}": 1.0 for name in effects}
     assert judged(Case(0, kind, case(0).bench, hidden, fault, 0), verdict, sets) == score
+
+
+@pytest.mark.parametrize("number", [1, 2])
+def test_what_effects_do_stands_in_the_rows_of_the_diagnosis(number: int) -> None:
+    """Columns of candidates and those of what is hidden are compared row by row."""
+    it, found, _ = measured(number)
+    whole = cached_fits(campaign_of(it, found, it.seed), Model(), catalogue()).whole
+    exact = load_cases(campaign_of(it, found, None))
+    assert [test.id for test in whole.campaign.tests] == [test.id for test in exact.campaign.tests]
+    assert [test.id for test in whole.campaign.tests] != [test.id for test in it.bench.plan]
+    far = np.abs(whole.measured - exact.measured) > 8.0 * whole.spread
+    assert not np.any(far & whole.predicted)
