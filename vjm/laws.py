@@ -6,9 +6,10 @@ strain (..., k), force (..., k), tangent (..., k, k), memory (..., m). Laws of o
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Protocol, runtime_checkable
+from typing import Protocol
 
 import numpy as np
 
@@ -43,12 +44,13 @@ class Law(Protocol):
     def respond(self, strain: Array, memory: Array) -> Response: ...
 
 
-@runtime_checkable
-class Adding(Protocol):
+class Adding(ABC):
     """A law that is quicker without the whole `Response`: it returns its force (..., k) and adds its tangent to a
     matrix of more coordinates, (..., M, M) and contiguous, at its rows and columns (k,), unless that is empty."""
 
-    def add(self, strain: Array, memory: Array, columns: np.ndarray, matrix: Array) -> Array: ...
+    @abstractmethod
+    def add(self, strain: Array, memory: Array, columns: np.ndarray, matrix: Array) -> Array:
+        """(..., k) at a strain (..., k) and memory (..., m)."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -110,7 +112,7 @@ class OnSum:
 
 
 @dataclass(frozen=True, eq=False)
-class BeamColumn:
+class BeamColumn(Adding):
     """Geometric nonlinearity of bar segments, on top of their linear springs K.
 
     stiffness: (n, 6, 6) K of each segment for (extension, two shifts, three rotations). curvature, softening:

@@ -156,7 +156,8 @@ def solve_symmetric(
     if not counted.size:
         return *solve_each(matrices, right), np.zeros(0, dtype=int)
     solution, regular = np.zeros_like(right), np.ones(len(right), dtype=bool)
-    other = np.isin(np.arange(len(right)), counted, invert=True)
+    other = np.ones(len(right), dtype=bool)
+    other[counted] = False
     solution[other], regular[other] = solve_each(matrices[other], right[other])
     factors = _Factors.of(matrices[counted])
     for member, factor, pivots in zip(counted, factors.factors, factors.pivots, strict=True):

@@ -104,7 +104,8 @@ class Problem:
             found = blocks.newton_step(self.mechanism, chains, -rows[..., None], control, done)
             unstable = blocks.unstable_directions(self.mechanism, chains, found, control)
             # In equilibrium, a platform that moves freely needs no step.
-            there = np.isin(np.arange(len(rows)), done) & found.eliminated
+            there = np.zeros(len(rows), dtype=bool)
+            there[done] = found.eliminated[done]
             return found.step[..., 0], found.regular | there, np.where(there[done], unstable, -1)
 
         return rows, step

@@ -7,6 +7,7 @@ the platform point; both in the base frame. NaN: not measured, or not known.
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from functools import lru_cache
 from pathlib import Path
 from typing import Literal
 
@@ -80,17 +81,27 @@ class Test:
         return float(np.radians(self.q_deg))
 
     def inputs(self, gauges: tuple[Gauge, ...]) -> Array:
-        """(N, 6) what is prescribed for each coordinate: mm, rad, N or N·mm; a force that has no reading is zero."""
-        columns = {gauge.name: self.data.gauges[:, k] for k, gauge in enumerate(gauges)}
-        values = np.zeros((self.data.steps.size, len(COORDINATES)))
-        for k, by in enumerate(self.control):
-            if by == DISPLACEMENT:
-                values[:, k] = self.data.displacement[:, k]
-            elif by == FORCE:
-                values[:, k] = np.nan_to_num(self.data.wrench[:, k])
-            elif by != SUPPORT:
-                values[:, k] = columns[by]
-        return values
+        """(N, 6) what is prescribed for each coordinate: mm, rad, N or N·mm; a force that has no reading is zero.
+
+        Not to be written to.
+        """
+        return _inputs(self, gauges)
+
+
+# The look for mistakes of a table asks for those of the same tests thousands of times.
+@lru_cache(maxsize=1024)
+def _inputs(test: Test, gauges: tuple[Gauge, ...]) -> Array:
+    columns = {gauge.name: test.data.gauges[:, k] for k, gauge in enumerate(gauges)}
+    values = np.zeros((test.data.steps.size, len(COORDINATES)))
+    for k, by in enumerate(test.control):
+        if by == DISPLACEMENT:
+            values[:, k] = test.data.displacement[:, k]
+        elif by == FORCE:
+            values[:, k] = np.nan_to_num(test.data.wrench[:, k])
+        elif by != SUPPORT:
+            values[:, k] = columns[by]
+    values.flags.writeable = False
+    return values
 
 
 @dataclass(frozen=True, eq=False)

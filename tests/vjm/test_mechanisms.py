@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from tests.vjm.beams import SLENDER
+from tests.vjm.pseudo_rigid import pseudo_rigid_bar
 from tests.vjm.strategies import LENGTH, WIDTH
 from vjm import paper
 from vjm.branch import buckled_path
@@ -17,7 +18,6 @@ from vjm.increments import LOST_STABILITY
 from vjm.mechanism import ElasticChain
 from vjm.mechanisms.bar import Bar
 from vjm.mechanisms.parallelogram import Parallelogram
-from vjm.mechanisms.pseudo_rigid import pseudo_rigid_bar
 from vjm.refined import Refined
 from vjm.stability import UNSTABLE, negative_eigenvalues, verified
 from vjm.stiffness import unloaded_stiffness

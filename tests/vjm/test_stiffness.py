@@ -7,6 +7,7 @@ import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
+from tests.vjm.pseudo_rigid import PseudoRigidBar, pseudo_rigid_bar
 from tests.vjm.strategies import (
     LENGTH,
     ROTATION_RADIUS,
@@ -20,7 +21,6 @@ from vjm import frames, paper, stiffness
 from vjm.equilibrium import equilibrium
 from vjm.mechanisms.bar import Bar
 from vjm.mechanisms.parallelogram import Parallelogram
-from vjm.mechanisms.pseudo_rigid import PseudoRigidBar, pseudo_rigid_bar
 
 places = st.sampled_from(["tip", "middle", "base"])
 

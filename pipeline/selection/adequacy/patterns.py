@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 from itertools import pairwise
 
 import numpy as np
@@ -17,7 +18,7 @@ from pipeline.inference.driving import column_name
 from pipeline.inference.fit import Fit
 from pipeline.inference.load_cases import LoadCases
 from pipeline.inference.orthonormal_basis import basis
-from pipeline.inference.residual import whitening
+from pipeline.inference.residual import Whitening, whitening
 from pipeline.inference.rounding import TINY
 from pipeline.selection.criteria import Criteria
 
@@ -70,8 +71,7 @@ def left_of(found: Fit, channel: int, words: Sequence[str], errors: Array) -> It
     """The shapes of errors (R, K) of a channel's readings, those of which the fit leaves any."""
     whole = found.residual.load_cases
     used = whole.predicted & whole.fitted[:, None]
-    weights = whitening(whole, found.prediction)
-    taken = basis(np.hstack([found.jacobian, found.residual.flat(found.residual.offsets)]))
+    weights, taken = _weights_and_taken(found)
     columns = found.residual.weakened(weights.apply(acting(found, channel, errors))[used])
     left = columns - taken @ (taken.T @ columns)
     sizes, whole_sizes = np.linalg.norm(left, axis=0), np.linalg.norm(columns, axis=0)
@@ -79,6 +79,13 @@ def left_of(found: Fit, channel: int, words: Sequence[str], errors: Array) -> It
     for k in np.flatnonzero(sizes > FLAT * np.maximum(whole_sizes, TINY)).tolist():
         largest = float(np.abs(errors[..., k]).max())
         yield Shape(channel, f"{name} {words[k]}", left[:, k], float(sizes[k]), largest)
+
+
+@lru_cache(maxsize=1)
+def _weights_and_taken(found: Fit) -> tuple[Whitening, Array]:
+    """The whitening of a fit, and (N, P) what it can move, orthonormal: the same for all channels that follow."""
+    taken = basis(np.hstack([found.jacobian, found.residual.flat(found.residual.offsets)]))
+    return whitening(found.residual.load_cases, found.prediction), taken
 
 
 def scores(found: Fit, criteria: Criteria) -> list[Pattern]:
