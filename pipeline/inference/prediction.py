@@ -274,14 +274,14 @@ def _begin(
     fits = start is not None and start.unknowns.shape[-1] == layout(bare).size
     near = replace(start, mechanism=bare) if start is not None and fits else None
     # Its coordinates have other numbers, by which inputs are named.
-    inputs = _whole(group, bare)
-    if remembers:
-        if near is None:
-            return None
-        state = history(bare, group, inputs, near)
+    own = _whole(group, bare)
+    if not remembers:
+        state = equilibrium(bare, group.targets, group.channels[:, None], near, drives=own)
+    elif near is not None:
+        state = history(bare, group, own, near)
     else:
-        state = equilibrium(bare, group.targets, group.channels[:, None], near, drives=inputs)
-    return with_slides(replace(state, drives=drive_values(mechanism, _whole(group, mechanism))), mechanism)
+        return None
+    return with_slides(replace(state, drives=drive_values(mechanism, inputs)), mechanism)
 
 
 def _shifted(group: Group, shift: Array) -> Group:

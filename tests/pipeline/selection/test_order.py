@@ -9,10 +9,14 @@ from functools import cache
 import numpy as np
 import pytest
 
+from pipeline.add.fitting import add, remove
 from pipeline.answer.of_diagnosis import answer_of
 from pipeline.campaign import Campaign
 from pipeline.campaign.order import by_name
+from pipeline.discover.command import laws_found
 from pipeline.inference.model import Model
+from pipeline.inference.suitable import Known
+from pipeline.record import Record
 from pipeline.selection.diagnosis import diagnose
 from tests.pipeline.bench import bench
 from vjm.effects import catalogue
@@ -27,8 +31,12 @@ def some() -> dict[str, Effect]:
 
 
 def answer(campaign: Campaign, effects: Mapping[str, Effect]) -> dict[str, object]:
-    whole = answer_of(diagnose(campaign, Model(), effects)).model_dump(mode="json")
-    return {key: value for key, value in whole.items() if key not in TIMES}
+    return timeless(answer_of(diagnose(campaign, Model(), effects)))
+
+
+def timeless(record: Record) -> dict[str, object]:
+    """All of a record but when and with what it was made."""
+    return {key: value for key, value in record.model_dump(mode="json").items() if key not in TIMES}
 
 
 def mixed(campaign: Campaign, seed: int) -> Campaign:
@@ -56,6 +64,24 @@ def test_the_order_of_effects_changes_no_digit() -> None:
 
 def test_the_order_of_tests_changes_no_digit() -> None:
     assert answer(mixed(hidden(), 1), some()) == usual()
+
+
+def test_nor_of_what_is_added_and_removed() -> None:
+    plain, answers = bench("modulus_error.scale", 0.95), []
+    effects = [catalogue()[name] for name in ("modulus_error", "joint_torsional_stiffness")]
+    for campaign in (plain, mixed(plain, 2)):
+        more = add(campaign, Model(), effects)
+        less = remove(campaign, more.model, ["joint_torsional_stiffness"])
+        answers.append([timeless(more.answer), timeless(less.answer)])
+    assert answers[0] == answers[1]
+
+
+@pytest.mark.long
+def test_nor_of_a_law_that_is_found() -> None:
+    known = Known(some(), {})
+    found = [laws_found(it, Model(), known) for it in (hidden(), mixed(hidden(), 4))]
+    assert found[0].record.laws and found[0].effect_file == found[1].effect_file
+    assert timeless(found[0].record) == timeless(found[1].record)
 
 
 @pytest.mark.long
