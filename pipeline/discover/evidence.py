@@ -127,21 +127,26 @@ class Rest:
         return np.asarray(self.tests * blocks + (step * blocks) // np.maximum(counts, 1))
 
     def gains(self, columns: Array, root: Array, parts: np.ndarray) -> Array:
-        """(parts,) chi-square that columns (N, P) gain in each part when they are fitted to the others, and what was
-        written with them, beside what was written fitted to the same others alone.
+        """(parts,) 2 ln p(part | others, with the columns) - 2 ln p(part | others, without): of each part as the others
+        foresee it, with how well they do. In units of chi-square.
 
-        root: (P, P) of the covariance of their weights. parts: (N,) of `parts`.
+        A part is foreseen with the covariance that the others leave the weights: where it goes further than they do, a
+        function says little of it, and is not counted as wrong. columns: (N, P). root: (P, P) of the covariance of
+        their weights. parts: (N,) of `parts`. Source: predictive densities, A. P. Dawid, J. R. Stat. Soc. A 147 (1984)
+        278.
         """
+        every = np.ones(len(parts), dtype=bool)
         both = np.hstack([columns @ root, self.tolerance])
-        own = columns.shape[1]
-        every = [parts == part for part in np.unique(parts)]
-        return np.array([self._left(both[:, own:], mine) - self._left(both, mine) for mine in every])
+        whole = self._surprise(self.tolerance, every) - self._surprise(both, every)
+        kept = [parts != part for part in np.unique(parts)]
+        return np.array(
+            [whole - self._surprise(self.tolerance, it) + self._surprise(both, it) for it in kept]
+        )
 
-    def _left(self, columns: Array, mine: np.ndarray) -> float:
-        """Chi-square of the residuals `mine` (N,) by what the others say of columns of unit variance."""
-        there, e = columns[~mine], self.residuals[~mine]
-        weights = np.linalg.solve(there.T @ there + np.eye(columns.shape[1]), there.T @ e)
-        return float(np.sum((self.residuals[mine] - columns[mine] @ weights) ** 2))
+    def _surprise(self, columns: Array, kept: np.ndarray) -> float:
+        """-2 ln p of the residuals kept, but for a constant, by columns of unit variance beside noise."""
+        its = Marginal.of(columns[kept])
+        return float(np.sum(its.weakened(self.residuals[kept]) ** 2) + np.sum(np.log1p(its.sizes**2)))
 
 
 def _best(prior: Prior, gram: Array, pull: Array, site: Columns) -> Evidence:

@@ -104,6 +104,38 @@ def test_a_function_is_found_with_its_shape(kind: str) -> None:
     assert gains.size == TESTS and gains.sum() - gains.max() > CRITERIA.law_proposed
 
 
+def test_what_left_out_tests_gain_is_a_ratio_of_conditional_densities() -> None:
+    generator = np.random.default_rng(4)
+    c, count = history(4), TESTS * STEPS
+    tolerance = generator.normal(size=(count, 2))
+    rest = rest_of(generator.normal(size=count) + 3.0 * c, tolerance)
+    own = columns(c, generator.normal(size=count), rest.rows, FIRST, 1.0)
+    root = np.diag(generator.uniform(0.1, 2.0, own.shape[1]))
+    noise = np.eye(count) + tolerance @ tolerance.T
+    whole = noise + own @ root @ root.T @ own.T
+
+    def surprise(covariance: np.ndarray, mine: np.ndarray) -> float:
+        inner = np.ix_(~mine, ~mine)
+        others = multivariate_normal.logpdf(rest.residuals[~mine], cov=covariance[inner])
+        return float(-2.0 * (multivariate_normal.logpdf(rest.residuals, cov=covariance) - others))
+
+    every = [rest.tests == test for test in range(TESTS)]
+    expected = [surprise(noise, mine) - surprise(whole, mine) for mine in every]
+    assert rest.gains(own, root, rest.tests) == pytest.approx(np.array(expected), abs=1e-8)
+
+
+def test_a_test_that_goes_further_than_the_others_does_not_speak_against_a_function() -> None:
+    """By the mean alone that the others foresee, the one that goes ten times as far outweighs all they gain."""
+    generator = np.random.default_rng(15)
+    c = history(15)
+    c[: FIRST[1]] *= 10.0
+    influence = 10.0 * generator.normal(size=c.size)
+    rest = rest_of(influence * np.clip(c, -1.0, 1.0) ** 3 + generator.normal(size=c.size))
+    found = rest.evidence(Columns(columns(c, influence, rest.rows, FIRST, 10.0), 10.0))
+    gains = rest.gains(found.site.values, found.size * found.prior.root, rest.parts(1))
+    assert gains.sum() - gains.max() >= CRITERIA.law_left_out
+
+
 def test_what_was_written_does_not_count_as_a_law() -> None:
     generator = np.random.default_rng(5)
     c = history(5)
