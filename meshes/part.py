@@ -10,15 +10,11 @@ from meshes.solid import Floats, Ints, SolidMesh
 # Local nodes of the facets of each kind of cell, meshio's order, outward; by the kind of facet.
 FACETS: dict[str, dict[str, tuple[tuple[int, ...], ...]]] = {
     "tetra10": {
-        "triangle6": ((0, 2, 1, 6, 5, 4), (0, 1, 3, 4, 8, 7), (1, 2, 3, 5, 9, 8), (0, 3, 2, 7, 9, 6)),
+        "triangle6": ((0, 2, 1, 6, 5, 4), (0, 1, 3, 4, 8, 7), (1, 2, 3, 5, 9, 8), (0, 3, 2, 7, 9, 6))
     },
     "wedge15": {
         "triangle6": ((0, 2, 1, 8, 7, 6), (3, 4, 5, 9, 10, 11)),
-        "quad8": (
-            (0, 1, 4, 3, 6, 13, 9, 12),
-            (1, 2, 5, 4, 7, 14, 10, 13),
-            (2, 0, 3, 5, 8, 12, 11, 14),
-        ),
+        "quad8": ((0, 1, 4, 3, 6, 13, 9, 12), (1, 2, 5, 4, 7, 14, 10, 13), (2, 0, 3, 5, 8, 12, 11, 14)),
     },
     "hexahedron20": {
         "quad8": (
@@ -28,7 +24,7 @@ FACETS: dict[str, dict[str, tuple[tuple[int, ...], ...]]] = {
             (1, 2, 6, 5, 9, 18, 13, 17),
             (2, 3, 7, 6, 10, 19, 14, 18),
             (3, 0, 4, 7, 11, 16, 15, 19),
-        ),
+        )
     },
 }
 FACETS["hexahedron27"] = {
@@ -94,14 +90,7 @@ class PartMesh(SolidMesh):
     def placed(self, points: Floats) -> "PartMesh":
         """The same cells on other points (n, 3), mm."""
         return PartMesh(
-            points,
-            self.cells,
-            self.kind,
-            self.faces,
-            self.blocks,
-            self.region_of,
-            self.regions,
-            self.facets,
+            points, self.cells, self.kind, self.faces, self.blocks, self.region_of, self.regions, self.facets
         )
 
     def named(self, facets: Mapping[str, Mapping[str, Ints]]) -> "PartMesh":

@@ -17,15 +17,7 @@ from vjm import lagrangian
 from vjm.equilibrium import Equilibrium
 from vjm.frames import Array
 from vjm.laws import Law
-from vjm.sensitivity import (
-    AnyDirection,
-    Force,
-    Sensitivity,
-    Target,
-    by_parameters,
-    differences,
-    read_change,
-)
+from vjm.sensitivity import AnyDirection, Force, Sensitivity, Target, by_parameters, differences, read_change
 
 
 def by_history(state: Equilibrium, directions: Sequence[AnyDirection], order: int = 4) -> Sensitivity:

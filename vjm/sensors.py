@@ -15,15 +15,7 @@ from typing import ClassVar, Protocol
 
 import numpy as np
 
-from vjm.frames import (
-    Array,
-    exp,
-    inverse_rotation_jacobian,
-    log,
-    moment_gradient,
-    rotation_jacobian,
-    skew,
-)
+from vjm.frames import Array, exp, inverse_rotation_jacobian, log, moment_gradient, rotation_jacobian, skew
 
 
 @dataclass(frozen=True, eq=False)

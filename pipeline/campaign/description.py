@@ -9,13 +9,7 @@ from pipeline.campaign.control import WAYS, controls
 from pipeline.campaign.head import Description, Draft, Head, SensorNoise
 from pipeline.campaign.mapped.sources import Sources
 from pipeline.campaign.model import Cells, Gauge, Rig, Vector
-from pipeline.campaign.names import (
-    KEYS,
-    TEMPERATURE,
-    gauge_column,
-    known_columns,
-    wrong_column,
-)
+from pipeline.campaign.names import KEYS, TEMPERATURE, gauge_column, known_columns, wrong_column
 from pipeline.campaign.rig import distinct
 from pipeline.campaign.rig_table import RigTable
 from pipeline.campaign.rigs import KINDS

@@ -9,16 +9,7 @@ from pydantic import Field, field_validator, model_validator
 
 from pipeline.campaign.head import SensorNoise
 from pipeline.campaign.model import Gauge, Role, Zero
-from pipeline.toml.fields import (
-    Angle,
-    Direction,
-    Number,
-    Place,
-    Sigma,
-    Table,
-    Text,
-    printable,
-)
+from pipeline.toml.fields import Angle, Direction, Number, Place, Sigma, Table, Text, printable
 
 Step = Annotated[int, Field(strict=True, ge=0)]
 

@@ -84,18 +84,8 @@ class Discovery(AboutBench):
         holdout."""
         from pandas import DataFrame
 
-        columns = [
-            "site",
-            "where",
-            "form",
-            "equation",
-            "parameter",
-            "value",
-            "unit",
-            "evidence",
-            "fit",
-            "holdout",
-        ]
+        of_law, of_fit = ("site", "where", "form", "equation"), ("evidence", "fit", "holdout")
+        columns = [*of_law, "parameter", "value", "unit", *of_fit]
         return DataFrame([row for law in self.record.laws for row in _rows(law)], columns=columns)
 
     def json(self) -> str:

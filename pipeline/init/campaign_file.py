@@ -6,14 +6,7 @@ import json
 from collections.abc import Sequence
 
 from pipeline.campaign.mapped.layout import header_unit
-from pipeline.campaign.names import (
-    COORDINATES,
-    DISPLACEMENT,
-    DISPLACEMENTS,
-    FORCE,
-    SUPPORT,
-    known_columns,
-)
+from pipeline.campaign.names import COORDINATES, DISPLACEMENT, DISPLACEMENTS, FORCE, SUPPORT, known_columns
 from pipeline.campaign.rigs import KINDS
 from pipeline.init.found import Found
 from pipeline.init.known_bar import KnownBar

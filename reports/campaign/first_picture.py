@@ -3,16 +3,7 @@
 from matplotlib.figure import Figure
 
 from reports.campaign.curve import COLOURS
-from reports.campaign.names import (
-    AFTER,
-    BEFORE,
-    measured,
-    spelled,
-    stages_of,
-    standing,
-    unit_label,
-    worst,
-)
+from reports.campaign.names import AFTER, BEFORE, measured, spelled, stages_of, standing, unit_label, worst
 from reports.campaign.words import PLAIN
 from reports.charts import dress
 from reports.drafting import save

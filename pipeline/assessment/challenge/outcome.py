@@ -84,50 +84,46 @@ class Outcome(Answered):
     score: Score = "failed"
 
 
+AnyOutcome = TypeVar("AnyOutcome", bound=Answered)
+
+
+def begun(kind: type[AnyOutcome], it: Case, commit: str, code: str) -> Callable[..., AnyOutcome]:
+    """What makes the outcome of a case of the rest of its fields, with the seconds of the processor from here to
+    there."""
+    began = process_time()
+    head: dict[str, Any] = {"number": it.number, "kind": it.kind, "plan": it.bench.label, "fault": it.fault}
+    head |= {"hidden": dict(it.hidden), "commit": commit, "code": code}
+    return lambda **rest: kind(**head, **rest, seconds=round(process_time() - began, 2))
+
+
 def outcome(number: int, commit: str, code: str) -> Outcome:
     """The outcome of the case of that number; one whose bench finds no state has no answer."""
-    began = process_time()
-    it = case(number)
-    common: dict[str, Any] = {
-        "number": number,
-        "kind": it.kind,
-        "plan": it.bench.label,
-        "hidden": dict(it.hidden),
-        "fault": it.fault,
-        "rows": 0,
-        "sizes": {},
-        "gamma": {},
-        "verdict": "",
-        "sets": (),
-        "score": "failed",
-        "commit": commit,
-        "code": code,
-    }
+    out = begun(Outcome, case(number), commit, code)
     try:
         it, found, without = measured(number)
     except RuntimeError as error:
-        return Outcome(**common, error=f"bench: {error}", seconds=round(process_time() - began, 2))
+        return out(error=f"bench: {error}")
     campaign = campaign_of(it, found, it.seed)
     sizes = {name: shows(it, only, without) for name, only in each_alone(it, found, it.bench.rig).items()}
-    common |= {
+    of_bench = {
         "rows": sum(t.data.steps.size for t in campaign.tests),
         "sizes": {name: float(np.linalg.norm(d)) for name, d in sizes.items()},
     }
     try:
         answer = diagnose(campaign, Model(), catalogue())
     except (RuntimeError, ArithmeticError, ValueError) as error:
-        return Outcome(**common, error=str(error), seconds=round(process_time() - began, 2))
+        return out(**of_bench, error=str(error))
     sets = tuple(tuple(n for n in names if n != ALWAYS) for names in answer.possible)
     score = judged(it, answer.verdict, sets)
-    common |= {
-        "gamma": _confusable(answer.cache, it.effects, sizes),
-        "verdict": answer.verdict,
-        "sets": sets,
-        "score": score,
-        "inside": _inside(answer, it) if score == "right" and it.hidden else {},
-        "holdout": held_out(answer),
-    }
-    return Outcome(**common, seconds=round(process_time() - began, 2))
+    return out(
+        **of_bench,
+        gamma=_confusable(answer.cache, it.effects, sizes),
+        verdict=answer.verdict,
+        sets=sets,
+        score=score,
+        inside=_inside(answer, it) if score == "right" and it.hidden else {},
+        holdout=held_out(answer),
+    )
 
 
 def judged(it: Case, verdict: str, sets: Sequence[Sequence[str]]) -> Score:

@@ -1,22 +1,23 @@
 """`python -m pipeline.assessment.sensitivity`: runs the study, or goes on with it, and writes reports/sensitivity."""
 
 from pipeline.assessment.sensitivity.page import page
-from pipeline.assessment.sensitivity.trial import Trial, trial
+from pipeline.assessment.sensitivity.trial import Programme, Trial, trial
 from pipeline.assessment.study import Study
 
-FIRST, STEP = 3, 10
-"""Every tenth case of the challenge: they have every kind."""
+FIRST = 3
+STEPS: dict[Programme, int] = {"clean": 10, "dirty": 20}
+"""Every so many cases of a programme: they have every kind."""
 
 STUDY = Study(
     name="sensitivity",
     title="every criterion of the diagnosis halved and doubled alone",
     of="benches",
     count=60,
-    counted="Benches of the challenge, every tenth case.",
-    tasks=lambda count: [(number,) for number in range(FIRST, FIRST + STEP * count, STEP)],
+    counted="Benches of each programme, every tenth case of the clean one and every twentieth of the dirty one.",
+    tasks=lambda count: [(name, FIRST + step * k) for k in range(count) for name, step in STEPS.items()],
     trial=trial,
     kind=Trial,
-    task=lambda it: (it.number,),
+    task=lambda it: (it.programme, it.number),
     right=lambda it: not it.changes,
     page=page,
 )

@@ -77,19 +77,8 @@ def frame_elements(frame: FrameLinkage, path: SolidPath) -> Refinement | None:
         if failure:
             return None
         ends.append(float(force[-1]))
-    found = extrapolate([1 / n for n in ELEMENT_COUNTS], ends)
-    return Refinement(
-        model="frame",
-        quantity="Fx at the end of the path",
-        q_deg=path.q_deg,
-        held=path.held,
-        refined="elements a bar",
-        sizes=list(ELEMENT_COUNTS),
-        values=ends,
-        limit=found.limit,
-        band=found.band(ends[ELEMENT_COUNTS.index(ELEMENTS)]),
-        used=ELEMENTS,
-    )
+    told = ("frame", "Fx at the end of the path", path, "elements a bar")
+    return _extrapolated(*told, ELEMENT_COUNTS, ends, ELEMENTS)
 
 
 def spring_segments(case: Sized, stiffness: Floats, solid: SolidBuckling) -> Refinement | None:
@@ -99,18 +88,32 @@ def spring_segments(case: Sized, stiffness: Floats, solid: SolidBuckling) -> Ref
     loads = [float(-critical_load(replace(lumped, bar=Refined(n)), solid.held).load) for n in SEGMENT_COUNTS]
     if not np.isfinite(loads).all():
         return None
-    found = extrapolate([1 / n for n in SEGMENT_COUNTS], loads)
+    told = ("VJM, distributed", "critical load", solid, "segments a bar")
+    return _extrapolated(*told, SEGMENT_COUNTS, loads, SEGMENTS)
+
+
+def _extrapolated(
+    model: str,
+    quantity: str,
+    of: SolidPath | SolidBuckling,
+    refined: str,
+    counts: Sequence[int],
+    values: list[float],
+    used: int,
+) -> Refinement:
+    """The record of a study of parts of a bar: its limit is that of ever more of them."""
+    found = extrapolate([1 / n for n in counts], values)
     return Refinement(
-        model="VJM, distributed",
-        quantity="critical load",
-        q_deg=solid.q_deg,
-        held=solid.held,
-        refined="segments a bar",
-        sizes=list(SEGMENT_COUNTS),
-        values=loads,
+        model=model,
+        quantity=quantity,
+        q_deg=of.q_deg,
+        held=of.held,
+        refined=refined,
+        sizes=list(counts),
+        values=values,
         limit=found.limit,
-        band=found.band(loads[SEGMENT_COUNTS.index(SEGMENTS)]),
-        used=SEGMENTS,
+        band=found.band(values[counts.index(used)]),
+        used=used,
     )
 
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from functools import partial
-from time import process_time
 from typing import Any
 
 import numpy as np
@@ -17,7 +16,7 @@ from pipeline.assessment.challenge.dirty.dirt import Knock, read_dirty, true_rig
 from pipeline.assessment.challenge.dirty.judged import Score, judged
 from pipeline.assessment.challenge.dirty.shown import shown
 from pipeline.assessment.challenge.dirty.sizes import sizes_after_tolerances
-from pipeline.assessment.challenge.outcome import Answered, borne, held_out
+from pipeline.assessment.challenge.outcome import Answered, begun, borne, held_out
 from pipeline.campaign import Campaign
 from pipeline.inference.model import Model
 from pipeline.parameter_names import parted
@@ -52,39 +51,24 @@ class DirtyOutcome(Answered):
 
 def dirty_outcome(number: int, commit: str, code: str) -> DirtyOutcome:
     """The outcome of the case of that number; one whose bench finds no state has no answer."""
-    began = process_time()
     it = dirty_case(number)
-    common: dict[str, Any] = {
-        "number": number,
-        "kind": it.kind,
-        "plan": it.bench.label,
-        "hidden": dict(it.hidden),
-        "fault": it.fault,
-        "dirt": it.dirt.words,
-        "commit": commit,
-        "code": code,
-    }
-
-    def out(**more: Any) -> DirtyOutcome:
-        return DirtyOutcome(**common, **more, seconds=round(process_time() - began, 2))
-
+    out = partial(begun(DirtyOutcome, it, commit, code), dirt=it.dirt.words)
     try:
         it, found, without = measured(number)
     except RuntimeError as error:
         return out(error=f"bench: {error}")
     campaign, knocks = read_dirty(f"dirty case {number}", it.bench, it.dirt, found, it.seed)
-    common |= {
-        "rows": sum(t.data.steps.size for t in campaign.tests),
-    }
+    rows = sum(t.data.steps.size for t in campaign.tests)
     try:
         answer = diagnose(campaign, Model(), catalogue())
     except (RuntimeError, ArithmeticError, ValueError) as error:
-        return out(error=str(error))
+        return out(rows=rows, error=str(error))
     sets = tuple(tuple(n for n in names if n != ALWAYS) for names in answer.possible)
     sure = tuple(n for n in answer.certain if n != ALWAYS)
     sizes, gamma = sizes_after_tolerances(it, found, without, answer.cache)
     score = judged(it, answer.verdict, sets, sure, bool(answer.doctor))
     return out(
+        rows=rows,
         sizes=sizes,
         gamma=gamma,
         verdict=answer.verdict,

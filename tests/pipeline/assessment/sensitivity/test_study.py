@@ -6,7 +6,7 @@ import pytest
 
 from pipeline.assessment.challenge.outcome import campaign_of, measured
 from pipeline.assessment.sensitivity.page import page
-from pipeline.assessment.sensitivity.trial import Change, Trial, Verdict, varied
+from pipeline.assessment.sensitivity.trial import UNTOUCHED, Change, Trial, Verdict, varied
 from pipeline.attempt import Attempts
 from pipeline.inference.model import Model
 from pipeline.selection.criteria import CRITERIA
@@ -56,7 +56,13 @@ def test_the_page_counts_what_a_change_gains_and_loses() -> None:
     ]
     text = page(trials)
     assert "| exclusion | 5 chi-square | 1 | -1 | +1 | – |  |  |" in text
-    assert "- case 3, right as modulus_error:\n  wrong as load_offset with exclusion ÷2" in text
-    assert "2 benches" in text
+    assert "- clean case 3, right as modulus_error:\n  wrong as load_offset with exclusion ÷2" in text
+    assert "2 clean benches, 0 dirty ones" in text
     assert all(f"**{each.name}**" in text for each in CRITERIA.of())
-    assert "next_test" not in varied()
+
+
+def test_every_criterion_of_an_answer_has_a_row() -> None:
+    of_search, of_tables = varied("clean"), varied("dirty")
+    kept = {each.name for each in CRITERIA.of() if each.group not in UNTOUCHED}
+    assert {*of_search, *of_tables} == kept and not {*of_search} & {*of_tables}
+    assert {"certain_sigmas", "bad_rest", "doctor_tie", "tails"} <= {*of_tables}
