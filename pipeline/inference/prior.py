@@ -38,9 +38,9 @@ def residual(deviations: Array) -> Array:
 
 
 def slope(deviations: Array) -> Array:
-    """(P,) dr/dt: one near the nominal value, c² / (t r) beyond."""
+    """(P,) dr/dt: one near the nominal value, c² / (t r) with c² = r(c)² beyond."""
     size = np.maximum(np.abs(deviations), TAIL)
-    return np.asarray(TAIL**2 / (size * residual(np.asarray(size))))
+    return np.asarray(residual(np.array(TAIL)) ** 2 / (size * residual(np.asarray(size))))
 
 
 def held_back(free: Sequence[Free], values: Array, plausible: float, jacobian: Array) -> float:

@@ -101,11 +101,11 @@ class FirstOrder:
         free = self.fit.model.free
         scale = np.array([abs(f.parameter.typical) for f in free]) * self.plausible
         far = away(free, self.fit.model.values, self.plausible)
-        own = [size for s in self.signatures.values() for size in s.sizes]
+        own = np.array([size for s in self.signatures.values() for size in s.sizes])
         zeros = self.base.shape[1] - len(free)
         # What is looked at stands for more readings than it has; numbers do not.
         fitted = np.sqrt(self.share) * np.hstack([np.diag(slope(far) / scale), np.zeros((len(free), zeros))])
-        added = np.sqrt(self.share) * np.diag(np.array(own) / self.plausible)
+        added = np.sqrt(self.share) * np.diag(slope(np.zeros(own.size)) * own / self.plausible)
         misfit, base, flat = self._marginal
         base = np.vstack([base, fitted, np.zeros((len(own), base.shape[1]))])
         misfit = np.concatenate([misfit, -np.sqrt(self.share) * residual(far), np.zeros(len(own))])
