@@ -139,6 +139,7 @@ def test_one_knocked_reading_of_some_thirty_rows_changes_nothing(
     assert cells == [(f"along_{knock[0]}", knock[1], f"{knock[0]}_mm")] and not found.noise
 
 
+@pytest.mark.long
 def test_a_dial_with_backlash_is_not_one_that_follows_late(tmp_path: Path) -> None:
     """It was set against the first motion, so that all of the backlash shows on the way back, alike at any load."""
     twice = {"y": (0, 20, 40, 50, 30, 0, 30, 50, 10, 0), "z": LOADS["z"]}
@@ -146,6 +147,7 @@ def test_a_dial_with_backlash_is_not_one_that_follows_late(tmp_path: Path) -> No
     assert (found.verdict, found.added) == ("identified", ("sensor_backlash@y_mm",))
 
 
+@pytest.mark.long
 def test_lost_motion_of_a_clamp_is_no_noise(tmp_path: Path) -> None:
     """The clamp rocks by 60 µm at the tip as the load turns its sign: the dials are not worse than was declared, and
     nothing smooth explains it."""

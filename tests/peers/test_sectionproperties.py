@@ -5,15 +5,18 @@ An independent program with six-node triangles, and W. D. Pilkey's definition of
 
 from __future__ import annotations
 
+import numba
 import numpy as np
 import pytest
 
-# Where no compiler is, one of its libraries is installed without its compiled part.
-pytest.importorskip(
-    "sectionproperties.analysis", reason="sectionproperties cannot be imported", exc_type=ImportError
-)
+# Where no compiler is, one of its libraries is installed without its compiled part. On these small meshes its compiled
+# functions take longer to compile (forty seconds, once an environment) than to run.
+with pytest.MonkeyPatch.context() as patched:
+    patched.setattr(numba.config, "DISABLE_JIT", True)
+    Analysis = pytest.importorskip(
+        "sectionproperties.analysis", reason="sectionproperties cannot be imported", exc_type=ImportError
+    ).Section
 
-from sectionproperties.analysis import Section as Analysis
 from sectionproperties.pre import Geometry, Material
 from shapely import Point, Polygon, box
 

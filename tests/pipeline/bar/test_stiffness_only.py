@@ -48,7 +48,7 @@ def alone(path: Path) -> BarRecord:
     [
         (made.box, ""),
         (made.box, 'tie = "distributed"\n'),
-        (made.tapered, ""),
+        pytest.param(made.tapered, "", marks=pytest.mark.long),
     ],
 )
 def test_the_same_stiffness_as_by_the_whole_mesh(make: Callable[[], None], more: str, tmp_path: Path) -> None:

@@ -84,6 +84,7 @@ def test_what_was_found_before_the_look_ended_is_said(monkeypatch: pytest.Monkey
     assert any("it looked as if all forces are in kgf: check that by hand" in said for said in it.not_done)
 
 
+@pytest.mark.long
 def test_exchanged_columns_with_empty_cells_are_told() -> None:
     """Cells that are empty in one of two columns are those of the other once they are exchanged."""
 
