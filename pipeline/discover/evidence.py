@@ -135,18 +135,23 @@ class Rest:
         their weights. parts: (N,) of `parts`. Source: predictive densities, A. P. Dawid, J. R. Stat. Soc. A 147 (1984)
         278.
         """
-        every = np.ones(len(parts), dtype=bool)
-        both = np.hstack([columns @ root, self.tolerance])
-        whole = self._surprise(self.tolerance, every) - self._surprise(both, every)
-        kept = [parts != part for part in np.unique(parts)]
-        return np.array(
-            [whole - self._surprise(self.tolerance, it) + self._surprise(both, it) for it in kept]
-        )
+        every = np.column_stack([columns @ root, self.tolerance, self.residuals])
+        grams = np.array([every[parts == part].T @ every[parts == part] for part in np.unique(parts)])
+        own, whole = columns.shape[1], grams.sum(axis=0)
+        others = (np.delete(grams, k, axis=0).sum(axis=0) for k in range(len(grams)))
+        return np.array([_gain(whole, own) - _gain(each, own) for each in others])
 
-    def _surprise(self, columns: Array, kept: np.ndarray) -> float:
-        """-2 ln p of the residuals kept, but for a constant, by columns of unit variance beside noise."""
-        its = Marginal.of(columns[kept])
-        return float(np.sum(its.weakened(self.residuals[kept]) ** 2) + np.sum(np.log1p(its.sizes**2)))
+
+def _gain(gram: Array, own: int) -> float:
+    """2 ln of the ratio of densities with so many columns of their own and with the others alone."""
+    return _surprise(gram[own:, own:]) - _surprise(gram)
+
+
+def _surprise(gram: Array) -> float:
+    """-2 ln p of residuals, but for a constant, by columns of unit variance beside noise. gram: (P + 1, P + 1) of the
+    columns and, last, the residuals."""
+    sizes, along = np.linalg.eigh(np.eye(len(gram) - 1) + gram[:-1, :-1])
+    return float(gram[-1, -1] - np.sum((along.T @ gram[:-1, -1]) ** 2 / sizes) + np.sum(np.log(sizes)))
 
 
 def _best(prior: Prior, gram: Array, pull: Array, site: Columns) -> Evidence:
