@@ -127,31 +127,30 @@ class Rest:
         return np.asarray(self.tests * blocks + (step * blocks) // np.maximum(counts, 1))
 
     def gains(self, columns: Array, root: Array, parts: np.ndarray) -> Array:
-        """(parts,) 2 ln p(part | others, with the columns) - 2 ln p(part | others, without): of each part as the others
-        foresee it, with how well they do. In units of chi-square.
+        """(parts,) chi-square that columns (N, P) gain in each part when they are fitted to the others, and what was
+        written with them, beside what was written fitted to the same others alone.
 
-        A part is foreseen with the covariance that the others leave the weights: where it goes further than they do, a
-        function says little of it, and is not counted as wrong. columns: (N, P). root: (P, P) of the covariance of
-        their weights. parts: (N,) of `parts`. Source: predictive densities, A. P. Dawid, J. R. Stat. Soc. A 147 (1984)
-        278.
+        It is chi-square by the covariance with which the others foresee the part by all columns, for both: readings of
+        which they say little by these, as where a part goes further than they do, count for little in either way.
+        root: (P, P) of the covariance of their weights. parts: (N,) of `parts`. Source: predictive distribution of a
+        linear model, C. M. Bishop, Pattern Recognition and Machine Learning, Springer 2006, eq. 3.58.
         """
-        every = np.column_stack([columns @ root, self.tolerance, self.residuals])
-        grams = np.array([every[parts == part].T @ every[parts == part] for part in np.unique(parts)])
-        own, whole = columns.shape[1], grams.sum(axis=0)
-        others = (np.delete(grams, k, axis=0).sum(axis=0) for k in range(len(grams)))
-        return np.array([_gain(whole, own) - _gain(each, own) for each in others])
+        both, own = np.hstack([columns @ root, self.tolerance]), columns.shape[1]
+        inner = np.eye(both.shape[1]) + both.T @ both
 
+        def gain(mine: np.ndarray) -> float:
+            unlike = np.stack([self._unforeseen(it, mine) for it in (both[:, own:], both)], axis=1)
+            pull = both[mine].T @ unlike
+            alone, with_them = np.sum(unlike**2, axis=0) - np.sum(pull * np.linalg.solve(inner, pull), axis=0)
+            return float(alone - with_them)
 
-def _gain(gram: Array, own: int) -> float:
-    """2 ln of the ratio of densities with so many columns of their own and with the others alone."""
-    return _surprise(gram[own:, own:]) - _surprise(gram)
+        return np.array([gain(parts == part) for part in np.unique(parts)])
 
-
-def _surprise(gram: Array) -> float:
-    """-2 ln p of residuals, but for a constant, by columns of unit variance beside noise. gram: (P + 1, P + 1) of the
-    columns and, last, the residuals."""
-    sizes, along = np.linalg.eigh(np.eye(len(gram) - 1) + gram[:-1, :-1])
-    return float(gram[-1, -1] - np.sum((along.T @ gram[:-1, -1]) ** 2 / sizes) + np.sum(np.log(sizes)))
+    def _unforeseen(self, columns: Array, mine: np.ndarray) -> Array:
+        """Of the residuals `mine` (N,), what the others do not foresee by columns of unit variance."""
+        there, e = columns[~mine], self.residuals[~mine]
+        weights = np.linalg.solve(there.T @ there + np.eye(columns.shape[1]), there.T @ e)
+        return np.asarray(self.residuals[mine] - columns[mine] @ weights)
 
 
 def _best(prior: Prior, gram: Array, pull: Array, site: Columns) -> Evidence:
