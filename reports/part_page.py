@@ -87,13 +87,7 @@ def reading(result: Json) -> Section:
         "reading",
         "How to read this page",
         [
-            Bullets(
-                [
-                    *bar_page.READING[:-1],
-                    *sections.READING[1:-1],
-                    OF_RESULT,
-                ]
-            ),
+            Bullets([*bar_page.READING[:-1], *sections.READING[1:-1], OF_RESULT]),
             Text("Sources:"),
             Bullets(result["sources"]),
             Tables(

@@ -87,13 +87,7 @@ def tables(plan: Plan, width: int = WIDTH) -> tuple[Table, ...]:
 
 
 def _sizes(sizes: Sequence[Size], title: str) -> Table:
-    table = lean(
-        "parameter",
-        "typical",
-        "detected",
-        "told\napart",
-        title=title,
-    )
+    table = lean("parameter", "typical", "detected", "told\napart", title=title)
     table.add_column("unit", overflow="fold")
     table.add_column("hardest rival", overflow="fold")
     table.add_column("ρ", justify="right", overflow="fold")

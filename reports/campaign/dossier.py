@@ -83,13 +83,7 @@ def comparison(it: Json) -> Table:
                 DASH if each["area"] is None else number(each["area"], 2),
             ]
         )
-    return table(
-        "Comparison error and validation uncertainty",
-        columns,
-        rows,
-        NOTE,
-        READ,
-    )
+    return table("Comparison error and validation uncertainty", columns, rows, NOTE, READ)
 
 
 def budget(it: Json) -> Table:

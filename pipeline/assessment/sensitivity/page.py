@@ -12,8 +12,8 @@ from pipeline.selection.criteria import CRITERIA, Criterion
 WRONG = ("wrong", "false alarm")
 _ABOUT = """\
 Every threshold by which the diagnosis chooses, halved and doubled alone, on benches of the challenge (frame finite
-elements). Those that one search asks, on every tenth case of the clean programme: nothing hidden, one effect, two, what
-no effect explains, plans that cannot tell. Those that are asked of tables and sensors, on every twentieth case of the
+elements). Those that one search asks, on every ninth case of the clean programme: nothing hidden, one effect, two, what
+no effect explains, plans that cannot tell. Those that are asked of tables and sensors, on every nineteenth case of the
 dirty programme. Counted are the benches whose answer changes: verdict or sets, and on dirty ones also what is certain
 or said of the table. "right" counts what the change gains or loses of answers that are right or hold the right set (or,
 dirty, name a part of it as certain), "wrong" of names of what is not there. Fits are made again where they depend on

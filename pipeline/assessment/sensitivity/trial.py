@@ -98,13 +98,15 @@ def varied_alone(ask: Ask, names: tuple[str, ...]) -> tuple[Verdict, tuple[Chang
 def _clean(number: int) -> Ask:
     """One search. Sets are fitted once, but where fits depend on what is changed."""
     it, found, _ = measured(number)
-    cache = cached_fits(campaign_of(it, found, it.seed), Model(), catalogue())
-    asked: list[FitCache] = []
+    first: list[FitCache] = []
 
     def ask(criteria: Criteria) -> Verdict:
-        # What was fitted to the first that is asked is known to all others.
-        here = (asked or [cache])[0].under(criteria)
-        asked.append(here)
+        if first:
+            # What was fitted for the first that was asked is known to all others.
+            here = first[0].under(criteria)
+        else:
+            here = cached_fits(campaign_of(it, found, it.seed), Model(), catalogue()).under(criteria)
+            first.append(here)
         decision = chosen(here, Attempts()).decision
         sets = tuple(dict.fromkeys((*decision.sets, *(each.without for each in decision.instead))))
         named = [tuple(sorted(names - {ALWAYS})) for names in sets]
@@ -120,7 +122,10 @@ def _dirty(number: int) -> Ask:
     campaign, _ = read_dirty(f"dirty case {number}", it.bench, it.dirt, found, it.seed)
 
     def ask(criteria: Criteria) -> Verdict:
-        answer = diagnose(campaign, Model(), catalogue(), criteria=criteria)
+        try:
+            answer = diagnose(campaign, Model(), catalogue(), criteria=criteria)
+        except (RuntimeError, ArithmeticError, ValueError) as error:
+            return Verdict(verdict="failed", sets=(), score="failed", table=(str(error),))
         record = answer_of(answer)
         sets = tuple(tuple(sorted(set(names) - {ALWAYS})) for names in answer.possible)
         sure = tuple(n for n in answer.certain if n != ALWAYS)

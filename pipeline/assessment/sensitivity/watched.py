@@ -42,8 +42,24 @@ class Value(NDArrayOperatorsMixin):
         self.noted.update(self.others)
         return self.value
 
+    def __bool__(self) -> bool:
+        self.noted.update(key for key, other in self.others.items() if bool(other) != bool(self.value))
+        return bool(self.value)
+
     def __float__(self) -> float:
         return float(self._left())
+
+    def __int__(self) -> int:
+        return int(self._left())
+
+    def __str__(self) -> str:
+        return str(self._left())
+
+    def __format__(self, how: str) -> str:
+        return format(self._left(), how)
+
+    def __reduce_ex__(self, _: Any) -> Any:
+        raise TypeError("a watched criterion stays in its process: what a copy notes is lost")
 
     def __index__(self) -> int:
         return operator.index(self._left())
@@ -61,8 +77,12 @@ class Value(NDArrayOperatorsMixin):
         def of(key: Key | None) -> Any:
             return getattr(ufunc, method)(*(_at(it, key) for it in given), **named)
 
-        value, keys = of(None), {key for it in given if isinstance(it, Value) for key in it.others}
-        if np.asarray(value).dtype == bool:
+        keys = {key for it in given if isinstance(it, Value) for key in it.others}
+        value = of(None)
+        if "out" in named:
+            # It was written into an array, in place.
+            self.noted.update(keys)
+        elif np.asarray(value).dtype == bool:
             self.noted.update(key for key in keys if np.any(of(key) != value))
         elif np.ndim(value) == 0:
             return Value(value, {key: of(key) for key in keys}, self.noted)

@@ -4,9 +4,13 @@ from __future__ import annotations
 
 import pytest
 
+from pipeline.assessment.challenge import cases
+from pipeline.assessment.challenge.dirty import cases as dirty_cases
 from pipeline.assessment.challenge.outcome import campaign_of, measured
+from pipeline.assessment.sensitivity.__main__ import STUDY
 from pipeline.assessment.sensitivity.page import page
-from pipeline.assessment.sensitivity.trial import UNTOUCHED, Change, Trial, Verdict, varied
+from pipeline.assessment.sensitivity.trial import OF_TABLES, UNTOUCHED, Change, Trial, Verdict, varied
+from pipeline.assessment.sensitivity.watched import watched
 from pipeline.attempt import Attempts
 from pipeline.inference.model import Model
 from pipeline.selection.criteria import CRITERIA
@@ -61,8 +65,41 @@ def test_the_page_counts_what_a_change_gains_and_loses() -> None:
     assert all(f"**{each.name}**" in text for each in CRITERIA.of())
 
 
-def test_every_criterion_of_an_answer_has_a_row() -> None:
-    of_search, of_tables = varied("clean"), varied("dirty")
-    kept = {each.name for each in CRITERIA.of() if each.group not in UNTOUCHED}
-    assert {*of_search, *of_tables} == kept and not {*of_search} & {*of_tables}
-    assert {"certain_sigmas", "bad_rest", "doctor_tie", "tails"} <= {*of_tables}
+def test_every_criterion_of_an_answer_has_a_row_in_the_table_of_its_benches() -> None:
+    text = page([])
+    search, of_tables = text.index("## Asked in a search"), text.index("## Asked of tables")
+    for each in CRITERIA.of():
+        row = text.find(f"| {each.name} | ")
+        assert (row < 0) == (each.group in UNTOUCHED), each.name
+        assert row < 0 or ((row > of_tables) == (each.group in OF_TABLES) and row > search)
+    assert {each.group for each in CRITERIA.of()} >= {*OF_TABLES, *UNTOUCHED}
+
+
+def test_dirty_benches_are_in_a_table_of_their_own_with_what_is_said_of_the_table() -> None:
+    sets = (("load_offset",),)
+    answer = Verdict(
+        verdict="unknown", sets=sets, score="certain", certain=("load_offset",), table=("noise of x_mm",)
+    )
+    missed = Verdict(verdict="unknown", sets=sets, score="undecided")
+    change = Change(criterion="certain_sigmas", factor=2.0, answer=missed)
+    text = page(
+        [Trial(programme="dirty", number=3, answer=answer, changes=(change,), commit="abc", code="d")]
+    )
+    assert "| certain_sigmas | 10 sigma | – |  |  | 1 | -1 | 0 |" in text
+    assert "- dirty case 3, certain as load_offset; certain load_offset; noise of x_mm:" in text
+    assert "0 clean benches, 1 dirty ones" in text
+
+
+def test_the_benches_are_of_every_kind() -> None:
+    rounds = {"clean": cases.ROUND, "dirty": dirty_cases.ROUND}
+    for programme, kinds in rounds.items():
+        met = {kinds[number % len(kinds)] for name, number in STUDY.tasks(60) if name == programme}
+        assert met == {*kinds}
+
+
+def test_a_bench_asked_with_watched_criteria_answers_as_without() -> None:
+    plain, seen = small(), small()
+    seen.criteria, noted = watched(varied("clean"))
+    one, other = (chosen(it, Attempts()).decision for it in (plain, seen))
+    assert (one.verdict, one.sets) == (other.verdict, other.sets)
+    assert 0 < len(noted) < 2 * len(varied("clean"))

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from copy import deepcopy
 from math import sqrt
+from typing import Any
 
 import numpy as np
 import pytest
@@ -15,6 +17,14 @@ from pipeline.assessment.sensitivity.watched import FACTORS, watched
 from pipeline.selection.criteria import CRITERIA, Criteria
 
 VALUES = np.array([0.5, 3.0, 9.0])
+
+
+def _in_place(value: Any) -> float:
+    out = np.array(3.0)
+    out *= value
+    return float(out)
+
+
 WAYS: dict[str, Callable[[Criteria], object]] = {
     "compared": lambda it: it.exclusion > 3.0,
     "from the other side": lambda it: np.float64(4.0) < it.exclusion,
@@ -29,6 +39,12 @@ WAYS: dict[str, Callable[[Criteria], object]] = {
     "as a part of a list": lambda it: [1, 2, 3][: it.sets_fitted],
     "rounded": lambda it: round(it.exclusion),
     "by a method": lambda it: it.apart(2) > 13.0,
+    "as truth": lambda it: bool(it.exclusion - 5.0),
+    "as truth, else": lambda it: (it.exclusion - 2.5) or 7.0,
+    "into an array": lambda it: np.greater(VALUES, it.exclusion, out=np.zeros(3, dtype=bool)).tolist(),
+    "in place": lambda it: _in_place(it.exclusion),
+    "as text": lambda it: f"{it.exclusion} {it.exclusion:g}",
+    "as a whole number": lambda it: int(it.exclusion),
     "as a key": lambda it: {it.exclusion: 1}.get(5.0),
 }
 
@@ -51,6 +67,11 @@ def test_a_comparison_notes_those_that_turn_it_and_no_others(x: float, a: float,
     told = bool(a * criteria.exclusion + b < x)
     others = {f: bool(a * (f * CRITERIA.exclusion) + b < x) for f in FACTORS}
     assert {f for _, f in noted} == {f for f, other in others.items() if other != told}
+
+
+def test_no_copy_notes_what_is_lost() -> None:
+    with pytest.raises(TypeError, match="stays in its process"):
+        deepcopy(watched(["exclusion"])[0])
 
 
 def test_what_decided_nothing_is_not_asked_about_again() -> None:
