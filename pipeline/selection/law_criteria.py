@@ -22,7 +22,10 @@ class LawCriteria:
         "own simulation",
     )
     law_left_out: float = criterion(
-        8.0, CHI2, GROUP, "that tests which were left out gain at least, without the best of them"
+        8.0,
+        CHI2,
+        GROUP,
+        "that tests which were left out gain at least, without the best of them, by what the others foresee",
     )
     law_alike: float = criterion(
         10.0,

@@ -77,8 +77,8 @@ def frame_elements(frame: FrameLinkage, path: SolidPath) -> Refinement | None:
         if failure:
             return None
         ends.append(float(force[-1]))
-    told = ("frame", "Fx at the end of the path", path, "elements a bar")
-    return _extrapolated(*told, ELEMENT_COUNTS, ends, ELEMENTS)
+    quantity = "Fx at the end of the path"
+    return _extrapolated("frame", quantity, path, "elements a bar", ELEMENT_COUNTS, ends, ELEMENTS)
 
 
 def spring_segments(case: Sized, stiffness: Floats, solid: SolidBuckling) -> Refinement | None:
@@ -88,8 +88,8 @@ def spring_segments(case: Sized, stiffness: Floats, solid: SolidBuckling) -> Ref
     loads = [float(-critical_load(replace(lumped, bar=Refined(n)), solid.held).load) for n in SEGMENT_COUNTS]
     if not np.isfinite(loads).all():
         return None
-    told = ("VJM, distributed", "critical load", solid, "segments a bar")
-    return _extrapolated(*told, SEGMENT_COUNTS, loads, SEGMENTS)
+    model, quantity = "VJM, distributed", "critical load"
+    return _extrapolated(model, quantity, solid, "segments a bar", SEGMENT_COUNTS, loads, SEGMENTS)
 
 
 def _extrapolated(
