@@ -48,10 +48,12 @@ THRESHOLDS_STAND_IN = (
     "pipeline/selection/law_criteria.py",
     "pipeline/selection/table_criteria.py",
     "pipeline/inference/settings.py",
+    "pipeline/inference/rounding.py",
     "pipeline/inference/solvers.py",
     "pipeline/inference/levenberg_marquardt.py",
 )
-"""The record of the criteria, that of the settings of numerical methods, and the tolerances of the two solvers."""
+"""The record of the criteria, that of the settings of numerical methods, and the tolerances of rounding and of the two
+solvers."""
 PLAY = re.compile(r"plays?|clearances?|stops|slides")
 """A word of an identifier: the effect of a play, the sides of its stops and the way between them."""
 NO_PLAY = ("pipeline/studio/panes.py", "reports/shading.py", "pipeline/manipulator/frame_hinges.py")
@@ -347,8 +349,8 @@ def figures() -> tuple[Figure, ...]:
             "files that name the posture of one kind", 24, _found(postures, pipeline, "|".join(POSTURE))
         ),
         _counted("files with an identifier of plays", 12, _found(plays, product, f"(?i){PLAY.pattern}")),
-        _counted("numbers without a name, at module level", 43, _found(numbers_outside, numerics)),
-        _counted("numbers without a name, in functions", 12, _found(numbers_inside, numerics)),
+        _counted("numbers without a name, at module level", 4, _found(numbers_outside, numerics)),
+        _counted("numbers without a name, in functions", 5, _found(numbers_inside, numerics)),
         Figure(
             "functions of arrays that give shapes, %",
             100.0 * (1 - len(lacking) / every),

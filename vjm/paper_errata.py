@@ -46,7 +46,7 @@ def errata() -> tuple[Erratum, ...]:
 
 def example(q: float = 0.0, spring_at: SpringAt = "tip") -> Parallelogram:
     """The paper's linkage: Eq. 12, 310 mm, 80 mm."""
-    return Parallelogram(paper.LENGTH, paper.WIDTH, paper.BAR_STIFFNESS, q, spring_at)
+    return Parallelogram(paper.LENGTH, paper.WIDTH, paper.BAR_STIFFNESS, q, spring_at=spring_at)
 
 
 def moving_last_factor(linkage: Parallelogram) -> Array:

@@ -20,19 +20,11 @@ from pipeline.inference.fit import Fit, unfitted
 from pipeline.inference.load_cases import load_cases
 from pipeline.inference.model import Model
 from pipeline.inference.residual import whitening
-from pipeline.inference.sensor_noise import FEWEST, from_parabolas, from_roughness
+from pipeline.inference.sensor_noise import from_parabolas, from_roughness
+from pipeline.inference.settings import CLAIMS, ROUGHNESS
 from pipeline.inference.subsets import carried
 
 Array = NDArray[np.float64]
-TEN = 10.0
-"""Times by which the scatter has to be smaller than a claim to count in its place."""
-SURE = 3.0
-"""Standard errors of the scatter by which it has to be."""
-COMPUTED = 1e-6
-"""Of the largest reading, or of what the sigmas say: a scatter below that is none of a sensor, the readings were
-computed, or stand still."""
-CHANCE = 1e-4
-"""Chance that noise leaves so little, where the series are too short for a scatter."""
 
 
 def trusted(whole: Campaign, model: Model) -> Campaign:
@@ -76,9 +68,13 @@ def _by_scatter(found: Fit) -> Iterator[tuple[int, float]]:
             values = found.residual.values[rows, channel]
             paths.append((np.arange(rows.size, dtype=float), values))
         it = from_roughness(paths)
-        if it.differences < FEWEST:
+        if it.differences < ROUGHNESS.fewest:
             it = from_parabolas(paths)
-        if it.value is not None and it.std is not None and it.value + SURE * it.std < 1.0 / TEN:
+        if (
+            it.value is not None
+            and it.std is not None
+            and it.value + CLAIMS.sure * it.std < 1.0 / CLAIMS.times
+        ):
             yield int(channel), it.value
 
 
@@ -87,7 +83,11 @@ def _by_size(found: Fit) -> dict[int, float]:
     if found.degrees < 2 or found.prediction.lost.any():
         return {}
     left = found.chi_square / found.degrees
-    if left >= 1.0 / TEN**2 or left <= 0.0 or chi2.cdf(found.chi_square, found.degrees) > CHANCE:
+    if (
+        left >= 1.0 / CLAIMS.times**2
+        or left <= 0.0
+        or chi2.cdf(found.chi_square, found.degrees) > CLAIMS.chance
+    ):
         return {}
     cases = found.residual.load_cases
     channels = np.flatnonzero((cases.predicted & cases.fitted[:, None]).any(axis=0))
@@ -102,7 +102,9 @@ def _caps(found: Fit, channel: int, share: float) -> Iterator[tuple[int, float]]
         np.sum(np.linalg.inv(whitening(cases, found.prediction).factors)[rows, channel] ** 2, axis=-1)
     )
     target = share * float(np.sqrt(np.mean(spread**2)))
-    if share < COMPUTED or target < COMPUTED * float(np.max(np.abs(cases.measured[rows, channel]))):
+    if share < CLAIMS.computed or target < CLAIMS.computed * float(
+        np.max(np.abs(cases.measured[rows, channel]))
+    ):
         return
     parts = {channel: (float(cases.sigma[channel]), 1.0)}
     for j in range(6):

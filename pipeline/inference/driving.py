@@ -8,10 +8,9 @@ from numpy.typing import NDArray
 from pipeline.campaign import Gauge, Test
 from pipeline.campaign.control import control_channels
 from pipeline.campaign.names import DISPLACEMENTS, WRENCHES
+from pipeline.inference.settings import GOOD_SENSOR
 
 Array = NDArray[np.float64]
-TYPICAL = {"mm": 1e-3, "rad": 2e-5, "N": 1.0, "Nmm": 50.0}
-"""What a good sensor tells apart on the bench of the paper: makes travels of different units comparable."""
 
 
 def column_name(channel: int, gauges: tuple[Gauge, ...]) -> str:
@@ -26,10 +25,11 @@ def unit_of(channel: int) -> str:
 
 
 def driving(test: Test, gauges: tuple[Gauge, ...]) -> tuple[int, Array]:
-    """The channel whose prescribed quantity travels farthest, in `TYPICAL` sizes of the rig, and its values (N,)."""
+    """The channel whose prescribed quantity travels farthest, in sizes of `GOOD_SENSOR` on the rig, and its values
+    (N,)."""
     channels = control_channels(test, gauges)
     values = test.inputs(gauges)
     scale = test.rig.scale
-    sizes = np.array([TYPICAL[unit_of(channel)] * scale.of(unit_of(channel)) for channel in channels])
+    sizes = np.array([GOOD_SENSOR[unit_of(channel)] * scale.of(unit_of(channel)) for channel in channels])
     number = int(np.argmax(np.ptp(values / sizes, axis=0)))
     return channels[number], values[:, number]

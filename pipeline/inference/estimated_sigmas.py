@@ -14,15 +14,11 @@ from pipeline.campaign.names import DISPLACEMENTS, TEMPERATURE, WRENCHES, gauge_
 from pipeline.campaign.reading import DESCRIPTION
 from pipeline.inference.driving import driving
 from pipeline.inference.rounding import EQUAL, ROUNDING
-from pipeline.inference.sensor_noise import FEWEST, SigmaEstimate, from_lines, from_repeats, from_roughness
+from pipeline.inference.sensor_noise import SigmaEstimate, from_lines, from_repeats, from_roughness
+from pipeline.inference.settings import CHOSEN_STEPS, ROUGHNESS
 
 Array = NDArray[np.float64]
 Readings = Callable[[Test], Array]
-EVEN, CELLS = 0.02, 10.0
-"""Of a step, by which multiples may miss it; smallest steps within the range, for each reading, up to which they were
-chosen."""
-TURNS = 1.0 / 3.0
-"""Of the steps, at which a load that was chosen turns back, at most; noise does so at two of three."""
 HEAT = -1
 """Stands for the thermometer among the channels."""
 
@@ -66,14 +62,14 @@ def _sigma(campaign: Campaign, channel: int) -> tuple[float, str]:
     if given and _chosen(list(map(_known, _columns(campaign, channel)))):
         return 0.0, ": it is prescribed in steps that were chosen, so it counts as exact"
     repeats = _from_repeats(campaign, channel)
-    if repeats.value and repeats.differences >= FEWEST:
+    if repeats.value and repeats.differences >= ROUGHNESS.fewest:
         return repeats.value, f"± {repeats.std:.1g}, from {repeats.differences} repeated steps"
     rough = [from_roughness(_paths_over(campaign, channel, over)) for over in (_step, _load)]
     lines = from_lines(_paths_over(campaign, channel, _load))
     largest = max(float(np.abs(known).max(initial=0.0)) for known in map(_known, _columns(campaign, channel)))
     # Differences of equal readings are zero but for rounding.
     real = [each for each in rough if each.value is not None and each.value > ROUNDING * largest]
-    rounded = not real and rough[0].differences >= FEWEST
+    rounded = not real and rough[0].differences >= ROUGHNESS.fewest
     found = real if rounded or lines.value is None else [*real, lines]
     if found:
         best = min(found, key=lambda each: each.value or 0.0)
@@ -82,7 +78,7 @@ def _sigma(campaign: Campaign, channel: int) -> tuple[float, str]:
         return float(best.value or 0.0), f"± {best.std:.1g}, from the {how}, {best.differences} {number}"
     steps = np.concatenate([_steps_of(readings) for readings in _columns(campaign, channel)])
     # So many differences without any noise in them: the readings are rounded.
-    if steps.size and rough[0].differences >= FEWEST:
+    if steps.size and rough[0].differences >= ROUGHNESS.fewest:
         return float(steps.min() / np.sqrt(12.0)), f"of readings rounded to {steps.min():.3g}"
     if given:
         return 0.0, ": it is prescribed and its readings do not tell its noise, so it counts as exact"
@@ -110,10 +106,11 @@ def _chosen(columns: Sequence[Array]) -> bool:
     if not steps.size:
         return True
     counts = (values - values[0]) / steps.min()
-    even = bool(np.all(np.abs(counts - np.round(counts)) < EVEN) and counts[-1] <= CELLS * values.size)
+    few = counts[-1] <= CHOSEN_STEPS.cells * values.size
+    even = bool(few and np.all(np.abs(counts - np.round(counts)) < CHOSEN_STEPS.even))
     ways = [np.sign(np.diff(column)) for column in columns]
     turns = sum(int(np.sum(way[1:] * way[:-1] < 0.0)) for way in ways)
-    return even and turns <= TURNS * sum(way.size for way in ways)
+    return even and turns <= CHOSEN_STEPS.turns * sum(way.size for way in ways)
 
 
 def _from_repeats(campaign: Campaign, channel: int) -> SigmaEstimate:

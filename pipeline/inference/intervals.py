@@ -34,7 +34,7 @@ from vjm.work import at_most
 
 Array = NDArray[np.float64]
 Out = TypeVar("Out")
-Z = float(norm.ppf(0.975))
+Z = float(norm.ppf(0.5 * (1.0 + PROFILE.confidence)))
 
 
 @dataclass(frozen=True)
@@ -267,7 +267,7 @@ def holds_null(land: ProfileLikelihood, k: int) -> bool:
     return land.rise(k, shift, way, most)[0] < most
 
 
-def correlations(land: ProfileLikelihood, least: float = 0.9) -> list[tuple[int, int, float]]:
+def correlations(land: ProfileLikelihood, least: float = PROFILE.told) -> list[tuple[int, int, float]]:
     """Pairs of numbers whose errors go together, strongest first: (i, j, correlation) of at least this size."""
     free = np.flatnonzero(~land.active)
     slopes = land.jacobian[:, free]

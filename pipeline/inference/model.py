@@ -13,15 +13,13 @@ from numpy.typing import NDArray
 from pipeline.campaign import Gauge
 from pipeline.campaign.rig import Solvable
 from pipeline.inference.rounding import AT_BOUND
+from pipeline.inference.settings import DIFFERENCES
 from pipeline.parameter_names import path_of
 from vjm.effects import shipped
 from vjm.effects.base import Effect, Parameter
 from vjm.tolerances.angle import POSTURE
 
 Array = NDArray[np.float64]
-START = 3e-3
-"""A parameter stays at least this part of its typical size inside its bounds: there it has a derivative to both
-sides, and an effect whose null is a bound is there, while what it does is far below any noise."""
 
 
 class Built(Protocol):
@@ -50,7 +48,7 @@ class Free:
     @property
     def bounds(self) -> tuple[float, float]:
         """Least and greatest value that a fit may try."""
-        margin = START * abs(self.parameter.typical)
+        margin = DIFFERENCES.inside * abs(self.parameter.typical)
         return self.parameter.low + margin, self.parameter.high - margin
 
 
@@ -199,9 +197,9 @@ def at_bound(model: Model) -> tuple[str, ...]:
 
 
 def _beside_null(each: Free) -> float:
-    """A value that is not null, so that the effect is there, and no farther from it than `START`."""
+    """A value that is not null, so that the effect is there, and no farther from it than `DIFFERENCES.inside`."""
     p = each.parameter
-    return float(np.clip(p.null + START * p.typical, *each.bounds))
+    return float(np.clip(p.null + DIFFERENCES.inside * p.typical, *each.bounds))
 
 
 def _in_sensors_alone(one: object, other: object) -> bool:

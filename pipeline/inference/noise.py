@@ -12,7 +12,7 @@ from scipy.stats import chi2, norm
 from pipeline.inference.settings import IMHOF
 
 Array = NDArray[np.float64]
-MEDIAN = float(norm.ppf(0.75))
+MEDIAN = float(norm.isf(0.5 / 2.0))
 """Median magnitude of noise, in sigmas."""
 
 

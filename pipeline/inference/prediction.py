@@ -14,7 +14,7 @@ from pipeline.campaign.rig import Solvable
 from pipeline.inference.bifurcation import Sight, branched
 from pipeline.inference.history import history
 from pipeline.inference.load_cases import INPUTS, Group, LoadCases
-from pipeline.inference.model import START, Model
+from pipeline.inference.model import Model
 from pipeline.inference.predicted import Prediction, no_slides, no_stops, zeroed
 from pipeline.inference.sensor_faults import faulted, in_mechanism, inputs_off
 from pipeline.inference.settings import DIFFERENCES
@@ -297,7 +297,7 @@ def _direction(model: Model, number: int, group: Group, load_cases: LoadCases) -
     # Differences stay on the same side of a bound as the value; of one at a bound they are taken beside it.
     value = float(np.clip(model.values[number], *each.bounds))
     room = min(value - parameter.low, parameter.high - value)
-    size = min(abs(parameter.typical), room / START)
+    size = min(abs(parameter.typical), room / DIFFERENCES.inside)
     # Differences that reach across a kink are no derivative of either side: few states are so near to one.
     smooth = next(t.effect.smooth for t in model.terms if t.effect.name == each.effect)
     size *= 1.0 if smooth else DIFFERENCES.near_kinks

@@ -15,7 +15,7 @@ from pipeline.inference.rounding import AT_BOUND, ROUNDING, TINY
 from pipeline.inference.settings import PROFILE
 
 Array = NDArray[np.float64]
-RISE = float(chi2.ppf(0.95, 1))
+RISE = float(chi2.ppf(PROFILE.confidence, 1))
 
 
 class LeastSquares(Protocol):

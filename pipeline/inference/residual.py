@@ -27,8 +27,8 @@ from pipeline.inference.eliminated import Marginal
 from pipeline.inference.load_cases import LOST, LoadCases
 from pipeline.inference.orthonormal_basis import basis
 from pipeline.inference.predicted import Prediction
-from pipeline.inference.settings import INPUTS
-from pipeline.inference.stops import SIDE, SPREAD, on_their_sides
+from pipeline.inference.settings import INPUTS, STOPS
+from pipeline.inference.stops import on_their_sides
 
 Array = NDArray[np.float64]
 
@@ -116,12 +116,12 @@ class Residual:
     @property
     def doubt(self) -> float:
         """Chi-square that the choice of sides may have taken up in the tests that may be fitted."""
-        return SIDE * float(np.sum(self.undecided[self.load_cases.fitted]))
+        return STOPS.side * float(np.sum(self.undecided[self.load_cases.fitted]))
 
     @property
     def spread(self) -> float:
         """By how much more than that, two standard deviations."""
-        return SPREAD * float(np.sqrt(np.sum(self.undecided[self.load_cases.fitted])))
+        return STOPS.spread * float(np.sqrt(np.sum(self.undecided[self.load_cases.fitted])))
 
     def flat(self, array: Array) -> Array:
         """(N, ...) of the tests that may be fitted."""

@@ -10,18 +10,9 @@ from scipy.special import gammaln
 
 from pipeline.inference.noise import MEDIAN
 from pipeline.inference.rounding import EQUAL
-from pipeline.inference.settings import DRAWS
+from pipeline.inference.settings import DRAWS, ROUGHNESS
 
 Array = NDArray[np.float64]
-FEWEST = 6
-"""Differences below which a median says nothing."""
-FEWEST_FREE = 3
-"""Degrees of freedom about straight lines below which their scatter says nothing."""
-FEWEST_CURVED = 4
-"""Degrees of freedom about parabolas below which their scatter refutes no declared sigma: of four, noise is twenty
-times smaller than its sigma once in a hundred thousand."""
-WINDOW = 4
-"""Steps in a difference: a quadratic in the load passes it without a trace, at any spacing of the loads."""
 
 
 @dataclass(frozen=True)
@@ -54,16 +45,16 @@ def from_repeats(readings: Array, group: NDArray[np.int64]) -> SigmaEstimate:
 def from_lines(paths: Sequence[tuple[Array, Array]]) -> SigmaEstimate:
     """Sigma from the scatter about a straight line over the load, one line a path: loads and readings (n,) of each.
 
-    Pooled and unbiased as in `from_repeats`, nu = sum of readings less two a path, at least `FEWEST_FREE`. What bends
-    or loops only adds to it. ValueError for loads or readings that are not finite.
+    Pooled and unbiased as in `from_repeats`, nu = sum of readings less two a path, at least `ROUGHNESS.about_lines`.
+    What bends or loops only adds to it. ValueError for loads or readings that are not finite.
     """
-    return _about(paths, 1, FEWEST_FREE, "straight lines")
+    return _about(paths, 1, ROUGHNESS.about_lines, "straight lines")
 
 
 def from_parabolas(paths: Sequence[tuple[Array, Array]]) -> SigmaEstimate:
-    """The same about a parabola, one a path (n,), at least `FEWEST_CURVED` degrees of freedom: of paths that are
-    too short for the differences of `from_roughness`."""
-    return _about(paths, 2, FEWEST_CURVED, "parabolas")
+    """The same about a parabola, one a path (n,), at least `ROUGHNESS.about_parabolas` degrees of freedom: of
+    paths that are too short for the differences of `from_roughness`."""
+    return _about(paths, 2, ROUGHNESS.about_parabolas, "parabolas")
 
 
 def _about(paths: Sequence[tuple[Array, Array]], degree: int, fewest: int, what: str) -> SigmaEstimate:
@@ -92,7 +83,7 @@ def _pooled(squares: float, nu: int) -> SigmaEstimate:
     s = np.sqrt(squares / nu)
     c4 = np.sqrt(2.0 / nu) * np.exp(gammaln(0.5 * (nu + 1)) - gammaln(0.5 * nu))
     # Rounding of c4 at many repeats must not turn the root around; 1 / c4² - 1 tends to 1 / (2 nu).
-    spread = np.sqrt(max(1.0 / c4**2 - 1.0, 0.25 / nu))
+    spread = np.sqrt(max(1.0 / c4**2 - 1.0, 0.5 / nu))
     return SigmaEstimate(float(s / c4), float(s / c4 * spread), int(nu))
 
 
@@ -114,8 +105,10 @@ def from_roughness(
     loads = [np.asarray(load, dtype=float) for load, _ in paths]
     found = [_differences(load) for load in loads]
     count = sum(len(w) for _, w in found)
-    if count < FEWEST:
-        return SigmaEstimate(None, None, count, f"{count} differences, allowed are {FEWEST} or more")
+    if count < ROUGHNESS.fewest:
+        return SigmaEstimate(
+            None, None, count, f"{count} differences, allowed are {ROUGHNESS.fewest} or more"
+        )
     raw = float(_spread(found, [np.asarray(y, dtype=float)[:, None] for _, y in paths])[0])
     if raw == 0.0:
         return SigmaEstimate(None, None, count, "most differences are zero: the readings are rounded")
@@ -123,7 +116,7 @@ def from_roughness(
     return SigmaEstimate(raw / mean, raw / mean * std / mean, count)
 
 
-@lru_cache(maxsize=256)
+@lru_cache
 def _drawn_once(loads: tuple[tuple[float, ...], ...]) -> tuple[float, float]:
     """Of the draws that are the same each time: sensors of a table share its loads, and are asked about often."""
     return _drawn([np.array(load) for load in loads], np.random.default_rng(0))
@@ -145,7 +138,7 @@ def _drawn(loads: list[Array], rng: np.random.Generator) -> tuple[float, float]:
 def _spread(found: list[tuple[NDArray[np.int64], Array]], readings: list[Array]) -> Array:
     """(k,) 1.4826 times the median magnitude of all differences; readings (n, k), one a path."""
     values = [
-        sum(w[:, j, None] * y[first + j] for j in range(WINDOW))
+        sum(w[:, j, None] * y[first + j] for j in range(ROUGHNESS.window))
         for (first, w), y in zip(found, readings, strict=True)
     ]
     return np.asarray(np.median(np.abs(np.concatenate(values)), axis=0) / MEDIAN, dtype=float)
@@ -153,9 +146,9 @@ def _spread(found: list[tuple[NDArray[np.int64], Array]], readings: list[Array])
 
 def _differences(load: Array) -> tuple[NDArray[np.int64], Array]:
     """First step (m,) and weights (m, 4), of unit length and blind to quadratics in the load, of each difference."""
-    if load.size < WINDOW:
-        return np.zeros(0, dtype=np.int64), np.zeros((0, WINDOW))
-    s = np.lib.stride_tricks.sliding_window_view(load, WINDOW)
+    if load.size < ROUGHNESS.window:
+        return np.zeros(0, dtype=np.int64), np.zeros((0, ROUGHNESS.window))
+    s = np.lib.stride_tricks.sliding_window_view(load, ROUGHNESS.window)
     reach = np.ptp(s, axis=1, keepdims=True)
     u = (s - s.mean(axis=1, keepdims=True)) / np.where(reach > 0.0, reach, 1.0)
     left, sizes, _ = np.linalg.svd(np.stack([np.ones_like(u), u, u**2], axis=2), full_matrices=True)

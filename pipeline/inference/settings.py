@@ -51,6 +51,11 @@ class Stops:
     """Standard deviations from a stop at which a row that belongs to one of its sides is linearised."""
     no_room: float = 1e-9
     """Of one, in the problem of least distance: less is left where bounds exclude each other."""
+    side: float = 0.36
+    """Of chi-square, that a row without play takes up on average by choosing its side of one as large as the noise, of
+    the better of two displacements and with the sign of a force that is all noise; less of other plays."""
+    spread: float = 2.5
+    """Twice the standard deviation of the same, of a row."""
 
 
 @dataclass(frozen=True)
@@ -107,6 +112,9 @@ class Differences:
 
     slight: float = 1e-3
     """Bow, in lengths of a bar, from which straight bars find the branch on which they bend."""
+    inside: float = 3e-3
+    """Of its typical size, by which a parameter stays inside its bounds at least: there it has a derivative to both
+    sides, and an effect whose null is a bound is there, while what it does is far below any noise."""
     near_kinks: float = 1e-3
     """Of its typical size, over which a number with kinks is differentiated."""
     fault_step: float = 1e-4
@@ -150,7 +158,7 @@ class Look:
     """Fewer rows, where a look is enough (`pipeline.inference.thinning`)."""
 
     moves: float = 20.0
-    """Sigmas of its noise: an input that moves more is driven."""
+    """Sigmas of its noise: an input that moves more is driven, and not held."""
     rows: int = 100
     """Fitted rows that a look takes; a campaign of fewer is taken as it is."""
 
@@ -159,6 +167,8 @@ class Look:
 class Profile:
     """Errors and ends of intervals (`pipeline.inference.fit`, `profile_likelihood` and `intervals` beside it)."""
 
+    confidence: float = 0.95
+    """Of intervals: 1.96 standard errors to either side, a rise of chi-square by 3.841."""
     nearly: float = 0.15
     """A rise within this part of 3.841 at 1.96 standard errors puts the Wald end at most 8 % of the half width beside
     the profile's."""
@@ -173,6 +183,8 @@ class Profile:
     blind: float = 1e-6
     """A direction in which the whitened derivative falls below this part of the number's own is not seen: its error
     bar would be a million times that of the number alone, beyond the rounding of the derivatives."""
+    told: float = 0.9
+    """Correlation of two numbers from which it is told."""
     shared: float = 1e-3
     """Share of a number in directions that the data do not see, from which they do not determine it."""
     work: float = 2.0
@@ -188,6 +200,48 @@ class Profile:
     """Of the room to a bound, at least, where an end is looked for first: never at the value itself."""
     off_ends: float = 0.1
     """Of a bracket, by which the next look is kept off either end: it also halves a jump."""
+
+
+@dataclass(frozen=True)
+class ChosenSteps:
+    """When a load was chosen and not measured (`pipeline.inference.estimated_sigmas`)."""
+
+    even: float = 0.02
+    """Of a step, by which multiples of the smallest may miss it."""
+    cells: float = 10.0
+    """Smallest steps within the range, for each reading, at most."""
+    turns: float = 1.0 / 3.0
+    """Of the steps, at which the load turns back, at most; noise does so at two of three."""
+
+
+@dataclass(frozen=True)
+class Claims:
+    """When the scatter counts in the place of a declared sigma (`pipeline.inference.declared_sigmas`)."""
+
+    times: float = 10.0
+    """By which the scatter has to be smaller than the claim."""
+    sure: float = 3.0
+    """Standard errors of the scatter by which it has to be."""
+    computed: float = 1e-6
+    """Of the largest reading, or of what the sigmas say: a scatter below that is none of a sensor, the readings were
+    computed, or stand still."""
+    chance: float = 1e-4
+    """Chance that noise leaves so little, where the series are too short for a scatter."""
+
+
+@dataclass(frozen=True)
+class Roughness:
+    """Scatter about smooth curves (`pipeline.inference.sensor_noise`)."""
+
+    window: int = 4
+    """Steps in a difference: a quadratic in the load passes it without a trace, at any spacing of the loads."""
+    fewest: int = 6
+    """Differences below which a median says nothing."""
+    about_lines: int = 3
+    """Degrees of freedom about straight lines below which their scatter says nothing."""
+    about_parabolas: int = 4
+    """Degrees of freedom about parabolas below which their scatter refutes no declared sigma: of four, noise is twenty
+    times smaller than its sigma once in a hundred thousand."""
 
 
 @dataclass(frozen=True)
@@ -261,6 +315,19 @@ class StudentsLaw:
 
 
 @dataclass(frozen=True)
+class Patterns:
+    """What errors of sensors look like in a residual (`pipeline.selection.adequacy.patterns`)."""
+
+    left: float = 1e-3
+    """Part of a column that is left at least when what the fit can move is taken out of it: less may be what is wrong
+    with derivatives by differences."""
+    lag: float = 0.7
+    """Of a reading, that is still there a step later in a sensor that follows slowly."""
+    travel: float = 0.01
+    """Of the largest reading, from which a step has a direction of travel."""
+
+
+@dataclass(frozen=True)
 class GreatestLoads:
     """Which residuals are off at the greatest loads (`pipeline.selection.adequacy.greatest_loads`)."""
 
@@ -270,6 +337,8 @@ class GreatestLoads:
     """Sigmas, or times the median of its channel by which noise would have it, from which a residual is far out."""
 
 
+GOOD_SENSOR = {"mm": 1e-3, "rad": 2e-5, "N": 1.0, "Nmm": 50.0}
+"""What one tells apart on the bench of the paper, by unit: makes travels of different units comparable."""
 BIFURCATION = Bifurcation()
 CROSSINGS = Crossings()
 STOPS = Stops()
@@ -280,9 +349,13 @@ DIFFERENCES = Differences()
 LADDER = Ladder()
 LOOK = Look()
 PROFILE = Profile()
+CHOSEN_STEPS = ChosenSteps()
+CLAIMS = Claims()
+ROUGHNESS = Roughness()
 DRAWS = Draws()
 IMHOF = Imhof()
 SCATTERING = Scattering()
 CORRELATION = Correlation()
 STUDENTS_LAW = StudentsLaw()
+PATTERNS = Patterns()
 GREATEST_LOADS = GreatestLoads()

@@ -22,11 +22,6 @@ from vjm.effects.base import Effect
 
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
-SIDE = 0.36
-"""Of chi-square, that a row without play takes up on average by choosing its side of one as large as the noise, of the
-better of two displacements and with the sign of a force that is all noise; less of other plays."""
-SPREAD = 2.5
-"""Twice the standard deviation of the same, of a row."""
 
 
 @dataclass(frozen=True, eq=False)

@@ -8,7 +8,6 @@ import numpy as np
 
 from pipeline.inference.fit import Fit
 from pipeline.selection.criteria import Criteria
-from pipeline.selection.mistakes.absolute import FAR
 
 
 @dataclass(frozen=True)
@@ -37,7 +36,7 @@ def beginnings(found: Fit, criteria: Criteria) -> tuple[Beginning, ...]:
         for k, row in read:
             value = float(whole.measured[row, channel])
             nothing = abs(expected[row, channel]) < criteria.zero_alone * abs(value)
-            if nothing and abs(value) > FAR * sigma:
+            if nothing and abs(value) > criteria.doctor_plain * sigma:
                 far.append((whole.campaign.tests[k].id, value))
         if far:
             value = far[0][1]

@@ -28,8 +28,6 @@ from pipeline.selection.rivals import Found
 from vjm.effects.sensor_fault import SensorFault
 
 Array = NDArray[np.float64]
-NEW = 0.1
-"""Part of a pattern that must be left when those that were chosen are taken out of it, and a fault that it is not."""
 
 
 def certain(found: Found, sets: tuple[Names, ...], doubted: Collection[str] = ()) -> tuple[str, ...]:
@@ -113,7 +111,7 @@ def falls(found: Fit, criteria: Criteria, most: int, but: Array | None = None) -
     """
     every = [it.column / it.size for it in (*shapes(found, criteria), *_zeros(found))]
     if but is not None:
-        every = [it for it in every if 1.0 - float(it @ but) ** 2 > NEW**2]
+        every = [it for it in every if 1.0 - float(it @ but) ** 2 > criteria.certain_new**2]
     left = float(found.whitened @ found.whitened)
     out = [left]
     if not every:
@@ -122,7 +120,7 @@ def falls(found: Fit, criteria: Criteria, most: int, but: Array | None = None) -
     there = np.ones(columns.shape[1])
     for _ in range(most):
         sizes = np.linalg.norm(columns, axis=0)
-        usable = (sizes > NEW) & (there > 0.0)
+        usable = (sizes > criteria.certain_new) & (there > 0.0)
         if not usable.any():
             return out
         pull = np.where(usable, columns.T @ residual / np.where(usable, sizes, 1.0), 0.0)

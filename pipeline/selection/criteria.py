@@ -105,6 +105,12 @@ class Criteria(TableCriteria, LawCriteria):
         "faults of sensors, at most, that the rest of the best set may need to look like noise",
     )
     certain_more: int = criterion(2, COUNT, "certain", "faults of sensors that a rival may have more")
+    certain_new: float = criterion(
+        0.1,
+        SHARE,
+        "certain",
+        "of a fault of a sensor, that is left when those that were chosen, or the fault in doubt, are taken out of it",
+    )
     certain_rivals: int = criterion(
         2, COUNT, "certain", "sets without an effect, at each of two places, that are looked at instead of it"
     )

@@ -300,7 +300,7 @@ def _promising(table: Table) -> list[Mistake]:
         return []
     linear = predict_linear(whole)
     out: list[tuple[float, Mistake]] = []
-    for mistake in possible(whole.campaign):
+    for mistake in possible(whole.campaign, criteria):
         mended = mistake.mended(whole.campaign)
         cases = load_cases(mended)
         every = [

@@ -9,18 +9,10 @@ from numpy.typing import NDArray
 
 from pipeline.campaign import Campaign, Data, Rig, Test
 from pipeline.campaign.names import DISPLACEMENT, FORCE
-from pipeline.campaign.usual_tests import UsualTest
+from pipeline.campaign.usual_tests import MODEST, MODEST_LOAD, STEPS, WARMER_K, UsualTest
+from pipeline.inference.settings import LOOK
 
 Array = NDArray[np.float64]
-STEPS = 16
-WARMER = 10.0
-"""K, of a test that is repeated in a warmer hall."""
-DONE = 20.0
-"""Sigmas from which a prescribed quantity was driven, and not held."""
-_MODEST = np.array([0.0, 0.02, 0.05, 0.03, 0.03, 0.04])
-"""Travel where the campaign has none: lengths of the bar, and rad."""
-_SHARE = 0.2
-"""Of the load at which a bar that is guided sideways buckles: axial load where the campaign has none."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -46,7 +38,9 @@ def menu(campaign: Campaign) -> list[Choice]:
             if there[shape.coordinate + (6 if shape.control[shape.coordinate] == FORCE else 0)]:
                 out.append(_choice(campaign, shape, angle, len(out), 0.0))
     if heat:
-        out += [_choice(campaign, c.shape, c.test.q_deg, len(out) + k, WARMER) for k, c in enumerate(out[:2])]
+        out += [
+            _choice(campaign, c.shape, c.test.q_deg, len(out) + k, WARMER_K) for k, c in enumerate(out[:2])
+        ]
     return out
 
 
@@ -90,7 +84,9 @@ def planned(
     steps = len(values)
     heat = None
     if any(t.data.temperature is not None for t in campaign.tests):
-        heat = np.full(steps, (rig.reference_temperature or 20.0) + warmer)
+        heat = np.full(
+            steps, (0.0 if rig.reference_temperature is None else rig.reference_temperature) + warmer
+        )
     data = Data(
         np.arange(steps),
         np.where(forced, there[:6], values),
@@ -105,12 +101,12 @@ def planned(
 def limits(campaign: Campaign) -> Array:
     """(6,) largest force along x and travel along the others that the campaign has done; modest where it has none."""
     rig = campaign.rig
-    out = _MODEST * np.array([0.0, rig.length, rig.length, 1.0, 1.0, 1.0])
-    out[0] = _SHARE * rig.euler_load
+    out = np.array(MODEST) * np.array([0.0, rig.length, rig.length, 1.0, 1.0, 1.0])
+    out[0] = MODEST_LOAD * rig.euler_load
     sigma = np.append(campaign.noise.wrench[:1], campaign.noise.displacement[1:])
     for k in range(6):
         done = max((_largest(t, k) for t in campaign.tests), default=0.0)
-        out[k] = done if done > DONE * np.nan_to_num(sigma[k]) else out[k]
+        out[k] = done if done > LOOK.moves * np.nan_to_num(sigma[k]) else out[k]
     return out
 
 

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pipeline.inference.fit import Fit
+from pipeline.inference.rounding import EQUAL, TINY
 from pipeline.selection.criteria import Criteria
 
 Array = NDArray[np.float64]
@@ -53,11 +54,11 @@ def _by_test(found: Fit, name: str) -> Array:
     nominal = it.nominal[used]
     others = np.hstack([it.slopes[used][:, ~mine], it.offsets[used], nominal])
     fitted = np.broadcast_to(whole.fitted[:, None], used.shape)[used]
-    sizes = np.maximum(np.linalg.norm(others, axis=0), 1e-300)
+    sizes = np.maximum(np.linalg.norm(others, axis=0), TINY)
     # What was written is known to one standard deviation: a reading more of each.
     known = np.eye(others.shape[1])[others.shape[1] - nominal.shape[1] :]
     right = np.concatenate([alone[fitted], np.zeros(len(known))])
-    taken = np.linalg.lstsq(np.vstack([others[fitted], known]) / sizes, right, rcond=1e-9)[0]
+    taken = np.linalg.lstsq(np.vstack([others[fitted], known]) / sizes, right, rcond=EQUAL)[0]
     left = alone - (others / sizes) @ taken
     tests = np.broadcast_to(whole.test[:, None], used.shape)[used]
     squares = np.bincount(tests, left**2, minlength=len(whole.campaign.tests))

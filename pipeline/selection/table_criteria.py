@@ -26,8 +26,29 @@ class TableCriteria:
     bad_share: float = criterion(
         0.02, SHARE, "bad readings", "of all readings, at most, that are set aside as single bad ones"
     )
+    bad_seen: float = criterion(
+        0.1,
+        SHARE,
+        "bad readings",
+        "of what an error of a reading does, that a fit does not follow: of less nothing is said, it is wherever the "
+        "reading is",
+    )
     reading_rounds: int = criterion(
         4, COUNT, "bad readings", "searches after which what is found of the readings stays as it is"
+    )
+    doctor_plain: float = criterion(
+        20.0,
+        SIGMA,
+        "doctor",
+        "from which a reading is plainly no noise: so far from zero a column begins whose zero is asked about, and "
+        "so large are those beside which a decimal point slipped",
+    )
+    doctor_apart: float = criterion(
+        2.5,
+        FACTOR,
+        "doctor",
+        "the largest of the other readings of its test, from which one stands out as if its decimal point had "
+        "slipped: the last of a ramp of four steps is 1.3 times the one before",
     )
     doctor_factor: float = criterion(
         2.5,

@@ -19,7 +19,8 @@ from pipeline.inference.load_cases import LoadCases
 from pipeline.inference.orthonormal_basis import basis
 from pipeline.inference.residual import whitening
 from pipeline.inference.rounding import TINY
-from pipeline.selection.adequacy.patterns import FLAT, acting
+from pipeline.inference.settings import PATTERNS
+from pipeline.selection.adequacy.patterns import acting
 from pipeline.selection.criteria import Criteria
 from pipeline.selection.mistakes.base import with_readings
 from vjm.effects.sized import LENGTH
@@ -70,7 +71,7 @@ def zeros(found: Fit, criteria: Criteria) -> list[Zero]:
         columns = found.residual.weakened(weights.apply(acting(found, channel, errors))[used])
         left = columns - taken @ (taken.T @ columns)
         sizes = np.linalg.norm(left, axis=0)
-        seen = sizes > FLAT * np.maximum(np.linalg.norm(columns, axis=0), TINY)
+        seen = sizes > PATTERNS.left * np.maximum(np.linalg.norm(columns, axis=0), TINY)
         farthest = _farthest(whole, channel)
         for k in np.flatnonzero(seen):
             value = float(left[:, k] @ found.whitened / sizes[k] ** 2)

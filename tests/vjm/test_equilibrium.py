@@ -18,7 +18,7 @@ PLACES = ("tip", "middle", "base")
 
 
 def linkage(q: float = 0.0, place: str = "tip") -> Parallelogram:
-    return Parallelogram(LENGTH, WIDTH, paper.BAR_STIFFNESS, q, place)  # type: ignore[arg-type]
+    return Parallelogram(LENGTH, WIDTH, paper.BAR_STIFFNESS, q, spring_at=place)  # type: ignore[arg-type]
 
 
 @fixed_seed(25)

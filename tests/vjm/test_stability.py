@@ -22,7 +22,7 @@ PLACES = ("tip", "middle", "base")
 
 
 def linkage(q: float = 0.0, place: str = "tip", k: np.ndarray = paper.BAR_STIFFNESS) -> Parallelogram:
-    return Parallelogram(LENGTH, WIDTH, k, q, place)  # type: ignore[arg-type]
+    return Parallelogram(LENGTH, WIDTH, k, q, spring_at=place)  # type: ignore[arg-type]
 
 
 def uniform_bar(bending: float, axial: float) -> np.ndarray:

@@ -35,7 +35,7 @@ def entrywise(difference: np.ndarray, reference: np.ndarray) -> float:
 @fixed_seed(60)
 @given(bar_stiffness(), angles, places, st.floats(20, 200))
 def test_elimination_gives_equation_11(k: np.ndarray, q: float, place: str, width: float) -> None:
-    linkage = Parallelogram(LENGTH, width, k, q, place)
+    linkage = Parallelogram(LENGTH, width, k, q, spring_at=place)
     reference = stiffness.closed_form(k, width, q)
     assert entrywise(stiffness.unloaded_stiffness(linkage, q) - reference, reference) < 1e-9
 
@@ -43,7 +43,7 @@ def test_elimination_gives_equation_11(k: np.ndarray, q: float, place: str, widt
 @fixed_seed(30)
 @given(bar_stiffness(), angles, places)
 def test_rank_is_five_and_z_of_the_bar_frame_is_free(k: np.ndarray, q: float, place: str) -> None:
-    found = stiffness.unloaded_stiffness(Parallelogram(LENGTH, WIDTH, k, q, place))
+    found = stiffness.unloaded_stiffness(Parallelogram(LENGTH, WIDTH, k, q, spring_at=place))
     assert stiffness.rank(found, LENGTH) == 5
     scaled = ROTATION_RADIUS[:, None] * found * ROTATION_RADIUS
     free = np.linalg.svd(scaled)[2][-1]
@@ -54,7 +54,7 @@ def test_rank_is_five_and_z_of_the_bar_frame_is_free(k: np.ndarray, q: float, pl
 @fixed_seed(30)
 @given(bar_stiffness(), angles, places)
 def test_pseudo_rigid_bar_gives_the_stiffness_back(k: np.ndarray, q: float, place: str) -> None:
-    linkage = Parallelogram(LENGTH, WIDTH, k, q, place)
+    linkage = Parallelogram(LENGTH, WIDTH, k, q, spring_at=place)
     reference = stiffness.closed_form(k, WIDTH, q)
     equivalent = pseudo_rigid_bar(linkage)
     np.testing.assert_allclose(equivalent.unloaded_pose, linkage.unloaded_pose)
@@ -66,7 +66,7 @@ def test_pseudo_rigid_bar_gives_the_stiffness_back(k: np.ndarray, q: float, plac
 def test_loaded_stiffness_is_the_slope_of_the_load(
     k: np.ndarray, q: float, place: str, move: np.ndarray
 ) -> None:
-    linkage = Parallelogram(LENGTH, WIDTH, k, q, place)
+    linkage = Parallelogram(LENGTH, WIDTH, k, q, spring_at=place)
     pose = linkage.unloaded_pose + move
     steps = np.diag(np.repeat([1e-4, 3e-7], 3))
     here = equilibrium(linkage, pose, follow=True)

@@ -22,7 +22,8 @@ _SUPERSCRIPTS = str.maketrans("0123456789", "⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 @dataclass(frozen=True)
 class Quantity:
-    """A number of a form, of the unit y^of_y x^of_x N^of_load. positive: whether it has a meaning above zero alone."""
+    """A number of a form, of the unit y^of_y x^of_x N^of_load. positive: whether it has a meaning above zero alone.
+    span: least and greatest that a fit may try, of a shape; of one in the unit of x in the largest x."""
 
     name: str
     of_y: int
@@ -30,6 +31,7 @@ class Quantity:
     meaning: str
     positive: bool = False
     of_load: int = 0
+    span: tuple[float, float] = (1e-3, 10.0)
 
     def unit(self, y: str, x: str) -> str:
         """Its unit where y and x have these."""
@@ -70,6 +72,8 @@ class Form(ABC):
     places: ClassVar[tuple[str, ...]] = ("parallel", "series")
     amplitudes: ClassVar[tuple[Quantity, ...]]
     shapes: ClassVar[tuple[Quantity, ...]] = ()
+    begins_at: ClassVar[tuple[tuple[float, ...], ...]] = ((),)
+    """Shapes to begin a fit with, one after another; those in the unit of x in the largest x."""
     fixed: ClassVar[tuple[str, ...]] = ()
     memory: ClassVar[bool] = False
     loaded: ClassVar[bool] = False
@@ -94,9 +98,9 @@ class Form(ABC):
         axial: (R,) load of the bar there, N, for forms on which it acts; default none at all.
         """
 
-    @abstractmethod
     def starts(self, largest: float) -> Sequence[Array]:
         """Shapes to begin a fit with, where x goes as far as the largest."""
+        return [np.array(each) * self._sizes(largest) for each in self.begins_at]
 
     def under(self, shapes: Array, load: float) -> Array:
         """Shapes where the axial load goes as far as `load`, N: those of most forms are the same under any."""
@@ -104,9 +108,12 @@ class Form(ABC):
 
     def bounds(self, largest: float) -> tuple[Array, Array]:
         """Least and greatest shapes that a fit may try."""
-        count = len(self.shapes)
-        scale = np.array([largest if q.of_x == 1 else 1.0 for q in self.shapes])
-        return np.full(count, 1e-3) * scale, np.full(count, 10.0) * scale
+        low, high = np.array([q.span for q in self.shapes]).reshape(-1, 2).T * self._sizes(largest)
+        return low, high
+
+    def _sizes(self, largest: float) -> Array:
+        """What shapes are told in."""
+        return np.array([largest if q.of_x == 1 else 1.0 for q in self.shapes])
 
     @abstractmethod
     def law(self, amplitudes: Array, shapes: Array, series: bool) -> Law:

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-
 import numpy as np
 
 from vjm.forms.base import Quantity
@@ -26,6 +24,3 @@ class Constant(CurveForm):
 
     def points(self, x: Array, shapes: Array) -> Points:
         return Points.of((np.ones_like(x), np.zeros_like(x), x))
-
-    def starts(self, largest: float) -> Sequence[Array]:
-        return [np.zeros(0)]

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from typing import ClassVar
 
 import numpy as np
@@ -27,15 +27,13 @@ class Coulomb(Form):
     memory = True
     grows = "bounded"
     effects: ClassVar[Mapping[str, tuple[str, ...]]] = {"hinge_torque": ("joint_friction",)}
+    begins_at = ((0.01,), (0.06,), (0.3,))
 
     def columns(self, x: Array, first: np.ndarray, shapes: Array, axial: Array | None = None) -> Array:
         return followed(x, first, shapes)
 
     def law(self, amplitudes: Array, shapes: Array, series: bool) -> Law:
         return Sliders(0.0, amplitudes, shapes)
-
-    def starts(self, largest: float) -> Sequence[Array]:
-        return [np.array([share * largest]) for share in (0.01, 0.06, 0.3)]
 
 
 class LinearCoulomb(Coulomb):

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -44,20 +43,15 @@ class Creep(Form):
         Quantity("slope", 1, -1, "slope when it has relaxed", positive=True),
         Quantity("relaxing", 1, -1, "slope that relaxes", positive=True),
     )
-    shapes = (Quantity("steps", 0, 0, "load steps over which it follows", positive=True),)
+    shapes = (Quantity("steps", 0, 0, "load steps over which it follows", positive=True, span=(0.2, 100.0)),)
     memory = True
+    begins_at = ((1.0,), (3.0,), (10.0,))
 
     def columns(self, x: Array, first: np.ndarray, shapes: Array, axial: Array | None = None) -> Array:
         return np.column_stack([x, x - lagged(x, first, kept(shapes[0]))])
 
     def law(self, amplitudes: Array, shapes: Array, series: bool) -> Law:
         return Lagging(float(amplitudes[0]), float(amplitudes[1]), kept(shapes[0]))
-
-    def starts(self, largest: float) -> Sequence[Array]:
-        return [np.array([n]) for n in (1.0, 3.0, 10.0)]
-
-    def bounds(self, largest: float) -> tuple[Array, Array]:
-        return np.array([0.2]), np.array([100.0])
 
 
 def kept(steps: float) -> float:

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-
 import numpy as np
 
 from vjm.forms.base import Form, Quantity, by_tests
@@ -22,10 +20,18 @@ class CreepInSeries(Form):
     places = ("series",)
     amplitudes = (Quantity("give", 1, -1, "displacement per load when it has crept", positive=True),)
     shapes = (
-        Quantity("relaxing", 0, 0, "stiffness that relaxes over the one that stays", positive=True),
-        Quantity("steps", 0, 0, "load steps over which it creeps", positive=True),
+        Quantity(
+            "relaxing",
+            0,
+            0,
+            "stiffness that relaxes over the one that stays",
+            positive=True,
+            span=(1e-3, 1e2),
+        ),
+        Quantity("steps", 0, 0, "load steps over which it creeps", positive=True, span=(0.2, 100.0)),
     )
     memory = True
+    begins_at = ((0.3, 1.0), (0.3, 3.0), (0.3, 10.0), (1.0, 1.0), (1.0, 3.0), (1.0, 10.0))
 
     def columns(self, x: Array, first: np.ndarray, shapes: Array, axial: Array | None = None) -> Array:
         more, keep = float(shapes[0]), kept(shapes[1])
@@ -39,9 +45,3 @@ class CreepInSeries(Form):
     def law(self, amplitudes: Array, shapes: Array, series: bool) -> Law:
         stays = 1.0 / float(amplitudes[0])
         return Lagging(stays, float(shapes[0]) * stays, kept(shapes[1]))
-
-    def starts(self, largest: float) -> Sequence[Array]:
-        return [np.array([m, n]) for m in (0.3, 1.0) for n in (1.0, 3.0, 10.0)]
-
-    def bounds(self, largest: float) -> tuple[Array, Array]:
-        return np.array([1e-3, 0.2]), np.array([1e2, 100.0])

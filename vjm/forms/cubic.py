@@ -2,10 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-
-import numpy as np
-
 from vjm.forms.base import Quantity
 from vjm.forms.curve import CurveForm, Points
 from vjm.frames import Array
@@ -26,6 +22,3 @@ class Cubic(CurveForm):
 
     def points(self, x: Array, shapes: Array) -> Points:
         return Points.of((x**3, 3.0 * x**2, 0.25 * x**4))
-
-    def starts(self, largest: float) -> Sequence[Array]:
-        return [np.zeros(0)]

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-
 import numpy as np
 
 from vjm.forms.base import Quantity
@@ -22,11 +20,9 @@ class DeadZone(CurveForm):
     amplitudes = (Quantity("beyond", 1, -1, "slope beyond the zone"),)
     shapes = (Quantity("zone", 0, 1, "half width of the dead zone", positive=True),)
     and_linear = True
+    begins_at = ((0.1,), (0.3,), (0.6,))
 
     def points(self, x: Array, shapes: Array) -> Points:
         (zone,) = shapes
         beyond = x - np.clip(x, -zone, zone)
         return Points.of((beyond, np.where(beyond == 0.0, 0.0, 1.0), 0.5 * beyond**2))
-
-    def starts(self, largest: float) -> Sequence[Array]:
-        return [np.array([share * largest]) for share in (0.1, 0.3, 0.6)]

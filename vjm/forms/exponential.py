@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-
 import numpy as np
 
 from vjm.forms.base import Quantity
@@ -22,8 +20,9 @@ class Exponential(CurveForm):
     equation = "y = A sign(x) (exp(abs(x) / x0) - 1)"
     limits = "beyond the loads measured it grows faster than anything else here"
     amplitudes = (Quantity("scale", 1, 0, "factor of the exponential"),)
-    shapes = (Quantity("x0", 0, 1, "over which it grows by e", positive=True),)
+    shapes = (Quantity("x0", 0, 1, "over which it grows by e", positive=True, span=(0.05, 20.0)),)
     grows = "exponential"
+    begins_at = ((0.25,), (0.6,), (2.0,))
 
     def points(self, x: Array, shapes: Array) -> Points:
         (x0,) = shapes
@@ -33,9 +32,3 @@ class Exponential(CurveForm):
         value, slope = np.expm1(near) + e * over, e / x0
         integral = x0 * (np.expm1(near) - near + (e - 1.0) * over + 0.5 * e * over**2)
         return Points.of(odd(x, (value, slope, integral)))
-
-    def starts(self, largest: float) -> Sequence[Array]:
-        return [np.array([share * largest]) for share in (0.25, 0.6, 2.0)]
-
-    def bounds(self, largest: float) -> tuple[Array, Array]:
-        return np.array([0.05 * largest]), np.array([20.0 * largest])

@@ -6,7 +6,6 @@ told at the greatest axial load that was seen, N0, and go with the load.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from typing import ClassVar
 
 import numpy as np
@@ -34,6 +33,7 @@ class FrictionByLoad(Form):
     memory = True
     loaded = True
     grows = "linear"
+    begins_at = ((0.01, 1.0), (0.06, 1.0), (0.3, 1.0))
 
     def columns(self, x: Array, first: np.ndarray, shapes: Array, axial: Array | None = None) -> Array:
         return _followed(x, first, UnderLoad(0.0, 1.0, *shapes), axial)
@@ -43,9 +43,6 @@ class FrictionByLoad(Form):
 
     def under(self, shapes: Array, load: float) -> Array:
         return np.array([shapes[0], load])
-
-    def starts(self, largest: float) -> Sequence[Array]:
-        return [np.array([share * largest, 1.0]) for share in (0.01, 0.06, 0.3)]
 
 
 class SlipByLoad(Form):
@@ -58,13 +55,18 @@ class SlipByLoad(Form):
     places = ("series",)
     amplitudes = (Quantity("give", 1, -1, "displacement per load of the spring", positive=True),)
     shapes = (
-        Quantity("limit", 0, 1, "friction while it slips under the load N0", positive=True),
-        Quantity("stick", 0, 0, "stiffness that sticks over that of the spring", positive=True),
+        Quantity(
+            "limit", 0, 1, "friction while it slips under the load N0", positive=True, span=(1e-4, 10.0)
+        ),
+        Quantity(
+            "stick", 0, 0, "stiffness that sticks over that of the spring", positive=True, span=(0.1, 300.0)
+        ),
         AT,
     )
     fixed = ("at",)
     memory = True
     loaded = True
+    begins_at = ((0.1, 3.0, 1.0), (0.1, 20.0, 1.0), (0.5, 3.0, 1.0), (0.5, 20.0, 1.0))
 
     def columns(self, x: Array, first: np.ndarray, shapes: Array, axial: Array | None = None) -> Array:
         return _followed(x, first, self._unit(shapes), axial, driven=True)
@@ -78,12 +80,6 @@ class SlipByLoad(Form):
 
     def under(self, shapes: Array, load: float) -> Array:
         return np.array([*shapes[:2], load])
-
-    def starts(self, largest: float) -> Sequence[Array]:
-        return [np.array([share * largest, stick, 1.0]) for share in (0.1, 0.5) for stick in (3.0, 20.0)]
-
-    def bounds(self, largest: float) -> tuple[Array, Array]:
-        return np.array([1e-4 * largest, 0.1, 0.0]), np.array([10.0 * largest, 300.0, np.inf])
 
 
 def _followed(

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from typing import ClassVar
 
 import numpy as np
@@ -34,6 +34,7 @@ class Gap(CurveForm):
     )
     fixed = ("within",)
     shapes = (Quantity("within", 0, 1, "load within which the gap is gone through", positive=True),)
+    begins_at = tuple((share,) for share in WITHIN)
 
     def points(self, x: Array, shapes: Array) -> Points:
         (within,) = shapes
@@ -46,6 +47,3 @@ class Gap(CurveForm):
         """A play whose stops give: rows choose on which side of it they are (`vjm.clearance`)."""
         gap, slope = (float(each) for each in amplitudes)
         return Clearance(gap, 1.0 / max(slope, 1.0 / STOP))
-
-    def starts(self, largest: float) -> Sequence[Array]:
-        return [np.array([share * largest]) for share in WITHIN]

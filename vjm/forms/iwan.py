@@ -8,8 +8,6 @@ of SLIDERS sides.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-
 import numpy as np
 
 from vjm.forms.base import Form, Quantity
@@ -31,6 +29,7 @@ class Iwan(Form):
     shapes = (Quantity("reach", 0, 1, "travel at which all slips", positive=True),)
     memory = True
     grows = "bounded"
+    begins_at = ((0.05,), (0.3,), (1.0,))
 
     def reaches(self, shapes: Array) -> Array:
         """(12,) of the sliders."""
@@ -47,6 +46,3 @@ class Iwan(Form):
 
     def law(self, amplitudes: Array, shapes: Array, series: bool) -> Law:
         return Sliders(0.0, amplitudes[0] * self.shares, self.reaches(shapes))
-
-    def starts(self, largest: float) -> Sequence[Array]:
-        return [np.array([share * largest]) for share in (0.05, 0.3, 1.0)]

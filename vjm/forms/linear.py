@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from typing import ClassVar
 
 import numpy as np
@@ -31,6 +31,3 @@ class Linear(CurveForm):
 
     def points(self, x: Array, shapes: Array) -> Points:
         return Points.of((x, np.ones_like(x), 0.5 * x**2))
-
-    def starts(self, largest: float) -> Sequence[Array]:
-        return [np.zeros(0)]

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-
 import numpy as np
 
 from vjm.forms.base import Quantity
@@ -19,16 +17,11 @@ class Logarithmic(CurveForm):
     equation = "y = A sign(x) ln(1 + abs(x) / x0)"
     places = ("series",)
     amplitudes = (Quantity("scale", 1, 0, "displacement over which the load grows by e", positive=True),)
-    shapes = (Quantity("x0", 0, 1, "load from which it hardens", positive=True),)
+    shapes = (Quantity("x0", 0, 1, "load from which it hardens", positive=True, span=(1e-3, 30.0)),)
+    begins_at = ((0.03,), (0.2,), (1.0,))
 
     def points(self, x: Array, shapes: Array) -> Points:
         (x0,) = shapes
         t = np.abs(x) / x0
         integral = x0 * ((1.0 + t) * np.log1p(t) - t)
         return Points.of(odd(x, (np.log1p(t), 1.0 / (x0 * (1.0 + t)), integral)))
-
-    def starts(self, largest: float) -> Sequence[Array]:
-        return [np.array([share * largest]) for share in (0.03, 0.2, 1.0)]
-
-    def bounds(self, largest: float) -> tuple[Array, Array]:
-        return np.array([1e-3 * largest]), np.array([30.0 * largest])

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-
 import numpy as np
 
 from vjm.forms.base import Quantity
@@ -23,9 +21,10 @@ class Periodic(CurveForm):
         Quantity("sine", 1, 0, "amplitude of the sine"),
         Quantity("cosine", 1, 0, "amplitude of the cosine"),
     )
-    shapes = (Quantity("period", 0, 1, "period", positive=True),)
+    shapes = (Quantity("period", 0, 1, "period", positive=True, span=(0.03, 2.0)),)
     grows = "bounded"
     and_linear = True
+    begins_at = ((0.08,), (0.12,), (0.18,), (0.27,), (0.4,), (0.6,), (0.9,), (1.4,))
 
     def points(self, x: Array, shapes: Array) -> Points:
         w = 2.0 * np.pi / shapes[0]
@@ -33,9 +32,3 @@ class Periodic(CurveForm):
             (np.sin(w * x), w * np.cos(w * x), (1.0 - np.cos(w * x)) / w),
             (np.cos(w * x) - 1.0, -w * np.sin(w * x), np.sin(w * x) / w - x),
         )
-
-    def starts(self, largest: float) -> Sequence[Array]:
-        return [np.array([share * largest]) for share in (0.08, 0.12, 0.18, 0.27, 0.4, 0.6, 0.9, 1.4)]
-
-    def bounds(self, largest: float) -> tuple[Array, Array]:
-        return np.array([0.03 * largest]), np.array([2.0 * largest])

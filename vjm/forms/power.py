@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from typing import ClassVar
 
 import numpy as np
@@ -25,13 +25,14 @@ class Power(CurveForm):
     limits = "linear below a thousandth of x0"
     amplitudes = (Quantity("at_x0", 1, 0, "value at x0"),)
     shapes = (
-        Quantity("exponent", 0, 0, "exponent p", positive=True),
+        Quantity("exponent", 0, 0, "exponent p", positive=True, span=(0.1, 6.0)),
         Quantity("x0", 0, 1, "where the amplitude is told", positive=True),
     )
     fixed = ("x0",)
     grows = "power"
     and_linear = True
     effects: ClassVar[Mapping[str, tuple[str, ...]]] = {"along": ("contact_stiffening",)}
+    begins_at = ((0.6, 1.0), (1.6, 1.0), (2.5, 1.0))
 
     def points(self, x: Array, shapes: Array) -> Points:
         p, x0 = shapes
@@ -43,9 +44,3 @@ class Power(CurveForm):
         start = 0.5 * chord * LEAST**2 - LEAST ** (p + 1.0) / (p + 1.0)
         integral = x0 * np.where(t < LEAST, 0.5 * chord * t**2, start + far ** (p + 1.0) / (p + 1.0))
         return Points.of(odd(x, (value, slope, integral)))
-
-    def starts(self, largest: float) -> Sequence[Array]:
-        return [np.array([p, largest]) for p in (0.6, 1.6, 2.5)]
-
-    def bounds(self, largest: float) -> tuple[Array, Array]:
-        return np.array([0.1, 0.5 * largest]), np.array([6.0, 2.0 * largest])

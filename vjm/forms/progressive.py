@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-
 import numpy as np
 
 from vjm.forms.base import Quantity
@@ -21,7 +19,8 @@ class Progressive(CurveForm):
     amplitudes = (
         Quantity("knee", 1, 0, "displacement where slope and third power are equal", positive=True),
     )
-    shapes = (Quantity("x0", 0, 1, "half of the load there", positive=True),)
+    shapes = (Quantity("x0", 0, 1, "half of the load there", positive=True, span=(1e-4, 30.0)),)
+    begins_at = ((0.03,), (0.2,), (1.0,))
 
     def points(self, x: Array, shapes: Array) -> Points:
         (x0,) = shapes
@@ -29,9 +28,3 @@ class Progressive(CurveForm):
         v = 2.0 / np.sqrt(3.0) * np.sinh(np.arcsinh(root * x / x0) / 3.0)
         rise = 1.0 + 3.0 * v**2
         return Points.of((v, 1.0 / (x0 * rise), x0 * (0.5 * v**2 + 0.75 * v**4)))
-
-    def starts(self, largest: float) -> Sequence[Array]:
-        return [np.array([share * largest]) for share in (0.03, 0.2, 1.0)]
-
-    def bounds(self, largest: float) -> tuple[Array, Array]:
-        return np.array([1e-4 * largest]), np.array([30.0 * largest])

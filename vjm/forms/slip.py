@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-
 import numpy as np
 
 from vjm.forms.base import Form, Quantity
@@ -21,10 +19,11 @@ class Slip(Form):
     places = ("series",)
     amplitudes = (Quantity("reach", 1, 0, "displacement before it slips", positive=True),)
     shapes = (
-        Quantity("x0", 0, 1, "load of the spring at that displacement", positive=True),
-        Quantity("friction", 0, 0, "friction in that load", positive=True),
+        Quantity("x0", 0, 1, "load of the spring at that displacement", positive=True, span=(1e-4, 10.0)),
+        Quantity("friction", 0, 0, "friction in that load", positive=True, span=(0.01, 1e3)),
     )
     memory = True
+    begins_at = ((0.02, 5.0), (0.1, 2.0), (0.3, 0.5), (0.02, 0.5))
 
     def columns(self, x: Array, first: np.ndarray, shapes: Array, axial: Array | None = None) -> Array:
         return driven(x, first, self._unit(shapes))[:, None]
@@ -35,9 +34,3 @@ class Slip(Form):
 
     def law(self, amplitudes: Array, shapes: Array, series: bool) -> Law:
         return self._unit(shapes, float(amplitudes[0]))
-
-    def starts(self, largest: float) -> Sequence[Array]:
-        return [np.array([a * largest, m]) for a, m in ((0.02, 5.0), (0.1, 2.0), (0.3, 0.5), (0.02, 0.5))]
-
-    def bounds(self, largest: float) -> tuple[Array, Array]:
-        return np.array([1e-4 * largest, 0.01]), np.array([10.0 * largest, 1e3])

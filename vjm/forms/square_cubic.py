@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-
 import numpy as np
 
 from vjm.forms.base import Quantity
@@ -31,6 +29,3 @@ class SquareCubic(CurveForm):
             (x**2, 2.0 * x, x**3 / 3.0),
             (x**3, 3.0 * x**2, 0.25 * x**4),
         )
-
-    def starts(self, largest: float) -> Sequence[Array]:
-        return [np.zeros(0)]

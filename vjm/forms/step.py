@@ -3,16 +3,11 @@ where it is flat, as of a preload that is overcome."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-
 import numpy as np
 
 from vjm.forms.base import Quantity
 from vjm.forms.curve import LEAST_SLOPE, CurveForm, Points
 from vjm.frames import Array
-
-PLACES, WIDTH = (0.15, 0.4, 0.7), 0.08
-"""To begin with, in the largest coordinate."""
 
 
 class Step(CurveForm):
@@ -27,11 +22,19 @@ class Step(CurveForm):
         Quantity("there", 1, -1, "slope at the place beside k/20", positive=True),
     )
     shapes = (
-        Quantity("place", 0, 1, "how far from zero it is", positive=True),
-        Quantity("width", 0, 1, "half of that over which three quarters of it are made", positive=True),
+        Quantity("place", 0, 1, "how far from zero it is", positive=True, span=(0.02, 1.0)),
+        Quantity(
+            "width",
+            0,
+            1,
+            "half of that over which three quarters of it are made",
+            positive=True,
+            span=(0.005, 0.5),
+        ),
         Quantity("side", 0, 0, "of zero on which it is, 1 above and -1 below"),
     )
     fixed = ("side",)
+    begins_at = tuple((place, 0.08, side) for side in (1.0, -1.0) for place in (0.15, 0.4, 0.7))
 
     def points(self, x: Array, shapes: Array) -> Points:
         place, width, side = shapes
@@ -43,14 +46,6 @@ class Step(CurveForm):
         rest = 1.0 - LEAST_SLOPE
         far = x - rest * own, 1.0 - rest * slope, 0.5 * x**2 - rest * integral
         return Points.of(far, (own, slope, integral))
-
-    def starts(self, largest: float) -> Sequence[Array]:
-        return [
-            np.array([share * largest, WIDTH * largest, side]) for side in (1.0, -1.0) for share in PLACES
-        ]
-
-    def bounds(self, largest: float) -> tuple[Array, Array]:
-        return np.array([0.02 * largest, 0.005 * largest, -1.0]), np.array([largest, 0.5 * largest, 1.0])
 
 
 def _log_cosh(t: Array) -> Array:

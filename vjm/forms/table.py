@@ -5,7 +5,6 @@ It says what was measured, within the range in which that was; beyond it the las
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from itertools import pairwise
 from typing import ClassVar
 
@@ -37,6 +36,7 @@ class Table(CurveForm):
     amplitudes: ClassVar[tuple[Quantity, ...]] = (*_rises("above"), *_rises("below"))
     shapes = (Quantity("range", 0, 1, "largest coordinate that was seen", positive=True),)
     fixed = ("range",)
+    begins_at = ((1.0,),)
 
     def points(self, x: Array, shapes: Array) -> Points:
         ends = shapes[0] * np.array(KNOTS)
@@ -46,9 +46,6 @@ class Table(CurveForm):
             for k, (a, b) in enumerate(pairwise(ends))
         ]
         return Points.of(*parts)
-
-    def starts(self, largest: float) -> Sequence[Array]:
-        return [np.array([largest])]
 
 
 def _piece(sign: float, x: Array, a: float, b: float, last: bool) -> tuple[Array, Array, Array]:

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-
 import numpy as np
 
 from vjm.forms.base import Form, Quantity
@@ -29,12 +27,10 @@ class TwoLevel(Form):
     )
     memory = True
     grows = "bounded"
+    begins_at = ((0.01, 0.1), (0.03, 0.3), (0.1, 0.6))
 
     def columns(self, x: Array, first: np.ndarray, shapes: Array, axial: Array | None = None) -> Array:
         return followed(x, first, shapes)
 
     def law(self, amplitudes: Array, shapes: Array, series: bool) -> Law:
         return Sliders(0.0, amplitudes, shapes)
-
-    def starts(self, largest: float) -> Sequence[Array]:
-        return [np.array([a, b]) * largest for a, b in ((0.01, 0.1), (0.03, 0.3), (0.1, 0.6))]

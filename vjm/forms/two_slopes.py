@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-
 import numpy as np
 
 from vjm.forms.base import Quantity
@@ -28,6 +26,3 @@ class TwoSlopes(CurveForm):
             (up, np.where(x > 0.0, 1.0, 0.0), 0.5 * up**2),
             (down, np.where(x > 0.0, 0.0, 1.0), 0.5 * down**2),
         )
-
-    def starts(self, largest: float) -> Sequence[Array]:
-        return [np.zeros(0)]

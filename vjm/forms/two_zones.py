@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-
 import numpy as np
 
 from vjm.forms.base import Quantity
@@ -28,6 +26,7 @@ class TwoZones(CurveForm):
         Quantity("zone_below", 0, 1, "end of the dead zone below zero", positive=True),
     )
     and_linear = True
+    begins_at = ((0.15, 0.15), (0.2, 0.5), (0.5, 0.2), (0.5, 0.5))
 
     def points(self, x: Array, shapes: Array) -> Points:
         up, down = np.maximum(x - shapes[0], 0.0), np.minimum(x + shapes[1], 0.0)
@@ -35,6 +34,3 @@ class TwoZones(CurveForm):
             (up, np.where(up > 0.0, 1.0, 0.0), 0.5 * up**2),
             (down, np.where(down < 0.0, 1.0, 0.0), 0.5 * down**2),
         )
-
-    def starts(self, largest: float) -> Sequence[Array]:
-        return [largest * np.array(each) for each in ((0.15, 0.15), (0.2, 0.5), (0.5, 0.2), (0.5, 0.5))]

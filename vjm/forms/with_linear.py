@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-
 import numpy as np
 
 from vjm.forms.curve import CurveForm, Points
@@ -23,6 +21,7 @@ class WithLinear(CurveForm):
             "places": other.beside or other.places,
             "amplitudes": (SLOPE, *other.amplitudes),
             "shapes": other.shapes,
+            "begins_at": other.begins_at,
             "grows": "linear" if other.grows == "bounded" else other.grows,
         }
         # Attributes of the instance stand before those of its class.
@@ -31,11 +30,3 @@ class WithLinear(CurveForm):
     def points(self, x: Array, shapes: Array) -> Points:
         there: Points = vars(self)["other"].points(x, shapes)
         return Points.of((x, np.ones_like(x), 0.5 * x**2)).beside(there)
-
-    def starts(self, largest: float) -> Sequence[Array]:
-        found: Sequence[Array] = vars(self)["other"].starts(largest)
-        return found
-
-    def bounds(self, largest: float) -> tuple[Array, Array]:
-        found: tuple[Array, Array] = vars(self)["other"].bounds(largest)
-        return found

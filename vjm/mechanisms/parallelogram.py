@@ -9,81 +9,49 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from functools import cached_property, partial
-from typing import get_args
+from typing import ClassVar
 
 import numpy as np
 
 from vjm import checks
-from vjm.bars import BarModel
 from vjm.frames import Array
 from vjm.gauges import Gauge
-from vjm.laws import Law
 from vjm.link import Link
-from vjm.lumped import Lumped, SpringAt
 from vjm.mechanism import ElasticChain
 from vjm.mechanisms.assembled import FourBar
-from vjm.mechanisms.assembly import Alteration, Assembly, GaugeAt, as_built, mounted
+from vjm.mechanisms.assembly import Assembly, GaugeAt, as_built, mounted
+from vjm.mechanisms.of_bars import OfBars
 from vjm.mechanisms.on_base import OnBase
-from vjm.mechanisms.sites import WithPlaces
 from vjm.parts import Frame
-from vjm.refined import SEGMENTS, Refined
-from vjm.sensors import Sensor
 from vjm.site_joint import SiteJoint
 
 
 @dataclass(frozen=True, eq=False)
-class Parallelogram(WithPlaces):
+class Parallelogram(OfBars):
     """Parallelogram linkage at nominal bar angle q; the platform point lies midway between the outer hinges.
 
     length, width: L and d, mm. bar_stiffness: K_b (6, 6) of one bar at its tip, base clamped, bar frame.
     q: nominal rotation R_y of the bars, rad; the unloaded platform is at (L cos q, 0, -L sin q). It is the
     default of the input "q". Eq. 1 ends with the constant rotation R_y(q); the rotation vector counts from
     there, so both are left out here. (Printed as R_y(-q_i2), it would let the platform slip: rank 4.)
-    spring_at: where along the bar K_b is lumped. Eq. 1 says the tip. The unloaded stiffness does not depend
-    on it, the critical loads do (`vjm.closed_forms`).
-    bar: another model of the bars than K_b lumped at that place, such as `vjm.refined.Refined`.
-    hinges: laws of the turn of each of the four hinges, none in a perfect one. They are relaxed where the linkage
-    stands without load (`vjm.mechanisms.assembled`): at the nominal angle, but for bars of different lengths.
-    single_hinges: further laws of each hinge by itself, at base and tip of bar 1, then of bar 2; or none.
-    alterations: what the bars are instead of what is drawn, applied in turn. wider: mm added to both widths.
-    mount: (3,) rotation vector, rad, of the whole linkage against the base frame. base_joints: between ground and base
-    body, at the base origin along and about the axes of the base frame. line_load: (3,) N/mm along
-    the bars, base frame. gravity: (3,) unit vector of weights given without a direction. sensors, gauge_at:
-    what is read (`vjm.sensors`, `vjm.gauges`). fibre_y, fibre_z: outermost fibres of the bars, mm, where known.
-    polar_radius: radius of gyration of the section by which an axial force stiffens the twist of refined bars, mm.
+    wider: mm added to both widths. What else it may have: `vjm.mechanisms.of_bars`.
     ValueError for lengths that are not positive, |q| of 90 degrees or more, a K_b that is not
     symmetric positive definite.
     """
 
+    number_of_bars: ClassVar[int] = 2
     length: float
     width: float
     bar_stiffness: Array
     q: float = 0.0
-    spring_at: SpringAt = "tip"
-    bar: BarModel | None = None
-    hinges: tuple[Law, ...] = ()
-    single_hinges: tuple[tuple[Law, ...], ...] = ()
-    alterations: tuple[Alteration, ...] = ()
-    wider: float = 0.0
-    mount: Array = field(default_factory=lambda: np.zeros(3))
-    base_joints: tuple[SiteJoint, ...] = ()
-    line_load: Array = field(default_factory=lambda: np.zeros(3))
-    gravity: Array = field(default_factory=lambda: np.array([0.0, 0.0, -1.0]))
-    sensors: tuple[Sensor, ...] = ()
-    gauge_at: tuple[GaugeAt, ...] = ()
-    fibre_y: float | None = None
-    fibre_z: float | None = None
-    polar_radius: float = 0.0
+    wider: float = field(default=0.0, kw_only=True)
 
     def __post_init__(self) -> None:
+        super().__post_init__()
         checks.positive("length", self.length)
         checks.positive("width", self.width)
         if not abs(self.q) < np.pi / 2:
             raise ValueError(f"q must lie between -pi/2 and pi/2 rad, got {self.q}")
-        if self.spring_at not in get_args(SpringAt):
-            raise ValueError(f"spring_at must be one of {get_args(SpringAt)}, got {self.spring_at!r}")
-        if wrong := [place.bar for place in self.gauge_at if place.bar not in (1, 2)]:
-            raise ValueError(f"bar must be 1 or 2, got {wrong[0]}")
         object.__setattr__(
             self, "bar_stiffness", checks.stiffness_matrix("bar_stiffness", self.bar_stiffness)
         )
@@ -121,20 +89,6 @@ class Parallelogram(WithPlaces):
         """Whether bars have hinges at base and tip."""
         return (True, True)
 
-    @property
-    def hinge_laws(self) -> tuple[tuple[Law, ...], ...]:
-        """Laws of each hinge: those of `single_hinges`, then those that all have; base and tip of each bar in turn."""
-        own = self.single_hinges or ((),) * 4
-        return tuple((*laws, *self.hinges) for laws in own)
-
-    def altered(self, *alterations: Alteration) -> Parallelogram:
-        """The linkage with further alterations of its bars."""
-        return replace(self, alterations=(*self.alterations, *alterations))
-
-    def refined(self, segments: int = SEGMENTS) -> Parallelogram:
-        """The linkage with both bars refined into segments."""
-        return replace(self, bar=Refined(segments, self.polar_radius))
-
     def _gauge(self, place: GaugeAt) -> Gauge:
         if self._based is not None:
             return self._based.gauge(self.chains[0], place)
@@ -162,7 +116,6 @@ class Parallelogram(WithPlaces):
 
     @cached_property
     def _assemblies(self) -> tuple[Assembly, ...]:
-        model = Lumped(self.spring_at, self.polar_radius) if self.bar is None else self.bar
         half, laws = 0.5 * (self.width + self.wider), self.hinge_laws
         sides = (self.links, (-half, half), self._settled, (laws[:2], laws[2:]))
         apart = self._based_apart
@@ -170,7 +123,7 @@ class Parallelogram(WithPlaces):
         return tuple(
             Assembly(
                 link,
-                model,
+                self.model,
                 start=(*before, Frame(np.array([0.0, 0.0, offset]))),
                 end=(Frame(np.array([0.0, 0.0, -offset])),),
                 angle=self.q,

@@ -6,7 +6,8 @@ each fitted number, but for a constant.
 
 from __future__ import annotations
 
-from pipeline.inference.stops import SIDE, sided
+from pipeline.inference.settings import STOPS
+from pipeline.inference.stops import sided
 from pipeline.selection.criteria import CRITERIA
 from pipeline.selection.fit_cache import FitCache, Names
 
@@ -58,6 +59,6 @@ def _hopes(cache: FitCache, here: Names) -> dict[str, tuple[float, dict[str, flo
             doubt = CRITERIA.estimate_error if effect.smooth else CRITERIA.kinked_estimate_error
             # A probe does not know what rows gain by choosing their sides.
             rows = float(cache.whole.fitted.sum()) if sided(effect) else 0.0
-            fall = (1.0 + doubt) * gain.value + SIDE * rows
+            fall = (1.0 + doubt) * gain.value + STOPS.side * rows
             out[name] = base + 2.0 * len(effect.parameters) - fall, gain.probes
     return out

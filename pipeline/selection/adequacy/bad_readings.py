@@ -37,9 +37,6 @@ from pipeline.selection.criteria import Criteria
 
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
-FLAT = 0.1
-"""Part of a column that must be left when what the fit can move is taken out: less, and the fit follows the reading
-wherever it is."""
 FOR_NEITHER = 2.0 * float(np.log(2.0))
 """Twice the logarithm by which one explanation of a row has to be likelier than another."""
 
@@ -64,12 +61,16 @@ class BadReading:
 
 @dataclass(frozen=True, eq=False)
 class _Shifts:
-    """Mean shifts of all readings about a residual r (N,) that is free of a basis (N, k)."""
+    """Mean shifts of all readings about a residual r (N,) that is free of a basis (N, k).
+
+    seen: part of a column that must be left when what the fit can move is taken out.
+    """
 
     it: Residual
     of: ReadingErrors
     residual: Array
     taken: Array
+    seen: float
 
     @cached_property
     def lengths(self) -> Array:
@@ -82,7 +83,7 @@ class _Shifts:
             share = it.marginal.sizes**2 / (1.0 + it.marginal.sizes**2)
             left -= np.sum(share * self._inner(it.marginal.left) ** 2, axis=-1)
         left -= np.sum(self._inner(it.weakened(self.taken)) ** 2, axis=-1)
-        seen = self.of.there & (left > FLAT**2 * sizes) & (sizes > 0.0)
+        seen = self.of.there & (left / np.where(sizes > 0.0, sizes, 1.0) > self.seen**2)
         return np.where(seen, np.sqrt(np.where(seen, left, 1.0)), np.inf)
 
     @cached_property
@@ -112,7 +113,7 @@ def bad_readings(found: Fit, criteria: Criteria) -> tuple[BadReading, ...]:
     """The single bad readings of the fitted tests, the worst first; none of those that are kept by hand."""
     it, taken = found.residual, basis(found.jacobian)
     residual = found.whitened - taken @ (taken.T @ found.whitened)
-    shifts = _Shifts(it, ReadingErrors.of(found), residual, taken)
+    shifts = _Shifts(it, ReadingErrors.of(found), residual, taken, criteria.bad_seen)
     there = shifts.of.there.copy()
     count = int(there.sum())
     if count < criteria.few_readings:

@@ -14,7 +14,8 @@ from numpy.typing import NDArray
 from pipeline.inference.fit import Fit
 from pipeline.inference.orthonormal_basis import basis
 from pipeline.inference.rounding import TINY
-from pipeline.selection.adequacy.patterns import FLAT, steady
+from pipeline.inference.settings import PATTERNS
+from pipeline.selection.adequacy.patterns import steady
 
 
 @dataclass(frozen=True)
@@ -42,7 +43,7 @@ def departures(found: Fit) -> list[Departure]:
         columns = it.weakened(np.where(rows[:, None], it.without_zeros(it.slopes), 0.0))
         left = columns - taken @ (taken.T @ columns)
         sizes, whole = np.linalg.norm(left, axis=0), np.linalg.norm(columns, axis=0)
-        for k in np.flatnonzero(sizes > FLAT * np.maximum(whole, TINY)):
+        for k in np.flatnonzero(sizes > PATTERNS.left * np.maximum(whole, TINY)):
             score = steady(left[:, k], found.whitened)
             seen.append((found.model.free[k].name, where, score / float(sizes[k]), score))
     return [Departure(*one, looks=len(seen)) for one in seen]

@@ -20,13 +20,10 @@ from pipeline.inference.load_cases import LoadCases
 from pipeline.inference.orthonormal_basis import basis
 from pipeline.inference.residual import Whitening, whitening
 from pipeline.inference.rounding import TINY
+from pipeline.inference.settings import PATTERNS
 from pipeline.selection.criteria import Criteria
 
 Array = NDArray[np.float64]
-LAG = 0.7
-"""Of a reading that is still there a step later, in a sensor that follows slowly."""
-FLAT = 1e-3
-"""Part of a column that must be left when what the fit can move is taken out of it."""
 
 
 @dataclass(frozen=True)
@@ -76,7 +73,7 @@ def left_of(found: Fit, channel: int, words: Sequence[str], errors: Array) -> It
     left = columns - taken @ (taken.T @ columns)
     sizes, whole_sizes = np.linalg.norm(left, axis=0), np.linalg.norm(columns, axis=0)
     name = column_name(channel, whole.campaign.gauges)
-    for k in np.flatnonzero(sizes > FLAT * np.maximum(whole_sizes, TINY)).tolist():
+    for k in np.flatnonzero(sizes > PATTERNS.left * np.maximum(whole_sizes, TINY)).tolist():
         largest = float(np.abs(errors[..., k]).max())
         yield Shape(channel, f"{name} {words[k]}", left[:, k], float(sizes[k]), largest)
 
@@ -112,7 +109,7 @@ def steady(column: Array, residual: Array, rows: NDArray[np.int64] | None = None
     best = int(np.argmax(parts * np.sign(total)))
     rest = size - float(squares[best])
     whole = total / np.sqrt(size)
-    without = (total - float(parts[best])) / np.sqrt(rest) if rest > FLAT**2 * size else 0.0
+    without = (total - float(parts[best])) / np.sqrt(rest) if rest > PATTERNS.left**2 * size else 0.0
     return float(np.sign(total) * max(0.0, min(abs(whole), without * np.sign(total))))
 
 
@@ -189,11 +186,11 @@ def _lagged(whole: LoadCases, m: Array) -> Array:
     out = np.zeros_like(m)
     for row in range(1, m.size):
         if whole.test[row] == whole.test[row - 1]:
-            out[row] = LAG * out[row - 1] + (m[row] - m[row - 1])
+            out[row] = PATTERNS.lag * out[row - 1] + (m[row] - m[row - 1])
     return out
 
 
 def _direction(whole: LoadCases, m: Array) -> Array:
     steps = np.diff(m, prepend=0.0)
     steps[whole.first[:-1]] = m[whole.first[:-1]]
-    return np.asarray(np.sign(np.where(np.abs(steps) > 0.01, steps, 0.0)))
+    return np.asarray(np.sign(np.where(np.abs(steps) > PATTERNS.travel, steps, 0.0)))

@@ -12,15 +12,16 @@ from collections.abc import Iterator
 import numpy as np
 
 from pipeline.campaign import Campaign
+from pipeline.selection.criteria import Criteria
 from pipeline.selection.mistakes.base import Mistake
 
 
-def possible(campaign: Campaign) -> Iterator[Mistake]:
+def possible(campaign: Campaign, criteria: Criteria) -> Iterator[Mistake]:
     """All that a campaign might have, kind by kind in alphabetical order of their modules."""
     for info in sorted(pkgutil.iter_modules(__path__), key=lambda it: it.name):
         module = importlib.import_module(f"{__name__}.{info.name}")
         if hasattr(module, "mistakes"):
-            yield from (it for it in module.mistakes(campaign) if _complete(it.mended(campaign)))
+            yield from (it for it in module.mistakes(campaign, criteria) if _complete(it.mended(campaign)))
 
 
 def _complete(campaign: Campaign) -> bool:

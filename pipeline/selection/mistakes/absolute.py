@@ -9,6 +9,7 @@ import numpy as np
 
 from pipeline.campaign import Campaign
 from pipeline.campaign.edited import Change
+from pipeline.selection.criteria import Criteria
 from pipeline.selection.mistakes.base import (
     GROUPS,
     Array,
@@ -19,13 +20,10 @@ from pipeline.selection.mistakes.base import (
     with_readings,
 )
 
-FAR = 20.0
-"""Sigmas from zero at which a column begins for its zero to be asked about."""
 
-
-def mistakes(campaign: Campaign) -> Iterator[Mistake]:
+def mistakes(campaign: Campaign, criteria: Criteria) -> Iterator[Mistake]:
     """Every column that begins far from zero in each of its tests by about as much."""
-    far = [name for name, begins in _begins(campaign).items() if begins]
+    far = [name for name, begins in _begins(campaign, criteria.doctor_plain).items() if begins]
     named: dict[str, tuple[str, ...]] = {name: (name,) for name in far}
     for words, names in GROUPS.items():
         mine = tuple(name for name in names if name in far)
@@ -43,13 +41,13 @@ def mistakes(campaign: Campaign) -> Iterator[Mistake]:
         )
 
 
-def _begins(campaign: Campaign) -> dict[str, bool]:
+def _begins(campaign: Campaign, plain: float) -> dict[str, bool]:
     sigmas, names = sigmas_of(campaign), columns_of(campaign)
     firsts = np.array([test.data.readings[0] for test in campaign.tests if test.zero == "nominal"])
     if not firsts.size:
         return {}
     size = np.abs(np.nan_to_num(firsts))
-    limit = FAR * np.where(np.isfinite(sigmas), sigmas, np.inf)
+    limit = plain * np.where(np.isfinite(sigmas), sigmas, np.inf)
     there = np.isfinite(firsts)
     every = np.all((size > limit) | ~there, axis=0) & there.any(axis=0)
     return dict(zip(names, every.tolist(), strict=True))

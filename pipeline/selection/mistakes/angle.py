@@ -9,12 +9,13 @@ import numpy as np
 
 from pipeline.campaign import Campaign
 from pipeline.campaign.edited import Change
+from pipeline.selection.criteria import Criteria
 from pipeline.selection.mistakes.base import Mistake
 
 LARGEST = float(np.pi / 2.0)
 
 
-def mistakes(campaign: Campaign) -> Iterator[Mistake]:
+def mistakes(campaign: Campaign, criteria: Criteria) -> Iterator[Mistake]:
     """Where no angle is larger than those of radians, and one is not zero."""
     angles = [abs(test.q_deg) for test in campaign.tests]
     if 0.0 < max(angles, default=0.0) <= LARGEST:

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pipeline.campaign import Campaign
+from pipeline.selection.criteria import Criteria
 from pipeline.selection.mistakes.base import Mistake
 from pipeline.selection.mistakes.unit import THOUSAND
 
@@ -18,7 +19,7 @@ TURNED = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0]])
 """A quarter of a turn about the axis of the bar."""
 
 
-def mistakes(campaign: Campaign) -> Iterator[Mistake]:
+def mistakes(campaign: Campaign, criteria: Criteria) -> Iterator[Mistake]:
     """Of bars whose stiffness somebody wrote."""
     if campaign.rig.with_bars(_quarter_turned) is None:
         return

@@ -9,25 +9,21 @@ from functools import partial
 import numpy as np
 
 from pipeline.campaign import Campaign, Test
+from pipeline.selection.criteria import Criteria
 from pipeline.selection.mistakes.base import Array, Mistake, columns_of, sigmas_of
 
 POWERS = (10.0, 100.0)
-APART = 2.5
-"""Times the largest of the other readings of its test from which one stands out: the last of a ramp of four steps is
-1.3 times the one before."""
-FAR = 20.0
-"""Sigmas that the largest of the others is at least: where they are noise, any knocked reading is ten times that."""
 OTHERS = 3
 """Readings of the column in the test beside it, at least."""
 
 
-def mistakes(campaign: Campaign) -> Iterator[Mistake]:
+def mistakes(campaign: Campaign, criteria: Criteria) -> Iterator[Mistake]:
     """Each reading that stands out in its test, and is among the others once it is divided."""
     sigmas = np.nan_to_num(sigmas_of(campaign))
     for number, test in enumerate(campaign.tests):
         for channel, name in enumerate(columns_of(campaign)):
             values = test.data.readings[:, channel]
-            found = _slipped(values, FAR * float(sigmas[channel]))
+            found = _slipped(values, float(sigmas[channel]), criteria)
             if found is None:
                 continue
             row, power = found
@@ -41,9 +37,9 @@ def mistakes(campaign: Campaign) -> Iterator[Mistake]:
             )
 
 
-def _slipped(values: Array, least: float) -> tuple[int, float] | None:
-    """Row of the one reading that stands out of others of which the largest is at least so large, and what it is to be
-    divided by; None where there is none."""
+def _slipped(values: Array, sigma: float, criteria: Criteria) -> tuple[int, float] | None:
+    """Row of the one reading that stands out of others of which the largest is plainly no noise, and what it is to be
+    divided by; None where there is none. Where the others are noise, any knocked reading is ten times that."""
     size = np.nan_to_num(np.abs(values))
     if np.count_nonzero(np.isfinite(values)) <= OTHERS:
         return None
@@ -51,12 +47,12 @@ def _slipped(values: Array, least: float) -> tuple[int, float] | None:
     rest = np.delete(values, row)
     rest = rest[np.isfinite(rest)]
     most = float(np.max(np.abs(rest)))
-    if most < least or not 0.0 < APART * most < size[row]:
+    if most < criteria.doctor_plain * sigma or not 0.0 < criteria.doctor_apart * most < size[row]:
         return None
     near = [k for k in (row - 1, row + 1) if 0 <= k < values.size and np.isfinite(values[k])]
     beside = float(np.mean(values[near])) if near else 0.0
     power = min(POWERS, key=lambda it: abs(values[row] / it - beside))
-    return (row, power) if abs(values[row] / power) <= APART * most else None
+    return (row, power) if abs(values[row] / power) <= criteria.doctor_apart * most else None
 
 
 def _divided(campaign: Campaign, number: int, row: int, channel: int, power: float) -> Campaign:

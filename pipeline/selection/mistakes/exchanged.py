@@ -10,6 +10,7 @@ import numpy as np
 
 from pipeline.campaign import Campaign
 from pipeline.campaign.edited import Change
+from pipeline.selection.criteria import Criteria
 from pipeline.selection.mistakes.base import (
     FORCES,
     MOMENTS,
@@ -23,7 +24,7 @@ from pipeline.selection.mistakes.base import (
 )
 
 
-def mistakes(campaign: Campaign) -> Iterator[Mistake]:
+def mistakes(campaign: Campaign, criteria: Criteria) -> Iterator[Mistake]:
     """Every pair that reads the same quantity, where at least one of the two was read."""
     there = read(campaign)
     gauges = columns_of(campaign)[12:]

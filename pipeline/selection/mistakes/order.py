@@ -11,13 +11,14 @@ from numpy.typing import NDArray
 
 from pipeline.campaign import Campaign, Data, Test
 from pipeline.inference.driving import driving
+from pipeline.selection.criteria import Criteria
 from pipeline.selection.mistakes.base import Array, Mistake
 
 Order = Callable[[Array], NDArray[np.int64]]
 FEWEST = 4
 
 
-def mistakes(campaign: Campaign) -> Iterator[Mistake]:
+def mistakes(campaign: Campaign, criteria: Criteria) -> Iterator[Mistake]:
     """The other orders in which the steps may have been done."""
     if max(test.data.steps.size for test in campaign.tests) < FEWEST:
         return

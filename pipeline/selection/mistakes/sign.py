@@ -7,10 +7,11 @@ from functools import partial
 
 from pipeline.campaign import Campaign
 from pipeline.campaign.edited import Change
+from pipeline.selection.criteria import Criteria
 from pipeline.selection.mistakes.base import Mistake, groups, times, verb
 
 
-def mistakes(campaign: Campaign) -> Iterator[Mistake]:
+def mistakes(campaign: Campaign, criteria: Criteria) -> Iterator[Mistake]:
     """Every column and group the other way."""
     for name, columns in groups(campaign).items():
         yield Mistake(

@@ -11,6 +11,7 @@ from functools import partial
 from pipeline.campaign import Campaign
 from pipeline.campaign.edited import Change
 from pipeline.campaign.mapped.units import INCH, LBF, UNITS
+from pipeline.selection.criteria import Criteria
 from pipeline.selection.mistakes.base import FORCES, MOMENTS, Mistake, groups, times, verb
 
 KGF, THOUSAND, DEGREE = (UNITS[name].factor for name in ("kgf", "kN", "°"))
@@ -35,7 +36,7 @@ MEANT = {"N": FORCE, "Nmm": MOMENT, "mm": LENGTH, "rad": TURN}
 WRITTEN = {"N": "N", "Nmm": "N·mm", "mm": "mm", "rad": "rad"}
 
 
-def mistakes(campaign: Campaign) -> Iterator[Mistake]:
+def mistakes(campaign: Campaign, criteria: Criteria) -> Iterator[Mistake]:
     """Another unit, or one that was converted the wrong way."""
     for name, columns in groups(campaign).items():
         units = {column.rpartition("_")[2] for column in columns}

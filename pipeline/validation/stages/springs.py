@@ -34,7 +34,9 @@ class SpringLinkage:
     def mechanism(self) -> Parallelogram:
         size = self.case.linkage
         place = "tip" if self.place == "distributed" else self.place
-        lumped = Parallelogram(size.length_mm, size.width_mm, self.stiffness, radians(self.q_deg), place)
+        lumped = Parallelogram(
+            size.length_mm, size.width_mm, self.stiffness, radians(self.q_deg), spring_at=place
+        )
         return lumped.refined() if self.place == "distributed" else lumped
 
     @property

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from pipeline.inference.stops import SIDE, SPREAD
+from pipeline.inference.settings import STOPS
 
 
 def taken_up(play: float) -> np.ndarray:
@@ -25,5 +25,5 @@ def taken_up(play: float) -> np.ndarray:
 def test_most_is_taken_up_by_a_play_as_large_as_the_noise() -> None:
     means = {play: float(np.mean(taken_up(play))) for play in (0.3, 0.6, 1.0, 1.5, 2.0)}
     assert max(means, key=lambda play: means[play]) == 1.0
-    assert means[1.0] == pytest.approx(SIDE, abs=0.01)
-    assert 2.0 * float(np.std(taken_up(1.0))) == pytest.approx(SPREAD, abs=0.05)
+    assert means[1.0] == pytest.approx(STOPS.side, abs=0.01)
+    assert 2.0 * float(np.std(taken_up(1.0))) == pytest.approx(STOPS.spread, abs=0.05)

@@ -20,6 +20,7 @@ from pipeline.compare.table import sentence
 from pipeline.discover.beyond_catalogue import with_laws
 from pipeline.inference.model import Model
 from pipeline.selection import doctor
+from pipeline.selection.criteria import CRITERIA
 from pipeline.selection.diagnosis import cached_fits, diagnose
 from pipeline.selection.doctor import Suspicion, suspicions
 from pipeline.selection.examined import Examination
@@ -107,7 +108,7 @@ def test_no_table_that_lacks_what_is_prescribed_is_looked_at() -> None:
         return replace(data, displacement=displacement)
 
     table = with_fault(bench(ids=("lateral_q+0",)), with_gap)
-    pairs = [it.columns for it in possible(table) if it.kind == "exchanged"]
+    pairs = [it.columns for it in possible(table, CRITERIA) if it.kind == "exchanged"]
     assert ("y_mm", "z_mm") in pairs and ("x_mm", "y_mm") not in pairs and ("x_mm", "z_mm") not in pairs
 
 

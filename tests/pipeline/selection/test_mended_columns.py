@@ -23,7 +23,7 @@ def found() -> Fit:
 
 
 def forces() -> Mistake:
-    return next(it for it in possible(bench()) if it.words == "all forces are in kgf")
+    return next(it for it in possible(bench(), CRITERIA) if it.words == "all forces are in kgf")
 
 
 def test_a_model_that_follows_the_columns_explains_them() -> None:

@@ -9,6 +9,7 @@ import pytest
 
 from pipeline.campaign import read, write
 from pipeline.campaign.edited import same
+from pipeline.selection.criteria import CRITERIA
 from pipeline.selection.doctor import Suspicion
 from pipeline.selection.mending import RIGHT, Mend, mends
 from pipeline.selection.mistakes import possible
@@ -19,7 +20,7 @@ from tests.pipeline.selection.mistakes import made
 
 
 def mistakes(folder: Path) -> dict[str, Mistake]:
-    return {it.words: it for it in possible(read(folder))}
+    return {it.words: it for it in possible(read(folder), CRITERIA)}
 
 
 def offered(folder: Path, words: str) -> tuple[Mend, ...]:
@@ -64,7 +65,7 @@ def test_what_the_columns_of_the_contract_have_wrong_is_a_line(words: str, tmp_p
 def test_that_the_table_is_right_is_a_line_too(tmp_path: Path) -> None:
     write(tmp_path, made.over(-1.0, *made.FORCES)(bench("modulus_error.scale", 0.95)))
     given = read(tmp_path)
-    it = mends(tmp_path, [Suspicion(next(iter(possible(given))), 1.0, 0.0, frozenset())], None)[-1]
+    it = mends(tmp_path, [Suspicion(next(iter(possible(given, CRITERIA))), 1.0, 0.0, frozenset())], None)[-1]
     assert it.lines == ("table_checked = true",)
     (tmp_path / "campaign.toml").write_text(it.text, encoding="utf-8")
     now = read(tmp_path)

@@ -11,6 +11,7 @@ from pipeline.assessment.mistaken.page import page
 from pipeline.assessment.mistaken.tables import KINDS
 from pipeline.assessment.mistaken.trial import NONE, Trial, benches, trial
 from pipeline.campaign import Campaign
+from pipeline.selection.criteria import CRITERIA
 from pipeline.selection.mistakes import possible
 from tests.pipeline.selection.bench import bench
 
@@ -24,7 +25,7 @@ def test_what_is_looked_for_undoes_it(kind: str) -> None:
     right = bench("modulus_error.scale", 0.95)
     made = KINDS[kind](right, np.random.default_rng(1))
     assert made is not None
-    mended = {it.words: it for it in possible(made.table)}[made.words].mended(made.table)
+    mended = {it.words: it for it in possible(made.table, CRITERIA)}[made.words].mended(made.table)
     off = readings(mended) - readings(right)
     # Where a column began nobody wrote down: what is mended begins at the first row of each test, with its noise.
     near = 1e-2 if kind == "not zeroed" else 1e-6

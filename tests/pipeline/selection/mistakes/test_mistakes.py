@@ -10,6 +10,7 @@ import pytest
 from pipeline.assessment.virtual.bench import measure
 from pipeline.assessment.virtual.plan import GAUGES, SENSORS, bench_plan
 from pipeline.campaign import Campaign
+from pipeline.selection.criteria import CRITERIA
 from pipeline.selection.mistakes import possible
 from pipeline.selection.mistakes.base import Mistake, times
 from pipeline.simulate import bench_rig
@@ -38,8 +39,8 @@ def readings(campaign: Campaign) -> np.ndarray:
 
 
 def named(campaign: Campaign, words: str) -> Mistake:
-    found = [it for it in possible(campaign) if it.words == words]
-    assert len(found) == 1, sorted(it.words for it in possible(campaign))
+    found = [it for it in possible(campaign, CRITERIA) if it.words == words]
+    assert len(found) == 1, sorted(it.words for it in possible(campaign, CRITERIA))
     return found[0]
 
 
@@ -78,7 +79,7 @@ def test_a_decimal_point_that_slipped_is_put_back(power: float) -> None:
     wrong = replace(right, tests=(replace(test, data=replace(test.data, wrench=wrench)), *right.tests[1:]))
     words = f"fx_N of test {test.id}, step {step}, is {power:g} times too large: its decimal point slipped"
     np.testing.assert_allclose(readings(named(wrong, words).mended(wrong)), readings(right), rtol=1e-12)
-    assert not any(it.kind == "digit" for it in possible(right))
+    assert not any(it.kind == "digit" for it in possible(right, CRITERIA))
 
 
 def test_a_knocked_reading_of_a_column_of_noise_is_no_slipped_point() -> None:
@@ -89,7 +90,7 @@ def test_a_knocked_reading_of_a_column_of_noise_is_no_slipped_point() -> None:
     assert np.abs(wrench[:, 4]).max() < 10.0 * sigma
     wrench[2, 4] = 40.0 * sigma
     knocked = replace(right, tests=(replace(test, data=replace(test.data, wrench=wrench)), *right.tests[1:]))
-    assert not any(it.kind == "digit" for it in possible(knocked))
+    assert not any(it.kind == "digit" for it in possible(knocked, CRITERIA))
 
 
 def test_angles_in_radians() -> None:
@@ -97,12 +98,12 @@ def test_angles_in_radians() -> None:
     wrong = made.angles_in_radians(right)
     mended = named(wrong, "q_deg is in radians").mended(wrong)
     assert [t.q_deg for t in mended.tests] == pytest.approx([t.q_deg for t in right.tests])
-    assert not [it for it in possible(right) if it.columns == ("q_deg",)]
+    assert not [it for it in possible(right, CRITERIA) if it.columns == ("q_deg",)]
 
 
 def test_a_column_that_begins_far_from_zero() -> None:
     right = bench()
-    assert not [it for it in possible(right) if it.kind == "zero"]
+    assert not [it for it in possible(right, CRITERIA) if it.kind == "zero"]
     wrong = made.shifted(30.0, "x_mm")(right)
     it = named(wrong, "x_mm was not zeroed: absolute positions or loads")
     first = readings(it.mended(wrong))[0]
@@ -132,14 +133,14 @@ def test_steps_that_were_sorted_are_offered_as_loops() -> None:
     def by_load(campaign: Campaign) -> Campaign:
         return made.changed(campaign, lambda values: values[order])
 
-    words = {it.words for it in possible(by_load(right)) if it.kind == "order"}
+    words = {it.words for it in possible(by_load(right), CRITERIA) if it.kind == "order"}
     said = "the steps of every test are sorted by the load; they were done"
     assert words == {"the steps of every test stand backwards", f"{said} up and down", f"{said} down and up"}
-    assert len([it for it in possible(right) if it.kind == "order"]) == 1
+    assert len([it for it in possible(right, CRITERIA) if it.kind == "order"]) == 1
 
 
 def test_every_mistake_says_what_to_do() -> None:
-    every = list(possible(made.shifted(30.0, "x_mm")(bench())))
+    every = list(possible(made.shifted(30.0, "x_mm")(bench()), CRITERIA))
     assert len({it.words for it in every}) == len(every) > 100
     assert {it.kind for it in every} == {"unit", "sign", "exchanged", "zero", "order", "section", "modulus"}
     for it in every:
