@@ -75,17 +75,20 @@ def verified(state: Equilibrium) -> Equilibrium:
 
 
 def reduced_modes(state: Equilibrium, held: Held) -> Modes:
-    """Eigenvalues and vectors of the tangent on the motions that keep all loops closed."""
+    """Eigenvalues and vectors of the tangent on the motions that keep all loops closed; no numbers where a law has none
+    for its tangent."""
     place = lagrangian.layout(state.mechanism)
     free = _free(place, held)
     tangent = bordered_tangent(state, held)
+    there = np.asarray(np.isfinite(tangent).all(axis=(-2, -1), keepdims=True))
+    tangent = np.where(there, tangent, 0.0)
     motions = free.size - place.closures
     closure = tangent[..., motions:, :motions]
     basis = np.swapaxes(np.linalg.svd(closure)[2], -1, -2)[..., place.closures :]
     values, vectors = np.linalg.eigh(np.swapaxes(basis, -1, -2) @ tangent[..., :motions, :motions] @ basis)
     full = np.zeros((*values.shape[:-1], place.size, values.shape[-1]))
     full[..., free[:motions], :] = basis @ vectors
-    return Modes(values, full * place.scale[:, None])
+    return Modes(np.where(there[..., 0], values, np.nan), full * place.scale[:, None])
 
 
 def _free(place: lagrangian.Layout, held: Held) -> np.ndarray:

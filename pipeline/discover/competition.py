@@ -20,7 +20,7 @@ import numpy as np
 from pipeline.callbacks import OnProgress
 from pipeline.discover.locating import mapped
 from pipeline.discover.looking import Looked, discovered, effects_of, explains, fitted, less_certain, record
-from pipeline.discover.search import Discovery, fitted_to
+from pipeline.discover.search import Discovery, Law, fitted_to
 from pipeline.discover.words import law_sentences
 from pipeline.inference.fit import Fit
 from pipeline.inference.model import Model
@@ -38,7 +38,7 @@ def competing(it: Diagnosis, best: Names, on_progress: OnProgress) -> Looked:
     """The diagnosis after its sets have competed with laws, and what was found, where laws were looked for.
 
     best: the first set. A set of several is not named against laws that explain as much; one effect keeps its name
-    against what is no better, and wherever the laws are that effect by other words."""
+    where it is better by what is strong evidence, and wherever the laws are that effect by other words."""
     own = best - root_of(it.cache, best)
     several = len(own) >= CRITERIA.law_several
     on_progress("whether a law explains as much")
@@ -46,7 +46,7 @@ def competing(it: Diagnosis, best: Names, on_progress: OnProgress) -> Looked:
         return it, None
     begin, last = perf_counter(), None
     for start, but in _starts(it, own, several):
-        last = discovered(it, start, on_progress, but)
+        last = _with_rows_on_one_side(discovered(it, start, on_progress, but))
         rival = _standing(it, last, best)
         if rival is not None and rival.things <= len(own) and effects_of(last) | rival.beside != own:
             done = _judged(it, last, rival, several, begin)
@@ -96,6 +96,18 @@ class _Rival:
     kinked: bool
 
 
+def _with_rows_on_one_side(found: Discovery) -> Discovery:
+    """With another form of the last law in the place of one whose rows choose their sides of a gap, where one is no
+    worse by what tells forms apart: a choice that takes up noise is no reason to hear no law."""
+    law = found.steps[-1] if found.steps else None
+    if not isinstance(law, Law):
+        return found
+    ways = tuple(sorted(law.ways, key=lambda way: way.formed.form.kinked))
+    if not ways or not law.ways[0].formed.form.kinked or ways[0].formed.form.kinked:
+        return found
+    return replace(found, steps=(*found.steps[:-1], replace(law, ways=ways)), end=ways[0].fit)
+
+
 def _standing(it: Diagnosis, found: Discovery, best: Names) -> _Rival | None:
     """What the laws that were found cost; None where there are none, where one has no form, or by other readings."""
     if found.settled or found.end.lost or not found.laws or not all(law.ways for law in found.laws):
@@ -120,9 +132,8 @@ def _judged(it: Diagnosis, found: Discovery, rival: _Rival, several: bool, begin
     # Where each row chooses its side of a gap that takes up noise, and where something is left: never better than a
     # set by that alone.
     doubtful = rival.kinked or not rival.whole
-    alone = -CRITERIA.law_alike if doubtful else 0.0
-    limit = CRITERIA.law_alike if several and rival.whole else alone
-    if behind > limit or (behind == limit and not several):
+    alone = -CRITERIA.law_alike if doubtful else CRITERIA.law_named
+    if behind > (CRITERIA.law_alike if several and rival.whole else alone):
         return it
     told = _told(found, rival)
     if doubtful or behind >= -CRITERIA.law_alike:

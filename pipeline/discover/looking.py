@@ -14,6 +14,7 @@ from pipeline.inference.model import Model
 from pipeline.selection.adequacy.judgement import judge
 from pipeline.selection.diagnosis import Diagnosis
 from pipeline.selection.fit_cache import Names
+from vjm.forms import forms
 
 Looked = tuple[Diagnosis, Discovery | None]
 
@@ -44,8 +45,11 @@ def effects_of(found: Discovery) -> Names:
 
 
 def less_certain(it: Diagnosis, found: Discovery) -> Diagnosis:
-    """What laws explain without an effect makes that effect less than certain."""
-    there = {*found.end.model.names, *effects_of(found)}
+    """What laws explain without an effect makes that effect less than certain, and so does a law at a place where the
+    effect acts: what it has there is another law than the effect's."""
+    kinds = {law.site.kind for law in found.laws}
+    acting = {name for form in forms().values() for kind in kinds for name in form.effects.get(kind, ())}
+    there = (set(found.end.model.names) - acting) | effects_of(found)
     return replace(it, certain=tuple(name for name in it.certain if name in there))
 
 

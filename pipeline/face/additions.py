@@ -12,13 +12,12 @@ from rich.console import RenderableType
 from pipeline.add.fitting import Added
 from pipeline.add.fitting import add as fit_with
 from pipeline.add.fitting import remove as fit_without
-from pipeline.answer.record import Answer
 from pipeline.answer.tables.added import error_table, parameter_table
-from pipeline.answer.tables.headline import headline
 from pipeline.errors import InputError
-from pipeline.face.about import AboutBench, Given, effects_of, subject_of
+from pipeline.face.about import Given, effects_of, subject_of
 from pipeline.face.comparisons import Comparison, compare
 from pipeline.face.diagnoses import Diagnosis, diagnose
+from pipeline.face.of_answer import OfAnswer
 from pipeline.face.plans import Plan, plan
 from pipeline.face.predictions import At, Prediction, predict
 from pipeline.face.subject import Subject
@@ -39,35 +38,20 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Addition(AboutBench):
+class Addition(OfAnswer):
     """A bench whose model has got effects, or lost some, and was fitted.
 
     subject: with the new model, so that whatever is asked of this result goes on from there. before: the model before.
-    answer: all of it as a record, values in the units of their parameters. keep: why the new model should not take the
-    place of the one before, "" if nothing speaks against it.
+    keep: why the new model should not take the place of the one before, "" if nothing speaks against it.
     """
 
     before: Model
-    answer: Answer
     keep: str = ""
 
     @property
     def model(self) -> Model:
         """The new model, fitted."""
         return self.subject.model
-
-    @property
-    def headline(self) -> str:
-        return headline(self.answer)
-
-    @property
-    def verdict(self) -> str:
-        """within_noise, unknown or nothing_tested; after `improve` also ambiguous."""
-        return self.answer.verdict
-
-    @property
-    def sentences(self) -> tuple[str, ...]:
-        return self.answer.sentences
 
     @property
     def following(self) -> tuple[str, ...]:
@@ -171,8 +155,8 @@ def improve(bench: Given) -> Addition:
     it = subject_of(bench)
     found = search(it.campaign, it.model, it.known.effects)
     done = list(steps(found))
-    return Addition(it.with_model(done[-1].fit.model), it.model, improved(found, it.model, done))
+    return Addition(it.with_model(done[-1].fit.model), improved(found, it.model, done), it.model)
 
 
 def _addition(it: Subject, found: Added) -> Addition:
-    return Addition(it.with_model(found.model), it.model, found.answer, found.keep)
+    return Addition(it.with_model(found.model), found.answer, it.model, found.keep)

@@ -10,16 +10,15 @@ from rich.console import RenderableType
 
 from pipeline.answer.law import LawFound
 from pipeline.answer.of_diagnosis import answered
-from pipeline.answer.record import Answer
 from pipeline.answer.tables.added import parameter_table
 from pipeline.answer.tables.diagnosis import candidate_table, waterfall
-from pipeline.answer.tables.headline import headline
 from pipeline.answer.wording.diagnosis import no_next_test
 from pipeline.discover.beyond_catalogue import with_laws
 from pipeline.discover.table import law_table
 from pipeline.discover.words import said_of
 from pipeline.errors import InputError
-from pipeline.face.about import AboutBench, Given, subject_of
+from pipeline.face.about import Given, subject_of
+from pipeline.face.of_answer import OfAnswer
 from pipeline.face.plans import Plan, plan
 from pipeline.face.predictions import At, Prediction, predict
 from pipeline.inference.model import Model
@@ -41,30 +40,16 @@ class UndecidedError(InputError):
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Diagnosis(AboutBench):
+class Diagnosis(OfAnswer):
     """What the model of a bench lacks.
 
-    answer: all of it as a record, values in the units of their parameters. choices: the sets of effects that explain
+    choices: the sets of effects that explain
     the readings, the simplest first; one where the verdict is `identified`, the empty one where it is `within_noise`,
     of `unknown` what helps, if anything. models: the model of the bench with each of these, fitted.
     """
 
-    answer: Answer
     choices: tuple[Names, ...]
     models: tuple[Model, ...]
-
-    @property
-    def headline(self) -> str:
-        return headline(self.answer)
-
-    @property
-    def verdict(self) -> str:
-        """nothing_tested, within_noise, identified, ambiguous or unknown."""
-        return self.answer.verdict
-
-    @property
-    def sentences(self) -> tuple[str, ...]:
-        return self.answer.sentences
 
     @property
     def laws(self) -> tuple[LawFound, ...]:

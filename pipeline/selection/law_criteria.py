@@ -53,6 +53,13 @@ class LawCriteria:
         "exponential than a power: less is not worth more than a bare mention",
         "R. E. Kass, A. E. Raftery, Journal of the American Statistical Association 90 (1995) 773-795",
     )
+    law_named: float = criterion(
+        6.0,
+        CHI2,
+        GROUP,
+        "cost by which one effect is to be better than a law to keep its name alone: less is no strong evidence",
+        "R. E. Kass, A. E. Raftery, Journal of the American Statistical Association 90 (1995) 773-795",
+    )
     law_rounds: int = criterion(3, COUNT, GROUP, "times that single bad readings are looked for, at most")
     laws_at_most: int = criterion(3, COUNT, GROUP, "that are looked for one after another")
     law_forms: int = criterion(5, COUNT, GROUP, "that are fitted through the mechanism, at most")
@@ -74,7 +81,7 @@ class LawCriteria:
         COUNT,
         GROUP,
         "effects with numbers from which a set pays for all of them and is not named against laws that explain as "
-        "much: one alone pays for those that it needs and keeps its name against what is no better",
+        "much: one alone pays for those that it needs and keeps its name where it is better beyond doubt (`law_named`)",
     )
     law_left_by_set: float = criterion(
         4.0,

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from hypothesis import given
@@ -188,6 +190,22 @@ def test_branch_is_not_invented_before_the_critical_load() -> None:
 def test_no_branch_without_critical_load() -> None:
     with pytest.raises(ValueError, match="no branch"):
         buckled_path(critical_load(linkage(), ("z",), -1, steps=4), [-0.1])
+
+
+def test_a_state_without_a_tangent_has_no_eigenvalues_beside_one_that_has() -> None:
+    """A law may have no numbers where a linkage was last tried."""
+    mechanism = linkage(place="base")
+    state = drive(mechanism, -0.01, GUIDED)
+    unknowns = np.stack([state.unknowns, np.full_like(state.unknowns, np.nan)])
+    both = replace(
+        state,
+        unknowns=unknowns,
+        memory=np.stack([state.memory] * 2),
+        drives=np.stack([state.drives] * 2),
+    )
+    values = reduced_modes(both, GUIDED).values
+    np.testing.assert_array_equal(values[0], reduced_modes(state, GUIDED).values)
+    assert np.isnan(values[1]).all()
 
 
 def test_a_free_mechanism_is_refused() -> None:

@@ -55,12 +55,8 @@ class SlipByLoad(Form):
     places = ("series",)
     amplitudes = (Quantity("give", 1, -1, "displacement per load of the spring", positive=True),)
     shapes = (
-        Quantity(
-            "limit", 0, 1, "friction while it slips under the load N0", positive=True, span=(1e-4, 10.0)
-        ),
-        Quantity(
-            "stick", 0, 0, "stiffness that sticks over that of the spring", positive=True, span=(0.1, 300.0)
-        ),
+        Quantity("limit", 0, 1, "friction while it slips under the load N0", True, span=(1e-4, 10.0)),
+        Quantity("stick", 0, 0, "stiffness that sticks over that of the spring", True, span=(0.1, 300.0)),
         AT,
     )
     fixed = ("at",)

@@ -44,7 +44,8 @@ def costing(
 @pytest.mark.parametrize(
     ("several", "off", "verdict"),
     [
-        (False, -1.0, "identified"),
+        (False, -7.0, "identified"),
+        (False, -5.0, "ambiguous"),
         (False, 1.0, "ambiguous"),
         (False, 20.0, "unknown"),
         (True, -20.0, "identified"),
@@ -52,7 +53,7 @@ def costing(
         (True, 20.0, "unknown"),
     ],
 )
-def test_one_effect_keeps_its_name_against_a_law_that_is_no_better(
+def test_one_effect_keeps_its_name_where_it_is_better_than_a_law_by_strong_evidence(
     unknown: Diagnosis, monkeypatch: pytest.MonkeyPatch, several: bool, off: float, verdict: str
 ) -> None:
     """off: by how much the law costs less than the set; above ten chi-squares it is better beyond doubt."""

@@ -297,6 +297,18 @@ def test_a_place_without_a_form_takes_nothing_with_it(
     assert not again.failed and [each.site for each in again.laws] == ["hinge_torque"]
 
 
+def test_what_acts_at_the_place_of_a_law_is_not_certain(unknown: Diagnosis) -> None:
+    """Beside another law of the hinges nobody knows that a spring is in them; the law that is the friction is that
+    effect by other words."""
+    found = friction_found()
+    assert found.laws[0].ways[0].formed.form.name == "coulomb"
+    sure = ("joint_torsional_stiffness", "base_compliance", "joint_friction")
+    beside = Model().with_effects([catalogue()[name] for name in sure[:2]])
+    end = replace(found.end, model=beside)
+    it = looking.less_certain(replace(unknown, certain=sure), replace(found, end=end))
+    assert it.certain == ("base_compliance", "joint_friction")
+
+
 def asked_with(model: Model) -> Model:
     return model.with_effects([catalogue()["base_compliance"]])
 
