@@ -29,6 +29,7 @@ from pipeline.selection.criteria import CRITERIA
 from pipeline.selection.diagnosis import Diagnosis
 from pipeline.selection.fit_cache import Names
 from vjm.effects.sensor_fault import SensorFault
+from vjm.forms import forms
 
 AT_NULL = 1e-3
 """Standard errors within which a number stands at null."""
@@ -100,11 +101,9 @@ def _with_rows_on_one_side(found: Discovery) -> Discovery:
     """With another form of the last law in the place of one whose rows choose their sides of a gap, where one is no
     worse by what tells forms apart: a choice that takes up noise is no reason to hear no law."""
     law = found.steps[-1] if found.steps else None
-    if not isinstance(law, Law):
+    if not isinstance(law, Law) or not law.ways or not law.ways[0].formed.form.kinked:
         return found
     ways = tuple(sorted(law.ways, key=lambda way: way.formed.form.kinked))
-    if not ways or not law.ways[0].formed.form.kinked or ways[0].formed.form.kinked:
-        return found
     return replace(found, steps=(*found.steps[:-1], replace(law, ways=ways)), end=ways[0].fit)
 
 
@@ -132,7 +131,9 @@ def _judged(it: Diagnosis, found: Discovery, rival: _Rival, several: bool, begin
     # Where each row chooses its side of a gap that takes up noise, and where something is left: never better than a
     # set by that alone.
     doubtful = rival.kinked or not rival.whole
-    alone = -CRITERIA.law_alike if doubtful else CRITERIA.law_named
+    # A law that holds the effect and more has to be better by what it has more.
+    held = frozenset(it.sets[0]) - root_of(it.cache, frozenset(it.sets[0])) <= _held_by(found) | rival.beside
+    alone = -CRITERIA.law_alike if doubtful else 0.0 if held else CRITERIA.law_named
     if behind > (CRITERIA.law_alike if several and rival.whole else alone):
         return it
     told = _told(found, rival)
@@ -144,6 +145,13 @@ def _judged(it: Diagnosis, found: Discovery, rival: _Rival, several: bool, begin
         )
     done, made = less_certain(replace(it, decision=decision), found), record(it, found, begin)
     return replace(done, laws=made.laws, law_words=law_sentences(made))
+
+
+def _held_by(found: Discovery) -> Names:
+    """The effects of the catalogue that the laws hold, alone or as a part of them."""
+    laws = [(law.site.kind, law.ways[0].formed.form.name) for law in found.laws if law.ways]
+    parts = [(kind, forms()[part]) for kind, name in laws for part in name.split("+")]
+    return frozenset(name for kind, form in parts for name in form.effects.get(kind, ()))
 
 
 def _cost_of_set(it: Diagnosis, names: Names, several: bool) -> float:

@@ -15,6 +15,7 @@ from pipeline.selection.adequacy.judgement import judge
 from pipeline.selection.diagnosis import Diagnosis
 from pipeline.selection.fit_cache import Names
 from vjm.forms import forms
+from vjm.forms.constant import Constant
 
 Looked = tuple[Diagnosis, Discovery | None]
 
@@ -48,7 +49,9 @@ def less_certain(it: Diagnosis, found: Discovery) -> Diagnosis:
     """What laws explain without an effect makes that effect less than certain, and so does a law at a place where the
     effect acts: what it has there is another law than the effect's."""
     kinds = {law.site.kind for law in found.laws}
-    acting = {name for form in forms().values() for kind in kinds for name in form.effects.get(kind, ())}
+    # A length that is another one without load is no law that one beside it contradicts.
+    every = [form for form in forms().values() if not isinstance(form, Constant)]
+    acting = {name for form in every for kind in kinds for name in form.effects.get(kind, ())}
     there = (set(found.end.model.names) - acting) | effects_of(found)
     return replace(it, certain=tuple(name for name in it.certain if name in there))
 

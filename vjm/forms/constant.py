@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from typing import ClassVar
+
 import numpy as np
 
 from vjm.forms.base import Quantity
@@ -21,6 +24,7 @@ class Constant(CurveForm):
     beside = ("parallel", "series")
     grows = "bounded"
     and_linear = True
+    effects: ClassVar[Mapping[str, tuple[str, ...]]] = {"along": ("bar_length_mismatch", "dimension_error")}
 
     def points(self, x: Array, shapes: Array) -> Points:
         return Points.of((np.ones_like(x), np.zeros_like(x), x))

@@ -20,14 +20,7 @@ class CreepInSeries(Form):
     places = ("series",)
     amplitudes = (Quantity("give", 1, -1, "displacement per load when it has crept", positive=True),)
     shapes = (
-        Quantity(
-            "relaxing",
-            0,
-            0,
-            "stiffness that relaxes over the one that stays",
-            positive=True,
-            span=(1e-3, 1e2),
-        ),
+        Quantity("relaxing", 0, 0, "stiffness that relaxes over the one that stays", True, span=(1e-3, 1e2)),
         Quantity("steps", 0, 0, "load steps over which it creeps", positive=True, span=(0.2, 100.0)),
     )
     memory = True

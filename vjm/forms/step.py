@@ -24,12 +24,7 @@ class Step(CurveForm):
     shapes = (
         Quantity("place", 0, 1, "how far from zero it is", positive=True, span=(0.02, 1.0)),
         Quantity(
-            "width",
-            0,
-            1,
-            "half of that over which three quarters of it are made",
-            positive=True,
-            span=(0.005, 0.5),
+            "width", 0, 1, "half of that over which three quarters of it are made", True, span=(5e-3, 0.5)
         ),
         Quantity("side", 0, 0, "of zero on which it is, 1 above and -1 below"),
     )

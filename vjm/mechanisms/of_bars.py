@@ -56,8 +56,7 @@ class OfBars(WithPlaces):
         if self.spring_at not in get_args(SpringAt):
             raise ValueError(f"spring_at must be one of {get_args(SpringAt)}, got {self.spring_at!r}")
         if wrong := [place.bar for place in self.gauge_at if not 1 <= place.bar <= self.number_of_bars]:
-            allowed = " or ".join(map(str, range(1, self.number_of_bars + 1)))
-            raise ValueError(f"bar must be {allowed}, got {wrong[0]}")
+            raise ValueError(f"bar must be 1{' or 2' if self.number_of_bars > 1 else ''}, got {wrong[0]}")
 
     @property
     def model(self) -> BarModel:

@@ -15,6 +15,8 @@ from tests.pipeline.bench import bench
 from tests.pipeline.discover.fits import GEOMETRY, effects_for, fitted_tests, friction_found
 from vjm.effects import catalogue
 from vjm.effects.base import Effect
+from vjm.forms import forms
+from vjm.forms.coulomb import Coulomb
 
 SPRING, BASE = "joint_torsional_stiffness", "base_compliance"
 OWN = frozenset({BASE})
@@ -59,6 +61,38 @@ def test_one_effect_keeps_its_name_where_it_is_better_than_a_law_by_strong_evide
     """off: by how much the law costs less than the set; above ten chi-squares it is better beyond doubt."""
     it = named(unknown, (SPRING, BASE) if several else (SPRING,))
     assert costing(it, friction_found(), off, monkeypatch, several).verdict == verdict
+
+
+def test_no_strong_evidence_is_asked_of_a_name_that_is_a_part_of_the_law(
+    unknown: Diagnosis, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A slope and a friction in the hinges, and the name of a spring: the law has to be better by its friction."""
+    found = friction_found()
+    (law,) = found.laws
+    way = replace(law.ways[0], formed=replace(law.ways[0].formed, form=forms()["linear+coulomb"]))
+    both = replace(found, steps=(replace(law, ways=(way,)),))
+    it = named(unknown, (SPRING,))
+    assert costing(it, both, -5.0, monkeypatch).verdict == "identified"
+    assert costing(it, both, 1.0, monkeypatch).verdict == "ambiguous"
+
+
+class Sided(Coulomb):
+    """As if each row chose its side of it."""
+
+    kinked = True
+
+
+def test_a_choice_of_sides_is_no_reason_to_hear_no_law(
+    unknown: Diagnosis, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """One with sides is the cheapest form, and another one that is as good has none."""
+    found = friction_found()
+    (law,) = found.laws
+    sided = replace(law.ways[0], formed=replace(law.ways[0].formed, form=Sided()))
+    both = replace(found, steps=(replace(law, ways=(sided, law.ways[0])),))
+    assert costing(named(unknown, (SPRING,)), both, -1.0, monkeypatch).verdict == "ambiguous"
+    alone = replace(found, steps=(replace(law, ways=(sided,)),))
+    assert costing(named(unknown, (SPRING,)), alone, -1.0, monkeypatch).verdict == "identified"
 
 
 @pytest.mark.parametrize(("off", "verdict"), [(9.0, "identified"), (20.0, "ambiguous")])
