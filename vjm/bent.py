@@ -115,8 +115,10 @@ def neutral_is_stable(state: Equilibrium) -> Equilibrium:
         one = state.member(int(k))
         held = np.asarray(one.held)
         rest = replace(one, unknowns=lagrangian.at_rest(one.mechanism, one.drives))
-        zero = NEUTRAL * max(float(reduced_modes(rest, held).values[0]), 0.0)
-        unstable[k] = int(np.sum(reduced_modes(one, held).values < -zero))
+        zero = NEUTRAL * np.maximum(reduced_modes(rest, held).values[0], 0.0)
+        values = reduced_modes(one, held).values
+        if np.isfinite(zero) and np.isfinite(values).all():
+            unstable[k] = int(np.sum(values < -zero))
     return replace(state, unstable=unstable) if doubtful.size else state
 
 

@@ -47,7 +47,8 @@ def competing(it: Diagnosis, best: Names, on_progress: OnProgress) -> Looked:
         return it, None
     begin, last = perf_counter(), None
     for start, but in _starts(it, own, several):
-        last = _with_rows_on_one_side(discovered(it, start, on_progress, but))
+        last = discovered(it, start, on_progress, but)
+        last = last if effects_of(last) == own else _with_rows_on_one_side(last)
         rival = _standing(it, last, best)
         if rival is not None and rival.things <= len(own) and effects_of(last) | rival.beside != own:
             done = _judged(it, last, rival, several, begin)
@@ -101,7 +102,7 @@ def _with_rows_on_one_side(found: Discovery) -> Discovery:
     """With another form of the last law in the place of one whose rows choose their sides of a gap, where one is no
     worse by what tells forms apart: a choice that takes up noise is no reason to hear no law."""
     law = found.steps[-1] if found.steps else None
-    if not isinstance(law, Law) or not law.ways or not law.ways[0].formed.form.kinked:
+    if not isinstance(law, Law) or not law.ways or not law.ways[0].formed.form.kinked or found.settled:
         return found
     ways = tuple(sorted(law.ways, key=lambda way: way.formed.form.kinked))
     return replace(found, steps=(*found.steps[:-1], replace(law, ways=ways)), end=ways[0].fit)

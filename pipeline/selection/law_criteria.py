@@ -81,7 +81,7 @@ class LawCriteria:
         COUNT,
         GROUP,
         "effects with numbers from which a set pays for all of them and is not named against laws that explain as "
-        "much: one alone pays for those that it needs and keeps its name where it is better beyond doubt (`law_named`)",
+        "much: one alone pays for those that it needs and keeps its name where it is better by `law_named`",
     )
     law_left_by_set: float = criterion(
         4.0,

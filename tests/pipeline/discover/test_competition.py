@@ -91,6 +91,7 @@ def test_a_choice_of_sides_is_no_reason_to_hear_no_law(
     sided = replace(law.ways[0], formed=replace(law.ways[0].formed, form=Sided()))
     both = replace(found, steps=(replace(law, ways=(sided, law.ways[0])),))
     assert costing(named(unknown, (SPRING,)), both, -1.0, monkeypatch).verdict == "ambiguous"
+    assert costing(named(unknown, ("joint_friction",)), both, 1.0, monkeypatch).verdict == "identified"
     alone = replace(found, steps=(replace(law, ways=(sided,)),))
     assert costing(named(unknown, (SPRING,)), alone, -1.0, monkeypatch).verdict == "identified"
 
