@@ -127,7 +127,7 @@ def _directions(state: Equilibrium) -> list[Array]:
     count = int(state.unstable)
     modes = reduced_modes(state, np.asarray(state.held))
     place = lagrangian.layout(state.mechanism)
-    if count < 1 or not modes.vectors.size:
+    if count < 1 or not modes.vectors.size or not np.isfinite(modes.values).all():
         # Everything is held, or what turned unstable is none of the free directions.
         return []
     vectors = modes.vectors[:, :count] / place.scale[:, None]

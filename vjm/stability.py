@@ -75,8 +75,8 @@ def verified(state: Equilibrium) -> Equilibrium:
 
 
 def reduced_modes(state: Equilibrium, held: Held) -> Modes:
-    """Eigenvalues and vectors of the tangent on the motions that keep all loops closed; no numbers where a law has none
-    for its tangent."""
+    """Eigenvalues and vectors of the tangent on the motions that keep all loops closed; where a law has no
+    numbers for its tangent, values that are none and vectors without meaning."""
     place = lagrangian.layout(state.mechanism)
     free = _free(place, held)
     tangent = bordered_tangent(state, held)

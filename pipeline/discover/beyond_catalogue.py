@@ -68,11 +68,11 @@ def _with_laws(it: Diagnosis, on_progress: OnProgress) -> Looked:
     begin, found = perf_counter(), _beside_certain(it, on_progress)
     if not found.laws and (it.judgement.noise or not settled):
         return it, found
-    done = less_certain(it, found) if found.laws else it
     if not settled and not explains(it, found):
-        return done, found
+        return it, found
     made = record(it, found, begin)
     words = law_sentences(made) if found.laws else sentences(made)[:1]
+    done = less_certain(it, found) if found.laws else it
     return replace(done, laws=made.laws, law_words=words), found
 
 

@@ -48,10 +48,10 @@ def competing(it: Diagnosis, best: Names, on_progress: OnProgress) -> Looked:
     begin, last = perf_counter(), None
     for start, but in _starts(it, own, several):
         last = discovered(it, start, on_progress, but)
-        last = last if effects_of(last) == own else _with_rows_on_one_side(last)
+        last = last if effects_of(last) == own else _without_sides(it, last)
         rival = _standing(it, last, best)
         if rival is not None and rival.things <= len(own) and effects_of(last) | rival.beside != own:
-            done = _judged(it, last, rival, several, begin)
+            done = _judged(it, last, rival, own, begin)
             if done is not it:
                 return done, last
     return it, last
@@ -98,14 +98,17 @@ class _Rival:
     kinked: bool
 
 
-def _with_rows_on_one_side(found: Discovery) -> Discovery:
+def _without_sides(it: Diagnosis, found: Discovery) -> Discovery:
     """With another form of the last law in the place of one whose rows choose their sides of a gap, where one is no
     worse by what tells forms apart: a choice that takes up noise is no reason to hear no law."""
     law = found.steps[-1] if found.steps else None
     if not isinstance(law, Law) or not law.ways or not law.ways[0].formed.form.kinked or found.settled:
         return found
     ways = tuple(sorted(law.ways, key=lambda way: way.formed.form.kinked))
-    return replace(found, steps=(*found.steps[:-1], replace(law, ways=ways)), end=ways[0].fit)
+    if ways[0].formed.form.kinked:
+        return found
+    last = mapped(ways[0].fit, it.cache.candidates, known=[each.group[0] for each in found.laws])
+    return replace(found, steps=(*found.steps[:-1], replace(law, ways=ways)), end=ways[0].fit, last=last)
 
 
 def _standing(it: Diagnosis, found: Discovery, best: Names) -> _Rival | None:
@@ -126,15 +129,15 @@ def _standing(it: Diagnosis, found: Discovery, best: Names) -> _Rival | None:
     return _Rival(cost, numbers, things, beside, explains(it, found), kinked)
 
 
-def _judged(it: Diagnosis, found: Discovery, rival: _Rival, several: bool, begin: float) -> Diagnosis:
-    """The diagnosis as it is, or with a verdict that the laws leave."""
+def _judged(it: Diagnosis, found: Discovery, rival: _Rival, own: Names, begin: float) -> Diagnosis:
+    """The diagnosis as it is, or with a verdict that the laws leave. own: effects of the first set."""
+    several = len(own) >= CRITERIA.law_several
     behind = rival.cost - min(_cost_of_set(it, names, several) for names in map(frozenset, it.sets))
     # Where each row chooses its side of a gap that takes up noise, and where something is left: never better than a
     # set by that alone.
     doubtful = rival.kinked or not rival.whole
     # A law that holds the effect and more has to be better by what it has more.
-    held = frozenset(it.sets[0]) - root_of(it.cache, frozenset(it.sets[0])) <= _held_by(found) | rival.beside
-    alone = -CRITERIA.law_alike if doubtful else 0.0 if held else CRITERIA.law_named
+    alone = -CRITERIA.law_alike if doubtful else 0.0 if own <= _held_by(found) else CRITERIA.law_named
     if behind > (CRITERIA.law_alike if several and rival.whole else alone):
         return it
     told = _told(found, rival)
@@ -149,7 +152,7 @@ def _judged(it: Diagnosis, found: Discovery, rival: _Rival, several: bool, begin
 
 
 def _held_by(found: Discovery) -> Names:
-    """The effects of the catalogue that the laws hold, alone or as a part of them."""
+    """The effects of the catalogue that the laws are, alone or as one of two side by side."""
     laws = [(law.site.kind, law.ways[0].formed.form.name) for law in found.laws if law.ways]
     parts = [(kind, forms()[part]) for kind, name in laws for part in name.split("+")]
     return frozenset(name for kind, form in parts for name in form.effects.get(kind, ()))

@@ -46,12 +46,11 @@ def effects_of(found: Discovery) -> Names:
 
 
 def less_certain(it: Diagnosis, found: Discovery) -> Diagnosis:
-    """What laws explain without an effect makes that effect less than certain, and so does a law at a place where the
-    effect acts: what it has there is another law than the effect's."""
-    kinds = {law.site.kind for law in found.laws}
+    """What laws explain without an effect makes that effect less than certain, and so does another law at a place of
+    which the effect is a law by other words (`Form.effects`)."""
     # A length that is another one without load is no law that one beside it contradicts.
     every = [form for form in forms().values() if not isinstance(form, Constant)]
-    acting = {name for form in every for kind in kinds for name in form.effects.get(kind, ())}
+    acting = {name for law in found.laws for form in every for name in form.effects.get(law.site.kind, ())}
     there = (set(found.end.model.names) - acting) | effects_of(found)
     return replace(it, certain=tuple(name for name in it.certain if name in there))
 

@@ -116,7 +116,7 @@ def from_roughness(
     return SigmaEstimate(raw / mean, raw / mean * std / mean, count)
 
 
-@lru_cache
+@lru_cache(maxsize=DRAWS.kept)
 def _drawn_once(loads: tuple[tuple[float, ...], ...]) -> tuple[float, float]:
     """Of the draws that are the same each time: sensors of a table share its loads, and are asked about often."""
     return _drawn([np.array(load) for load in loads], np.random.default_rng(0))

@@ -254,6 +254,8 @@ class Draws:
     """Where the differences are so many that the bias is lost anyway."""
     at_once: int = 20
     """Draws in one array."""
+    kept: int = 256
+    """Sets of loads whose bias is kept: all sensors of a table ask for those of its tests."""
     effort: int = 10**7
     """Draws times differences, from which there are fewer draws."""
 

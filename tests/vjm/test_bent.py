@@ -8,6 +8,7 @@ guided, or free at an end, are made of halves or quarters of it and carry the sa
 from __future__ import annotations
 
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -138,3 +139,19 @@ def test_a_way_without_any_state_is_not_halved_to_the_last_float(monkeypatch: py
     monkeypatch.setattr(bent, "nearby", never)
     beyond(rig, HELD["pinned"], np.array([0.5]))
     assert 0 < len(asked) <= 35 * bent.ROUNDS
+
+
+@pytest.mark.parametrize("rest", [1.0, np.nan])
+@pytest.mark.parametrize("least", [-1e-9, -1.0, np.nan])
+def test_a_state_without_eigenvalues_stays_as_unstable_as_it_was(
+    monkeypatch: pytest.MonkeyPatch, rest: float, least: float
+) -> None:
+    """A law may have no tangent at rest, or where the state is."""
+    rig = column(STRIP, "pinned", "pinned")
+    state = replace(unloaded(rig), unstable=np.array(1)).reshaped(1)
+    found = iter([rest, least])
+    monkeypatch.setattr(
+        bent, "reduced_modes", lambda *_: SimpleNamespace(values=np.array([next(found), 2.0]))
+    )
+    zero = rest == 1.0 and least == -1e-9
+    assert bent.neutral_is_stable(state).unstable.tolist() == [0 if zero else 1]

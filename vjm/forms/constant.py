@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from typing import ClassVar
+from types import MappingProxyType
 
 import numpy as np
 
@@ -24,7 +23,7 @@ class Constant(CurveForm):
     beside = ("parallel", "series")
     grows = "bounded"
     and_linear = True
-    effects: ClassVar[Mapping[str, tuple[str, ...]]] = {"along": ("bar_length_mismatch", "dimension_error")}
+    effects = MappingProxyType({"along": ("bar_length_mismatch", "dimension_error")})
 
     def points(self, x: Array, shapes: Array) -> Points:
         return Points.of((np.ones_like(x), np.zeros_like(x), x))

@@ -112,6 +112,16 @@ def test_units_and_names_go_together(name: str) -> None:
     assert set(form.fixed) <= {q.name for q in form.shapes}
 
 
+@pytest.mark.parametrize("name", list(forms()))
+def test_a_fit_begins_with_a_number_for_every_shape_and_inside_its_bounds(name: str) -> None:
+    form = forms()[name]
+    low, high = form.bounds(3.0)
+    free = np.array([q.name not in form.fixed for q in form.shapes], dtype=bool)
+    for start in form.starts(3.0):
+        assert start.shape == low.shape == high.shape == (len(form.shapes),)
+        assert np.all((low <= start) & (start <= high) | ~free)
+
+
 def test_a_gap_has_its_free_travel() -> None:
     form = forms()["gap"]
     x = np.array([-100.0, -1.0, 1.0, 100.0])
