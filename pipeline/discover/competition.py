@@ -11,7 +11,7 @@ count that it needs: a compliance of six directions that gives in one is no dear
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from time import perf_counter
 
@@ -19,7 +19,16 @@ import numpy as np
 
 from pipeline.callbacks import OnProgress
 from pipeline.discover.locating import mapped
-from pipeline.discover.looking import Looked, discovered, effects_of, explains, fitted, less_certain, record
+from pipeline.discover.looking import (
+    Looked,
+    called,
+    discovered,
+    effects_of,
+    explains,
+    fitted,
+    less_certain,
+    record,
+)
 from pipeline.discover.search import Discovery, Law, fitted_to
 from pipeline.discover.words import law_sentences
 from pipeline.inference.fit import Fit
@@ -28,6 +37,7 @@ from pipeline.selection.cost import misfit, root_of, taken
 from pipeline.selection.criteria import CRITERIA
 from pipeline.selection.diagnosis import Diagnosis
 from pipeline.selection.fit_cache import Names
+from vjm.effects.base import Effect
 from vjm.effects.sensor_fault import SensorFault
 from vjm.forms import forms
 
@@ -48,9 +58,10 @@ def competing(it: Diagnosis, best: Names, on_progress: OnProgress) -> Looked:
     begin, last = perf_counter(), None
     for start, but in _starts(it, own, several):
         last = discovered(it, start, on_progress, but)
-        last = last if effects_of(last) == own else _without_sides(it, last)
+        known = it.cache.candidates
+        last = last if effects_of(last, known) == own else _without_sides(it, last)
         rival = _standing(it, last, best)
-        if rival is not None and rival.things <= len(own) and effects_of(last) | rival.beside != own:
+        if rival is not None and rival.things <= len(own) and effects_of(last, known) | rival.beside != own:
             done = _judged(it, last, rival, own, begin)
             if done is not it:
                 return done, last
@@ -137,7 +148,13 @@ def _judged(it: Diagnosis, found: Discovery, rival: _Rival, own: Names, begin: f
     # set by that alone.
     doubtful = rival.kinked or not rival.whole
     # A law that holds the effect and more has to be better by what it has more.
-    alone = -CRITERIA.law_alike if doubtful else 0.0 if own <= _held_by(found) else CRITERIA.law_named
+    alone = (
+        -CRITERIA.law_alike
+        if doubtful
+        else 0.0
+        if own <= _held_by(found, it.cache.candidates)
+        else CRITERIA.law_named
+    )
     if behind > (CRITERIA.law_alike if several and rival.whole else alone):
         return it
     told = _told(found, rival)
@@ -151,11 +168,11 @@ def _judged(it: Diagnosis, found: Discovery, rival: _Rival, own: Names, begin: f
     return replace(done, laws=made.laws, law_words=law_sentences(made))
 
 
-def _held_by(found: Discovery) -> Names:
-    """The effects of the catalogue that the laws are, alone or as one of two side by side."""
-    laws = [(law.site.kind, law.ways[0].formed.form.name) for law in found.laws if law.ways]
-    parts = [(kind, forms()[part]) for kind, name in laws for part in name.split("+")]
-    return frozenset(name for kind, form in parts for name in form.effects.get(kind, ()))
+def _held_by(found: Discovery, known: Mapping[str, Effect]) -> Names:
+    """The known effects that the laws are, alone or as one of two side by side."""
+    laws = [law for law in found.laws if law.ways]
+    parts = [(law, forms()[part]) for law in laws for part in law.ways[0].formed.form.name.split("+")]
+    return frozenset(name for law, form in parts for name in called(law, form, known))
 
 
 def _cost_of_set(it: Diagnosis, names: Names, several: bool) -> float:

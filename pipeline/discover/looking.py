@@ -2,20 +2,22 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import replace
 from time import perf_counter
 
 from pipeline.callbacks import OnProgress
 from pipeline.discover.record import Discovered
 from pipeline.discover.recording import recorded
-from pipeline.discover.search import Discovery, discover
+from pipeline.discover.search import Discovery, Law, discover, in_its_place
 from pipeline.inference.load_cases import LoadCases, load_cases
 from pipeline.inference.model import Model
 from pipeline.selection.adequacy.judgement import judge
 from pipeline.selection.diagnosis import Diagnosis
 from pipeline.selection.fit_cache import Names
-from vjm.forms import forms
-from vjm.forms.constant import Constant
+from vjm.effects.base import Effect
+from vjm.forms.base import Form
+from vjm.site_law import SiteLaw
 
 Looked = tuple[Diagnosis, Discovery | None]
 
@@ -39,19 +41,29 @@ def explains(it: Diagnosis, found: Discovery) -> bool:
     return judge(found.end, it.cache.criteria).noise
 
 
-def effects_of(found: Discovery) -> Names:
-    """The effects of the catalogue that the laws are by another name."""
-    every = [law.ways[0].formed.form.effects.get(law.site.kind, ()) for law in found.laws if law.ways]
-    return frozenset(name for names in every for name in names)
+def effects_of(found: Discovery, known: Mapping[str, Effect]) -> Names:
+    """The known effects that the laws are by another name."""
+    laws = [law for law in found.laws if law.ways]
+    return frozenset(name for law in laws for name in called(law, law.ways[0].formed.form, known))
+
+
+def called(law: Law, form: Form, known: Mapping[str, Effect]) -> Names:
+    """Known effects that are this form at the place of a law: those of the catalogue as the form says, and laws of
+    users at one of the sites that are not told apart."""
+    sites = {each.site.name for each in law.group}
+    own = [
+        name
+        for name, it in known.items()
+        if isinstance(it, SiteLaw) and it.form == form.name and it.site in sites
+    ]
+    return frozenset((*form.effects.get(law.site.kind, ()), *own))
 
 
 def less_certain(it: Diagnosis, found: Discovery) -> Diagnosis:
-    """What laws explain without an effect makes that effect less than certain, and so does another law at a place of
-    which the effect is a law by other words (`Form.effects`)."""
-    # A length that is another one without load is no law that one beside it contradicts.
-    every = [form for form in forms().values() if not isinstance(form, Constant)]
-    acting = {name for law in found.laws for form in every for name in form.effects.get(law.site.kind, ())}
-    there = (set(found.end.model.names) - acting) | effects_of(found)
+    """What laws explain without an effect makes that effect less than certain, and so does a law at a place where a
+    function does what the effect does, but where it is that effect by another name."""
+    acting = {name for law in found.laws for name in in_its_place(law, constant=False)}
+    there = (set(found.end.model.names) - acting) | effects_of(found, it.cache.candidates)
     return replace(it, certain=tuple(name for name in it.certain if name in there))
 
 

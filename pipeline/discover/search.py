@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from pipeline.callbacks import OnProgress
 from pipeline.campaign import Campaign
+from pipeline.discover.bases import KNOTS
 from pipeline.discover.bodies import Body, started
 from pipeline.discover.evidence import Evidence, Rest
 from pipeline.discover.forming import fitted_form, formed
@@ -152,7 +153,7 @@ def discover(
         step = _step(seen, cases, len(steps) + 1, on_progress)
         if isinstance(step, Law) and step.ways:
             known = [it.group[0] for it in steps if isinstance(it, Law)]
-            for name in [n for n in _in_its_place(step) if n in begin.model.names]:
+            for name in [n for n in in_its_place(step) if n in begin.model.names]:
                 without = fitted_to(step.map.found.model.without(name), cases)
                 fewer = mapped(without, effects, known=known)
                 step = _instead(step, _step(fewer, cases, len(steps) + 1, on_progress))
@@ -234,11 +235,14 @@ def _elsewhere(law: Law, here: Fit, cases: LoadCases, on_progress: OnProgress) -
     return replace(law, group=group, left_out=left_out, ways=ways, apart=law.apart | apart)
 
 
-def _in_its_place(law: Law) -> Iterator[str]:
+def in_its_place(law: Law, constant: bool = True) -> Iterator[str]:
     """Effects of the model of which most, what their largest number does, a function at the place of a law does as
-    well: where that law holds they may be a part of it."""
+    well: where that law holds they may be a part of it. constant: also those of which a constant there does most, as
+    of a length that is another one without load."""
     found, rest = law.map.found, law.map.rest
-    units = basis(rest.weakened(law.group[0].evidence.site.values))
+    values = rest.weakened(law.group[0].evidence.site.values)
+    # The knots of a curve add up to one everywhere.
+    units, alone = basis(values), basis(values[:, :KNOTS].sum(axis=1, keepdims=True))
     own = rest.weakened(rest.seen(found.residual.without_zeros(found.residual.slopes)))
     free = found.model.free
     moved = own * [v - f.parameter.null for f, v in zip(free, found.model.values, strict=True)]
@@ -247,9 +251,15 @@ def _in_its_place(law: Law) -> Iterator[str]:
         mine = [k for k, each in enumerate(free) if each.effect == term.effect.name]
         if mine:
             most = moved[:, max(mine, key=lambda k: float(sizes[k]))]
-            left = most - units @ (units.T @ most)
-            if left @ left < CRITERIA.law_alike_share * (most @ most):
+            least = CRITERIA.law_alike_share * (most @ most)
+            if _left(units, most) < least and (constant or _left(alone, most) >= least):
                 yield term.effect.name
+
+
+def _left(units: Array, column: Array) -> float:
+    """Of the square of a column (N,), beside orthonormal ones (N, n)."""
+    off = column - units @ (units.T @ column)
+    return float(off @ off)
 
 
 def _instead(law: Law, other: Law | Added | None) -> Law:

@@ -16,21 +16,18 @@ class Law(ABC):
 
     abrupt: it has a kink or a nearly rigid branch, so that a load step may need to be cut finer.
     by_load_step: the memory moves on at the end of a load step only, however the solver divides the step.
+    width: how many numbers it remembers; all are zero in the unloaded linkage.
     loaded: the frame writes the axial load of the joint, N, into memory[..., 0] whenever the memory moves on.
     """
 
     by_load_step: ClassVar[bool] = False
     loaded: ClassVar[bool] = False
+    width: ClassVar[int] = 0
 
     @property
     def abrupt(self) -> bool:
         """As said above."""
         return False
-
-    @property
-    def width(self) -> int:
-        """How many numbers it remembers; all are zero in the unloaded linkage."""
-        return 0
 
     @abstractmethod
     def respond(self, q: Floats, memory: Floats) -> Response:

@@ -1,22 +1,26 @@
 """Sets of effects against laws that explain as much."""
 
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
 
 from pipeline.discover import competition, looking
-from pipeline.discover.beyond_catalogue import with_laws
+from pipeline.discover.beyond_catalogue import looked, with_laws
+from pipeline.discover.effect_file import effect_text, write_effect
+from pipeline.discover.recording import recorded
 from pipeline.discover.search import Discovery
 from pipeline.inference.fit import Fit, fit
 from pipeline.inference.model import Model
-from pipeline.selection.diagnosis import Diagnosis
+from pipeline.selection.diagnosis import Diagnosis, diagnose
 from tests.pipeline.bench import bench
 from tests.pipeline.discover.fits import GEOMETRY, effects_for, fitted_tests, friction_found
-from vjm.effects import catalogue
-from vjm.effects.base import Effect
+from vjm.effects import catalogue, from_file
+from vjm.effects.base import Effect, Parameter
 from vjm.forms import forms
 from vjm.forms.coulomb import Coulomb
+from vjm.site_law import SiteLaw
 
 SPRING, BASE = "joint_torsional_stiffness", "base_compliance"
 OWN = frozenset({BASE})
@@ -109,9 +113,50 @@ def test_a_law_that_is_the_effect_by_other_words_takes_no_name(
     unknown: Diagnosis, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     whole = friction_found()
-    assert looking.effects_of(whole) == {"joint_friction"}
-    monkeypatch.setattr(competition, "effects_of", lambda _: frozenset({SPRING}))
+    assert looking.effects_of(whole, catalogue()) == {"joint_friction"}
+    monkeypatch.setattr(competition, "effects_of", lambda *_: frozenset({SPRING}))
     assert costing(named(unknown, (SPRING,)), whole, 20.0, monkeypatch).verdict == "identified"
+
+
+def as_a_user_has_it(form: str, site: str) -> Effect:
+    numbers = (Parameter("level_Nmm", "N·mm", 0.0, 300.0, 0.0, 1e5, "torque that slips"),)
+    return SiteLaw.of(name="ours", title="ours", form=form, site=site, parameters=numbers)
+
+
+def test_a_law_of_a_users_file_is_that_law_by_another_name() -> None:
+    """The file that a search has written is the effect when the campaign is diagnosed again: of that form, at a site
+    that is not told apart from it."""
+    found = friction_found()
+    (law,) = found.laws
+    assert law.ways[0].formed.form.name == "coulomb"
+    other = law.group[1].site.name
+    assert other != law.site.name
+    for site, form, there in [
+        (law.site.name, "coulomb", True),
+        (other, "coulomb", True),
+        ("base_x", "slip", False),
+        (law.site.name, "creep", False),
+    ]:
+        known = {"ours": as_a_user_has_it(form, site)}
+        assert ("ours" in looking.effects_of(found, known)) == there
+    both = replace(law.ways[0], formed=replace(law.ways[0].formed, form=forms()["linear+coulomb"]))
+    more = replace(found, steps=(replace(law, ways=(both,)),))
+    ours = {"ours": as_a_user_has_it("coulomb", law.site.name)}
+    assert "ours" not in looking.effects_of(more, ours)
+    assert "ours" in competition._held_by(more, ours)
+
+
+@pytest.mark.long
+def test_what_was_found_and_written_is_named_when_the_campaign_is_diagnosed_again(tmp_path: Path) -> None:
+    campaign = bench("joint_friction.torque_Nmm", 600.0)
+    known = {name: it for name, it in catalogue().items() if name != "joint_friction"}
+    first = looked(diagnose(campaign, Model(), known))
+    assert first[0].verdict == "unknown" and first[1] is not None
+    path = tmp_path / "found.py"
+    write_effect(path, effect_text(first[1], recorded(first[1], campaign, 0.0)))
+    (ours,) = from_file(path)
+    again = with_laws(diagnose(campaign, Model(), {**known, **from_file(path)}))
+    assert (again.verdict, again.sets) == ("identified", ((GEOMETRY.name, ours),))
 
 
 def test_an_effect_that_entered_beside_a_law_is_priced_and_one_of_the_model_is_not(

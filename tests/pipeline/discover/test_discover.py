@@ -15,7 +15,7 @@ from pipeline.discover.beyond_catalogue import with_laws
 from pipeline.discover.effect_file import effect_text, name_of, write_effect
 from pipeline.discover.evidence import Array, Evidence
 from pipeline.discover.forming import fitted_form, formed
-from pipeline.discover.locating import Located, mapped
+from pipeline.discover.locating import Located, Map, mapped
 from pipeline.discover.recording import recorded
 from pipeline.discover.search import Discovery, discover, fitted_to
 from pipeline.discover.words import law_sentences, sentences
@@ -301,12 +301,26 @@ def test_what_acts_at_the_place_of_a_law_is_not_certain(unknown: Diagnosis) -> N
     """Beside another law of the hinges nobody knows that a spring is in them; the law that is the friction is that
     effect by other words."""
     found = friction_found()
-    assert found.laws[0].ways[0].formed.form.name == "coulomb"
+    (law,) = found.laws
+    assert law.ways[0].formed.form.name == "coulomb"
     sure = ("joint_torsional_stiffness", "base_compliance", "joint_friction")
-    beside = Model().with_effects([catalogue()[name] for name in sure[:2]])
-    end = replace(found.end, model=beside)
-    it = looking.less_certain(replace(unknown, certain=sure), replace(found, end=end))
+    seen = spring_and_lengths("base_compliance")
+    end = replace(found.end, model=seen.found.model)
+    its = replace(found, steps=(replace(law, map=seen, group=(at_hinges(seen),)),), end=end)
+    it = looking.less_certain(replace(unknown, certain=sure), its)
     assert it.certain == ("base_compliance", "joint_friction")
+
+
+def spring_and_lengths(other: str) -> Map:
+    """A bench with friction, and a model with a spring in its hinges and another effect."""
+    campaign = bench("joint_friction.torque_Nmm", 600.0)
+    effects = effects_for(campaign)
+    own = [effects[name] for name in ("joint_torsional_stiffness", other)]
+    return mapped(fitted_to(Model().with_effects([GEOMETRY, *own]), fitted_tests(campaign)), effects)
+
+
+def at_hinges(seen: Map) -> Located:
+    return next(it for it in seen.sites if it.site.name == "hinge_torque")
 
 
 def asked_with(model: Model) -> Model:
@@ -315,15 +329,21 @@ def asked_with(model: Model) -> Model:
 
 def test_an_effect_at_the_place_of_a_law_is_a_part_of_it() -> None:
     """A linear spring in the hinges is a function there, bars of two lengths are none."""
-    campaign = bench("joint_friction.torque_Nmm", 600.0)
+    seen = spring_and_lengths("bar_length_mismatch")
+    law = search.Law(seen, (at_hinges(seen),), np.zeros(0), ())
+    assert [*search.in_its_place(law)] == ["joint_torsional_stiffness"]
+
+
+def test_another_length_is_a_constant_along_the_bars() -> None:
+    """A function there does what it does, but a law without a constant takes nothing from it."""
+    campaign = bench("bar_length_mismatch.mismatch_mm", 0.2)
     effects = effects_for(campaign)
-    own = [effects[name] for name in ("joint_torsional_stiffness", "bar_length_mismatch")]
-    model = Model().with_effects([GEOMETRY, *own])
-    seen = mapped(fitted_to(model, fitted_tests(campaign)), effects)
-    hinges = next(it for it in seen.sites if it.site.name == "hinge_torque")
-    assert [*search._in_its_place(search.Law(seen, (hinges,), np.zeros(0), ()))] == [
-        "joint_torsional_stiffness"
-    ]
+    known = Model().with_effects([GEOMETRY, effects["bar_length_mismatch"]])
+    seen = mapped(fitted_to(known, fitted_tests(campaign)), effects)
+    along = min((it for it in seen.sites if it.site.name == "along@1"), key=lambda it: it.site.parts)
+    law = search.Law(seen, (along,), np.zeros(0), ())
+    assert [*search.in_its_place(law)] == ["bar_length_mismatch"]
+    assert not [*search.in_its_place(law, constant=False)]
 
 
 @pytest.mark.long

@@ -21,11 +21,8 @@ class Dahl(Law):
     stiffness: float
     force: float
     presliding: float
-
-    @property
-    def width(self) -> int:
-        """Coordinate and friction force before."""
-        return 2
+    width: ClassVar[int] = 2
+    """Coordinate and friction force before."""
 
     def respond(self, q: Floats, memory: Floats) -> Response:
         """As of `Law`."""
@@ -51,11 +48,8 @@ class BoucWen(Law):
     stiffness: float
     force: float
     presliding: float
-
-    @property
-    def width(self) -> int:
-        """Coordinate before, and z."""
-        return 2
+    width: ClassVar[int] = 2
+    """Coordinate before, and z."""
 
     def respond(self, q: Floats, memory: Floats) -> Response:
         """As of `Law`."""
@@ -93,10 +87,8 @@ class OneSidedHysteresis(Law):
         """It has kinks."""
         return True
 
-    @property
-    def width(self) -> int:
-        """The slider's place."""
-        return 1
+    width: ClassVar[int] = 1
+    """The slider's place."""
 
     def respond(self, q: Floats, memory: Floats) -> Response:
         """As of `Law`."""
@@ -119,11 +111,8 @@ class Creep(Law):
     relaxing: float
     steps: float
     by_load_step: ClassVar[bool] = True
-
-    @property
-    def width(self) -> int:
-        """What the dashpot has given."""
-        return 1
+    width: ClassVar[int] = 1
+    """What the dashpot has given."""
 
     def respond(self, q: Floats, memory: Floats) -> Response:
         """As of `Law`."""
@@ -144,11 +133,8 @@ class Damage(Law):
     loss: float
     start: float
     over: float
-
-    @property
-    def width(self) -> int:
-        """Largest |q| so far."""
-        return 1
+    width: ClassVar[int] = 1
+    """Largest |q| so far."""
 
     def respond(self, q: Floats, memory: Floats) -> Response:
         """As of `Law`."""

@@ -30,11 +30,8 @@ class Coulomb(Law):
 
     force: float
     presliding: float
-
-    @property
-    def width(self) -> int:
-        """The slider's place."""
-        return 1
+    width: ClassVar[int] = 1
+    """The slider's place."""
 
     def respond(self, q: Floats, memory: Floats) -> Response:
         """As of `Law`."""
@@ -48,11 +45,8 @@ class CoulombTwoLevels(Law):
 
     force: tuple[float, float]
     presliding: tuple[float, float]
-
-    @property
-    def width(self) -> int:
-        """Both sliders' places."""
-        return 2
+    width: ClassVar[int] = 2
+    """Both sliders' places."""
 
     def respond(self, q: Floats, memory: Floats) -> Response:
         """As of `Law`."""
@@ -73,11 +67,8 @@ class CoulombByLoad(Law):
     stiffness: float = 0.0
     by_load_step: ClassVar[bool] = True
     loaded: ClassVar[bool] = True
-
-    @property
-    def width(self) -> int:
-        """Axial load, and the slider's place."""
-        return 2
+    width: ClassVar[int] = 2
+    """Axial load, and the slider's place."""
 
     def respond(self, q: Floats, memory: Floats) -> Response:
         """As of `Law`."""
@@ -92,11 +83,8 @@ class Iwan(Law):
 
     force: float
     last: float
-
-    @property
-    def width(self) -> int:
-        """The sliders' places."""
-        return SLIDERS
+    width: ClassVar[int] = SLIDERS
+    """The sliders' places."""
 
     def respond(self, q: Floats, memory: Floats) -> Response:
         """As of `Law`."""
@@ -112,11 +100,8 @@ class LinearAndCoulomb(Law):
     stiffness: float
     force: float
     presliding: float
-
-    @property
-    def width(self) -> int:
-        """The slider's place."""
-        return 1
+    width: ClassVar[int] = 1
+    """The slider's place."""
 
     def respond(self, q: Floats, memory: Floats) -> Response:
         """As of `Law`."""
@@ -136,11 +121,8 @@ class RambergOsgood(Law):
     more: float
     exponent: float
     most: float
-
-    @property
-    def width(self) -> int:
-        """The sliders' places: one at each inner corner."""
-        return FINE - 1
+    width: ClassVar[int] = FINE - 1
+    """The sliders' places: one at each inner corner."""
 
     def respond(self, q: Floats, memory: Floats) -> Response:
         """As of `Law`."""
