@@ -11,7 +11,7 @@ import numpy as np
 
 from vjm import checks
 from vjm.frames import Array
-from vjm.laws import Response
+from vjm.laws import Elastic, Response
 
 CENTRING = 20.0
 """N/mm: the soft spring inside the play, which keeps the position defined."""
@@ -21,7 +21,7 @@ STOP = 1e8
 
 
 @dataclass(frozen=True)
-class Clearance:
+class Clearance(Elastic):
     """Scalar law: centring spring within ± play, mm, and stops of the stiffness `stop`, N/mm, beyond.
 
     ValueError unless both numbers are positive and finite.
@@ -33,10 +33,6 @@ class Clearance:
     def __post_init__(self) -> None:
         checks.positive("play", self.play)
         checks.positive("stop", self.stop)
-
-    @property
-    def initial_memory(self) -> Array:
-        return np.zeros(0)
 
     def respond(self, strain: Array, memory: Array) -> Response:
         beyond = strain - np.clip(strain, -self.play, self.play)

@@ -61,15 +61,19 @@ class Spring:
     law: Law
 
 
-@dataclass(frozen=True, eq=False)
-class Linear:
-    """force = K strain, K (k, k) symmetric; N, mm, rad."""
-
-    stiffness: Array
+class Elastic:
+    """A law for which the past does not matter."""
 
     @property
     def initial_memory(self) -> Array:
         return np.zeros(0)
+
+
+@dataclass(frozen=True, eq=False)
+class Linear(Elastic):
+    """force = K strain, K (k, k) symmetric; N, mm, rad."""
+
+    stiffness: Array
 
     def respond(self, strain: Array, memory: Array) -> Response:
         force = strain @ self.stiffness
@@ -78,14 +82,10 @@ class Linear:
 
 
 @dataclass(frozen=True, eq=False)
-class Polynomial:
+class Polynomial(Elastic):
     """Scalar law force = sum of coefficients[i] strain^(i + 1); positive slope at zero not required."""
 
     coefficients: tuple[float, ...]
-
-    @property
-    def initial_memory(self) -> Array:
-        return np.zeros(0)
 
     def respond(self, strain: Array, memory: Array) -> Response:
         force = np.polynomial.Polynomial([0.0, *self.coefficients])
@@ -112,7 +112,7 @@ class OnSum:
 
 
 @dataclass(frozen=True, eq=False)
-class BeamColumn(Adding):
+class BeamColumn(Elastic, Adding):
     """Geometric nonlinearity of bar segments, on top of their linear springs K.
 
     stiffness: (n, 6, 6) K of each segment for (extension, two shifts, three rotations). curvature, softening:
@@ -134,10 +134,6 @@ class BeamColumn(Adding):
     softening: Array
     coupling: Array
     shape: Array
-
-    @property
-    def initial_memory(self) -> Array:
-        return np.zeros(0)
 
     def respond(self, strain: Array, memory: Array) -> Response:
         tangent = np.zeros((*strain.shape, strain.shape[-1]))

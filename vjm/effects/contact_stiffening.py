@@ -9,14 +9,14 @@ import numpy as np
 from vjm import checks
 from vjm.effects.base import Effect, Parameter, Rig, Values, for_bars
 from vjm.frames import Array
-from vjm.laws import Response
+from vjm.laws import Elastic, Response
 
 LINEAR_BELOW = 1.0
 """N."""
 
 
 @dataclass(frozen=True)
-class Contact:
+class Contact(Elastic):
     """Point contact, a scalar law: strain = c sign(F) abs(F)^(2/3), c in mm/N^(2/3); linear below `LINEAR_BELOW`.
 
     H. Hertz, "Ueber die Berührung fester elastischer Körper", Journal für die reine und angewandte Mathematik 92
@@ -28,10 +28,6 @@ class Contact:
 
     def __post_init__(self) -> None:
         checks.positive("c", self.c)
-
-    @property
-    def initial_memory(self) -> Array:
-        return np.zeros(0)
 
     def respond(self, strain: Array, memory: Array) -> Response:
         size, linear = np.abs(strain), self.c * LINEAR_BELOW ** (2 / 3)

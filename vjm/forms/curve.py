@@ -10,7 +10,7 @@ import numpy as np
 
 from vjm.forms.base import Form
 from vjm.frames import Array
-from vjm.laws import Law, Response
+from vjm.laws import Elastic, Law, Response
 
 NEAR = 1e-14
 """Of a load, to which it is found."""
@@ -62,16 +62,12 @@ class CurveForm(Form):
 
 
 @dataclass(frozen=True, eq=False)
-class Spring:
+class Spring(Elastic):
     """Force over displacement along a curve."""
 
     form: CurveForm
     amplitudes: Array
     shapes: Array
-
-    @property
-    def initial_memory(self) -> Array:
-        return np.zeros(0)
 
     def respond(self, strain: Array, memory: Array) -> Response:
         there = self.form.points(strain[..., 0], self.shapes)
@@ -80,7 +76,7 @@ class Spring:
 
 
 @dataclass(frozen=True, eq=False)
-class Compliance:
+class Compliance(Elastic):
     """Displacement over load along a curve; the force at a displacement is looked for, from the displacement without
     load on.
 
@@ -92,10 +88,6 @@ class Compliance:
     form: CurveForm
     amplitudes: Array
     shapes: Array
-
-    @property
-    def initial_memory(self) -> Array:
-        return np.zeros(0)
 
     def give(self, force: Array) -> Array:
         """Strain at a force; both (...)."""
