@@ -7,10 +7,10 @@ import numpy as np
 
 from fem.axis_shape import axis_shape, section_sizes
 from fem.eigenpairs import largest_eigenpairs
+from fem.factor import Factor
 from fem.linear import LinearModel
 from fem.linkage import PLATFORM, Linkage
 from fem.prestress import prestress
-from fem.solvers import Factor
 from meshes.solid import Floats
 
 # Below this share of sideways motion of the axis, a mode is a twist of the section.

@@ -40,6 +40,15 @@ class SolveRecord:
     residual: float
 
 
+class Sparse(Protocol):
+    """A square matrix that can be had as one of rows, whole only as long as that is asked for."""
+
+    @property
+    def shape(self) -> tuple[int, int]: ...
+
+    def tocsr(self) -> sp.csr_matrix: ...
+
+
 class Operator(Protocol):
     """A square matrix as far as a residual needs it."""
 

@@ -11,11 +11,12 @@ from fem.anisotropic import Regional
 from fem.coarse_space import CORNERS_AND_EDGES, prolongation
 from fem.elasticity import stiffness_matrix
 from fem.end_states import EndStates
+from fem.factor import Factor
 from fem.linkage import PLATFORM, Linkage
 from fem.material import Isotropic
 from fem.reduction import Reduction
 from fem.slices.solver import ChainFactor, ChainSolver
-from fem.solvers import Factor, Solver, automatic
+from fem.solvers import Solver, automatic
 from meshes.solid import Floats, Ints
 
 ROWS_AT_ONCE = 4000
@@ -88,7 +89,7 @@ class LinearModel:
             factor: Factor = self._by_chain.part(free)
         else:
             coarse = (lambda: prolongation(self.reduction, free)) if self.has_coarse else None
-            factor = self.solver(submatrix(self.reduced, free), coarse)
+            factor = self.solver(Part(self.reduced, free), coarse)
         factor.require_held()
         return factor
 
@@ -98,10 +99,20 @@ class LinearModel:
         factor = self.solver(self.reduced) if isinstance(self.solver, ChainSolver) else None
         return factor if isinstance(factor, ChainFactor) else None
 
-    @cached_property
+    @property
     def unit_motions(self) -> Floats:
         """Unknowns (size, 6) for a unit of each platform coordinate with the others at zero, mm and rad."""
-        return self.motions(PLATFORM, ())
+        return self._units[0]
+
+    @property
+    def solved_by(self) -> str:
+        """The solver that the unit motions took."""
+        return self._units[1]
+
+    @cached_property
+    def _units(self) -> tuple[Floats, str]:
+        factor = self.factor(self.reduction.others(PLATFORM))
+        return self.motions(PLATFORM, (), factor), factor.name
 
     @cached_property
     def stiffness(self) -> Floats:
@@ -119,6 +130,21 @@ class LinearModel:
             rows = self.reduced[start : start + ROWS_AT_ONCE].astype(np.longdouble)
             total += wide[start : start + ROWS_AT_ONCE].T @ (rows @ wide)
         return np.asarray(total, dtype=float)
+
+
+@dataclass(frozen=True, eq=False)
+class Part:
+    """Rows and columns `kept` (k,) of a sparse square matrix, copied only where they are asked for."""
+
+    whole: sp.csr_matrix
+    kept: Ints
+
+    @property
+    def shape(self) -> tuple[int, int]:
+        return len(self.kept), len(self.kept)
+
+    def tocsr(self) -> sp.csr_matrix:
+        return sp.csr_matrix(submatrix(self.whole, self.kept))
 
 
 def submatrix(matrix: sp.csr_matrix, kept: Ints) -> sp.csr_matrix:

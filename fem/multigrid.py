@@ -2,8 +2,8 @@
 
 Level one is the quadratic elements, smoothed by Chebyshev polynomials of the diagonally scaled matrix; level two the
 linear elements on the same mesh, a fifth of the unknowns, factorised. All right-hand sides go together.
-Sources: Y. Saad, Iterative Methods for Sparse Linear Systems, 2nd ed., SIAM 2003 (9.2 conjugate gradients, 12.3
-Chebyshev); M. Adams, M. Brezina, J. Hu, R. Tuminaro, J. Comput. Phys. 188 (2003) 593-610 (Chebyshev as smoother).
+Sources: Y. Saad, Iterative Methods for Sparse Linear Systems, 2nd ed., SIAM 2003 (12.3, Chebyshev); M. Adams,
+M. Brezina, J. Hu, R. Tuminaro, J. Comput. Phys. 188 (2003) 593-610 (Chebyshev as smoother).
 """
 
 from collections.abc import Callable
@@ -11,6 +11,7 @@ from collections.abc import Callable
 import numpy as np
 import scipy.sparse as sp
 
+from fem.conjugate_gradients import conjugate_gradients
 from fem.factor import Factor, SolveError
 from meshes.solid import Floats
 
@@ -65,27 +66,9 @@ class MultigridFactor(Factor):
         return MultigridFactor(matrix, self.prolongation, self.coarse_solver)
 
     def solve(self, rhs: Floats) -> Floats:
-        b = rhs.reshape(len(rhs), -1)
-        sizes = np.linalg.norm(b, axis=0)
-        x, r = np.zeros_like(b), b.copy()
-        p, rz = np.zeros_like(b), np.ones(b.shape[1])
-        for iteration in range(MOST_ITERATIONS):
-            if np.all(np.linalg.norm(r, axis=0) <= TOLERANCE * sizes):
-                self.iterations = max(self.iterations, iteration)
-                return x.reshape(rhs.shape)
-            z = self.preconditioned(r)
-            rz, before = np.einsum("ij,ij->j", r, z), rz
-            p = z + safe_ratio(rz, before) * p
-            product = self.matrix @ p
-            curvature = np.einsum("ij,ij->j", p, product)
-            if np.any(curvature < 0.0):
-                raise SolveError("the matrix is not positive definite, as multigrid needs it")
-            step = safe_ratio(rz, curvature)
-            x += step * p
-            r -= step * product
-        raise SolveError(
-            f"the iteration did not converge in {MOST_ITERATIONS} steps: the model may not be held"
-        )
+        x, iterations = conjugate_gradients(self.matrix, rhs, self.preconditioned, TOLERANCE, MOST_ITERATIONS)
+        self.iterations = max(self.iterations, iterations)
+        return x
 
     def preconditioned(self, r: Floats) -> Floats:
         """One V-cycle, symmetric: smooth, correct on the linear elements, smooth."""
@@ -109,8 +92,3 @@ class MultigridFactor(Factor):
             x += step
             rho = following
         return x
-
-
-def safe_ratio(a: Floats, b: Floats) -> Floats:
-    """a / b, all (...), and zero where b is zero: a right-hand side that is solved already."""
-    return np.divide(a, b, out=np.zeros_like(a), where=b != 0.0)

@@ -18,7 +18,7 @@ from fem.material import Isotropic
 from fem.part_space import part_space
 from fem.slices.chain import Chain
 from fem.slices.solver import ChainSolver
-from fem.solvers import Solver, automatic, automatic_name
+from fem.solvers import Solver, automatic
 from fem.space import Space
 from meshes.facets import facet_normals
 from meshes.layers import SweptMesh, as_sweep
@@ -84,8 +84,7 @@ class PartBar:
         """The linear solver of its rigid ends, in words: "slice chain, quarter section", "pardiso", "SuperLU", .."""
         if self._chain is not None:
             return self._chain.name
-        model = self._rigid
-        return automatic_name(model.reduction.size, model.has_coarse)
+        return self._rigid.solved_by
 
     @property
     def swept(self) -> bool:

@@ -7,13 +7,13 @@ from itertools import pairwise
 import numpy as np
 import scipy.sparse as sp
 
+from fem.factor import Factor, SolveError
 from fem.large_strain import deformed_forces, force_and_tangent
 from fem.linear import LinearModel, submatrix
 from fem.linkage import PLATFORM, Linkage, Member
 from fem.reduction import Placement, Reduction
 from fem.rigid_face import PlatformPose
 from fem.rotation import rotation_vector
-from fem.solvers import Factor, SolveError
 from fem.space import Space
 from meshes.solid import Floats, Ints
 

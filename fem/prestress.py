@@ -6,10 +6,10 @@ from dataclasses import dataclass
 import numpy as np
 import scipy.sparse as sp
 
+from fem.factor import Factor
 from fem.linear import LinearModel
 from fem.linkage import PLATFORM
 from fem.reduction import Placement, Reduction
-from fem.solvers import Factor
 from meshes.solid import Floats, Ints
 
 

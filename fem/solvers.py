@@ -10,33 +10,18 @@ import numpy as np
 import scipy.sparse as sp
 from scipy.sparse.linalg import splu
 
-from fem.factor import Factor, SolveError, SolveRecord, checked
+from fem.factor import Factor, SolveError, Sparse
 from fem.multigrid import MultigridFactor
-from fem.pardiso import PardisoFactor, has_pardiso
+from fem.pardiso import PardisoFactor, SinglePardisoFactor, TooLarge, has_pardiso
 from meshes.solid import Floats
-
-__all__ = [
-    "Factor",
-    "MultigridFactor",
-    "PardisoFactor",
-    "SolveError",
-    "SolveRecord",
-    "Solver",
-    "SuperLUFactor",
-    "automatic",
-    "automatic_name",
-    "checked",
-    "direct",
-    "has_pardiso",
-    "multigrid",
-]
 
 Coarse = Callable[[], sp.csr_matrix]
 
-# Unknowns of a slender bar above which multigrid takes the place of the direct solver. Memory decides, for multigrid
-# takes twice the time of SuperLU and ten times that of pardiso (106 000 unknowns, 1.1 GiB): pardiso takes 6.3 GiB at
-# 335 000 and about 17 at 800 000, SuperLU 3.1 GiB at 106 000 and about 5 at 150 000.
-LARGE = {"pardiso": 800_000, "SuperLU": 150_000}
+LARGE = 150_000
+"""Unknowns of a slender bar above which multigrid takes the place of SuperLU: memory decides, for it takes twice the
+time. SuperLU takes 3.1 GiB at 106 000 and about 5 here. What pardiso takes its analysis says."""
+SINGLE = 50_000
+"""Unknowns from which pardiso factorises in single precision: below it the iterations take what that saves."""
 
 
 class SuperLUFactor(Factor):
@@ -70,28 +55,30 @@ class SuperLUFactor(Factor):
 class Solver(Protocol):
     """Makes a symmetric matrix ready for right-hand sides; raises SolveError if that cannot be done."""
 
-    def __call__(self, matrix: sp.spmatrix, coarse: Coarse | None = None) -> Factor: ...
+    def __call__(self, matrix: Sparse, coarse: Coarse | None = None) -> Factor: ...
 
 
-def direct(matrix: sp.spmatrix, coarse: Coarse | None = None) -> Factor:
+def direct(matrix: Sparse, coarse: Coarse | None = None) -> Factor:
     """Factorise a symmetric matrix with the fastest direct solver that is installed."""
-    return (PardisoFactor if has_pardiso() else SuperLUFactor)(matrix.tocsr())
+    return PardisoFactor(matrix) if has_pardiso() else SuperLUFactor(matrix.tocsr())
 
 
-def multigrid(matrix: sp.spmatrix, coarse: Coarse | None = None) -> Factor:
+def multigrid(matrix: Sparse, coarse: Coarse | None = None) -> Factor:
     """Two-level conjugate gradients, for positive definite matrices; ValueError without `coarse`."""
     if coarse is None:
         raise ValueError("multigrid needs the coarse space of its unknowns")
     return MultigridFactor(matrix.tocsr(), coarse(), direct)
 
 
-def automatic(matrix: sp.spmatrix, coarse: Coarse | None = None) -> Factor:
-    """Direct up to a size that depends on which direct solver is installed, multigrid above where it can be had."""
-    chosen = automatic_name(matrix.shape[0], coarse is not None)
-    return multigrid(matrix, coarse) if chosen == "multigrid" else direct(matrix)
-
-
-def automatic_name(unknowns: int, has_coarse: bool) -> str:
-    """The solver that `automatic` takes: "multigrid", "pardiso" or "SuperLU"."""
-    engine = "pardiso" if has_pardiso() else "SuperLU"
-    return "multigrid" if unknowns > LARGE[engine] and has_coarse else engine
+def automatic(matrix: Sparse, coarse: Coarse | None = None) -> Factor:
+    """For positive definite matrices: direct where there is memory for it, in single precision and refined from
+    `SINGLE` unknowns on, else multigrid where it can be had."""
+    count = matrix.shape[0]
+    if not has_pardiso():
+        return multigrid(matrix, coarse) if count > LARGE and coarse is not None else direct(matrix)
+    try:
+        return (SinglePardisoFactor if count >= SINGLE else PardisoFactor)(matrix)
+    except TooLarge:
+        if coarse is None:
+            raise
+        return multigrid(matrix, coarse)

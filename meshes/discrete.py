@@ -5,7 +5,6 @@ from dataclasses import dataclass
 import numpy as np
 import scipy.sparse as sp
 import skfem
-from scipy.spatial import cKDTree
 
 from meshes.solid import Ints, SolidMesh
 
@@ -14,6 +13,9 @@ ELEMENTS = {
     "hexahedron27": skfem.ElementHex2,
     "tetra10": skfem.ElementTetP2,
 }
+FUNCTIONS = [0, 4, 3, 1, 7, 5, 2, 6, 16, 11, 8, 15, 12, 19, 10, 17, 9, 14, 13, 18, 20, 24, 22, 23, 25, 21, 26]
+"""Nodes of a hexahedron, as VTK counts them, of scikit-fem's functions in their order: corners, edges, faces, middle.
+Written here, as scikit-fem's own list brings the whole of meshio with it."""
 # Full integration with positive weights: 27 points in a hexahedron, 14 in a tetrahedron.
 INTEGRATION_ORDER = 5
 
@@ -55,24 +57,24 @@ def discretise(mesh: SolidMesh) -> Discrete:
     determinant = basis.mapping.detDF(basis.X)
     if np.any(determinant * np.sign(determinant[:, :1]) <= 0.0):
         raise ValueError("the mesh has a cell of zero or negative volume, allowed are cells right side out")
-    distance, node = cKDTree(mesh.points).query(basis.doflocs.T)
+    cells = mesh.cells if mesh.kind == "tetra10" else mesh.cells[:, FUNCTIONS[: mesh.cells.shape[1]]]
+    node = np.zeros(basis.N, dtype=np.int64)
+    node[basis.element_dofs] = cells.T
     extent = float(np.ptp(mesh.points, axis=0).max())
-    if distance.max() > 1e-6 * extent or len(np.unique(node)) != len(mesh.points):
+    off = np.abs(basis.doflocs[:, basis.element_dofs].T - mesh.points[cells]).max()
+    if off > 1e-6 * extent or len(np.unique(node)) != len(mesh.points):
         raise ValueError(
             "the mesh has mid-edge nodes off the middle of straight edges, which this cell does not take"
         )
-    return Discrete(basis, node.astype(np.int64))
+    return Discrete(basis, node)
 
 
 def as_skfem(mesh: SolidMesh) -> skfem.Mesh:
     """The scikit-fem mesh: straight-edged for 20-node cells, curved for 27-node hexahedra and 10-node tetrahedra."""
-    # Late: it brings meshio.
-    from skfem.io.meshio import INV_HEX_MAPPING
-
     if mesh.kind == "hexahedron27":
         return skfem.MeshHex2(
             np.ascontiguousarray(mesh.points.T),
-            np.ascontiguousarray(mesh.cells.T[INV_HEX_MAPPING]),
+            np.ascontiguousarray(mesh.cells.T[FUNCTIONS]),
             validate=False,
         )
     if mesh.kind == "tetra10":
@@ -80,7 +82,7 @@ def as_skfem(mesh: SolidMesh) -> skfem.Mesh:
             np.ascontiguousarray(mesh.points.T), np.ascontiguousarray(mesh.cells.T), validate=False
         )
     corners, numbering = np.unique(mesh.cells[:, :8], return_inverse=True)
-    cells = numbering.reshape(-1, 8).T[INV_HEX_MAPPING[:8]]
+    cells = numbering.reshape(-1, 8).T[FUNCTIONS[:8]]
     return skfem.MeshHex(
         np.ascontiguousarray(mesh.points[corners].T), np.ascontiguousarray(cells), validate=False
     )

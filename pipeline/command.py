@@ -118,3 +118,12 @@ def usable(folder: Path, named: str) -> None:
         here = here.parent
     if not here.is_dir() or not os.access(here, os.W_OK | os.X_OK):
         raise InputError(f"{named} cannot be written, allowed is a folder in which you may make files")
+
+
+def usable_places(out: Path | None = None, **files: Path | None) -> None:
+    """The same of the folder of --out and of those of files, by the options that name them, where they are given."""
+    for option, file in files.items():
+        if file is not None:
+            usable(file.parent, f"--{option} {file}")
+    if out is not None:
+        usable(out, f"--out {out}")

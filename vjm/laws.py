@@ -94,15 +94,21 @@ class Polynomial(Elastic):
 
 
 @dataclass(frozen=True, eq=False)
-class OnSum:
-    """A scalar law of the sum of shares (k,) x strains: each coordinate carries the force by its share."""
+class Around:
+    """What acts by a law inside it, and remembers what that does."""
 
     law: Law
-    shares: tuple[float, ...]
 
     @property
     def initial_memory(self) -> Array:
         return self.law.initial_memory
+
+
+@dataclass(frozen=True, eq=False)
+class OnSum(Around):
+    """A scalar law of the sum of shares (k,) x strains: each coordinate carries the force by its share."""
+
+    shares: tuple[float, ...]
 
     def respond(self, strain: Array, memory: Array) -> Response:
         shares = np.array(self.shares)

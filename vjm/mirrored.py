@@ -6,20 +6,14 @@ from dataclasses import dataclass
 from typing import cast
 
 from vjm.frames import Array
-from vjm.laws import Law, Response
+from vjm.laws import Around, Law, Response
 from vjm.slides import Giving
 from vjm.under_load import UnderLoad
 
 
 @dataclass(frozen=True, eq=False)
-class Mirrored:
+class Mirrored(Around):
     """The scalar law seen from the other side."""
-
-    law: Law
-
-    @property
-    def initial_memory(self) -> Array:
-        return self.law.initial_memory
 
     def respond(self, strain: Array, memory: Array) -> Response:
         answer = self.law.respond(-strain, memory)

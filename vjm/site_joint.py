@@ -9,7 +9,7 @@ import numpy as np
 
 from vjm.chain import Joint, Role
 from vjm.frames import Array
-from vjm.laws import Law, Response
+from vjm.laws import Around, Law, Response
 from vjm.slides import Giving
 
 _AXES = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
@@ -49,15 +49,10 @@ class SiteJoint:
 
 
 @dataclass(frozen=True, eq=False)
-class _From:
+class _From(Around):
     """A law whose strain is known from its force, over the strain beyond that without load."""
 
-    law: Law
     unloaded: float
-
-    @property
-    def initial_memory(self) -> Array:
-        return self.law.initial_memory
 
     def respond(self, strain: Array, memory: Array) -> Response:
         return self.law.respond(strain + self.unloaded, memory)

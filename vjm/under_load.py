@@ -14,7 +14,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from vjm.frames import Array
-from vjm.laws import Adding, Law, Response, Spring
+from vjm.laws import Adding, Around, Law, Response, Spring
 
 
 @dataclass(frozen=True, eq=False)
@@ -69,7 +69,7 @@ class Bar:
 
 
 @dataclass(frozen=True, eq=False)
-class _Beside(Adding):
+class _Beside(Around, Adding):
     """A law on its own coordinate, the first, that reads the axial load from those of a bar, the others.
 
     row: (v,) of the bar's stiffness. others: laws of the bar without memory, their places among its coordinates, and
@@ -79,10 +79,6 @@ class _Beside(Adding):
     law: UnderLoad
     row: Array
     others: tuple[tuple[Law, list[int], int], ...]
-
-    @property
-    def initial_memory(self) -> Array:
-        return self.law.initial_memory
 
     def axial(self, strain: Array) -> Array:
         """(...) load, N, of the bar at strains (..., v)."""

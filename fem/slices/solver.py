@@ -11,7 +11,7 @@ from functools import cached_property
 import numpy as np
 import scipy.sparse as sp
 
-from fem.factor import Factor, SolveError
+from fem.factor import Factor, SolveError, Sparse
 from fem.linkage import Linkage
 from fem.material import Isotropic
 from fem.reduction import Reduction
@@ -52,10 +52,10 @@ class ChainSolver:
     def reduction(self) -> Reduction:
         return Reduction(self.linkage)
 
-    def __call__(self, matrix: sp.spmatrix, coarse: Coarse | None = None) -> Factor:
-        matrix = matrix.tocsr()
-        if self.is_own(matrix):
-            return ChainFactor(Bordered.of(matrix, self.chains, self.reduction))
+    def __call__(self, matrix: Sparse, coarse: Coarse | None = None) -> Factor:
+        whole = matrix.tocsr()
+        if self.is_own(whole):
+            return ChainFactor(Bordered.of(whole, self.chains, self.reduction))
         return self.otherwise(matrix, coarse)
 
     def is_own(self, matrix: sp.csr_matrix) -> bool:

@@ -7,12 +7,11 @@ from pathlib import Path
 
 from pipeline.add.fitting import Added, add, remove
 from pipeline.answer.tables.added import show
-from pipeline.campaign import Campaign, read
-from pipeline.command import usable
-from pipeline.inference.model import Model
+from pipeline.campaign import Campaign
+from pipeline.command import usable, usable_places
 from pipeline.inference.model_file import NAME, ModelFile, write_model
-from pipeline.inference.model_reading import read_model_file
-from pipeline.inference.suitable import Known, known_effects, named_effects
+from pipeline.inference.suitable import Known, named_effects
+from pipeline.opened import opened
 from pipeline.progress import Progress
 from pipeline.provenance import commit, versions
 from pipeline.typed import command
@@ -35,17 +34,10 @@ def add_effects(
     than the model before is saved only by `force`, one of which nothing was tested never. InputError for bad input;
     nothing is written then.
     """
-    known = known_effects(effects_from)
-    campaign = read(folder)
-    began, known = starting_model(campaign, folder, model_file, known)
+    campaign, began, known = opened(folder, model_file, effects_from)
     effects = named_effects(names, known.effects)
-    for path, named in (
-        (folder, f"the model in {folder}"),
-        (json and json.parent, f"--json {json}"),
-        (out, f"--out {out}"),
-    ):
-        if path is not None:
-            usable(path, named)
+    usable(folder, f"the model in {folder}")
+    usable_places(out, json=json)
     progress = Progress(quiet)
     with progress.stage(f"adding {', '.join(names)}") as stage:
         found = add(campaign, began, effects, stage.say)
@@ -76,11 +68,9 @@ def remove_effects(
 
     InputError for bad input; nothing is written then.
     """
-    campaign = read(folder)
-    began, known = starting_model(campaign, folder, model_file, known_effects(effects_from))
+    campaign, began, known = opened(folder, model_file, effects_from)
     usable(folder, f"the model in {folder}")
-    if json is not None:
-        usable(json.parent, f"--json {json}")
+    usable_places(json=json)
     progress = Progress(quiet)
     with progress.stage(f"removing {', '.join(names)}") as stage:
         found = remove(campaign, began, names, stage.say)
@@ -88,18 +78,6 @@ def remove_effects(
     if json is not None:
         found.answer.write(json)
     show(found.answer, str(folder / NAME), [command("compare", folder)], quiet)
-
-
-def starting_model(
-    campaign: Campaign, folder: Path, model_file: Path | None, known: Known
-) -> tuple[Model, Known]:
-    """The model to begin with, and all effects that are known then."""
-    known = known.sized(campaign)
-    path = model_file or folder / NAME
-    if model_file is None and not path.exists():
-        return Model(), known
-    saved = read_model_file(path, known, campaign.rig)
-    return saved.model, known_effects(saved.effects_from, known)
 
 
 def save(path: Path, found: Added, campaign: Campaign, known: Known) -> None:

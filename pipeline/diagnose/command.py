@@ -5,14 +5,12 @@ from __future__ import annotations
 from collections.abc import Sequence
 from pathlib import Path
 
-from pipeline.add.command import starting_model
 from pipeline.answer.of_diagnosis import answered
 from pipeline.answer.record import Answer
 from pipeline.answer.tables.diagnosis import show
-from pipeline.campaign import read
-from pipeline.command import usable
+from pipeline.command import usable_places
 from pipeline.discover.beyond_catalogue import with_laws
-from pipeline.inference.suitable import known_effects
+from pipeline.opened import opened
 from pipeline.progress import Progress
 from pipeline.selection.diagnosis import diagnose
 from pipeline.typed import command
@@ -28,12 +26,8 @@ def diagnose_campaign(
     quiet: bool = False,
 ) -> Answer:
     """Diagnose and print. InputError for bad input."""
-    known = known_effects(effects_from)
-    campaign = read(folder)
-    began, known = starting_model(campaign, folder, model_file, known)
-    for path, named in ((json and json.parent, f"--json {json}"), (out, f"--out {out}")):
-        if path is not None:
-            usable(path, named)
+    campaign, began, known = opened(folder, model_file, effects_from)
+    usable_places(out, json=json)
     progress = Progress(quiet)
     with progress.stage("looking for what is missing") as stage:
         found = with_laws(diagnose(campaign, began, known.effects, stage.say), stage.say)

@@ -8,11 +8,10 @@ from pathlib import Path
 from time import perf_counter
 
 from meshes.files import replacing
-from pipeline.add.command import starting_model
 from pipeline.callbacks import OnProgress
-from pipeline.campaign import Campaign, read
+from pipeline.campaign import Campaign
 from pipeline.campaign.order import by_name
-from pipeline.command import usable
+from pipeline.command import usable_places
 from pipeline.discover.effect_file import effect_text, name_of, write_effect
 from pipeline.discover.record import Discovered
 from pipeline.discover.recording import recorded
@@ -24,7 +23,8 @@ from pipeline.inference.declared_sigmas import trusted_and_fit
 from pipeline.inference.estimated_sigmas import completed
 from pipeline.inference.load_cases import load_cases
 from pipeline.inference.model import Model
-from pipeline.inference.suitable import Known, check_suitable, known_effects
+from pipeline.inference.suitable import Known, check_suitable
+from pipeline.opened import opened
 from pipeline.progress import Progress
 from pipeline.selection.diagnosis import suitable
 from pipeline.typed import command
@@ -46,9 +46,7 @@ class Asked:
 
 def discover_laws(asked: Asked) -> Discovered:
     """Discover and print. InputError for bad input, and for a rig without places of laws."""
-    known = known_effects(asked.effects_from)
-    campaign = read(asked.folder)
-    began, known = starting_model(campaign, asked.folder, asked.model, known)
+    campaign, began, known = opened(asked.folder, asked.model, asked.effects_from)
     _check(asked)
     with Progress(asked.quiet).stage("looking for laws") as stage:
         found = laws_found(campaign, began, known, stage.say)
@@ -109,13 +107,7 @@ def searched(
 def _check(asked: Asked) -> None:
     if asked.write is not None and asked.write.suffix != ".py":
         raise InputError(f"--write {asked.write} is no Python file, allowed is a name that ends with .py")
-    for path, named in (
-        (asked.json and asked.json.parent, f"--json {asked.json}"),
-        (asked.write and asked.write.parent, f"--write {asked.write}"),
-        (asked.out, f"--out {asked.out}"),
-    ):
-        if path is not None:
-            usable(path, named)
+    usable_places(asked.out, json=asked.json, write=asked.write)
 
 
 def _written(asked: Asked, found: LawsFound) -> list[str]:

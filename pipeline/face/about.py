@@ -7,13 +7,13 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TypeAlias
 
-from pipeline.add.command import starting_model
 from pipeline.campaign import Campaign
 from pipeline.errors import InputError
 from pipeline.face.shown import Drawn
 from pipeline.face.subject import Subject, campaign_of
 from pipeline.inference.model import Model
 from pipeline.inference.suitable import known_effects, named_effects
+from pipeline.opened import starting_model
 from vjm.effects.base import Effect
 
 

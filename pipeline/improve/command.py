@@ -7,17 +7,17 @@ from pathlib import Path
 
 from rich.live import Live
 
-from pipeline.add.command import starting_model
 from pipeline.answer.of_diagnosis import answered
 from pipeline.answer.record import Answer
-from pipeline.campaign import Campaign, read
-from pipeline.command import usable
+from pipeline.campaign import Campaign
+from pipeline.command import usable, usable_places
 from pipeline.discover.beyond_catalogue import with_laws
 from pipeline.improve.steps import Step, steps
 from pipeline.improve.table import closing, following, waterfall
 from pipeline.inference.model import Model
 from pipeline.inference.model_file import NAME, ModelFile, Uncertainty, write_model
-from pipeline.inference.suitable import Known, known_effects
+from pipeline.inference.suitable import Known
+from pipeline.opened import opened
 from pipeline.progress import Progress
 from pipeline.provenance import commit, versions
 from pipeline.selection.diagnosis import Diagnosis, diagnose
@@ -37,16 +37,9 @@ def improve_campaign(
 
     out: folder for the answer and for the model of every step, to go back to with --model.
     """
-    campaign = read(folder)
-    began, known = starting_model(campaign, folder, model_file, known_effects(effects_from))
-    places = (
-        (folder, f"the model in {folder}"),
-        (json and json.parent, f"--json {json}"),
-        (out, f"--out {out}"),
-    )
-    for path, named in places:
-        if path is not None:
-            usable(path, named)
+    campaign, began, known = opened(folder, model_file, effects_from)
+    usable(folder, f"the model in {folder}")
+    usable_places(out, json=json)
     progress = Progress(quiet)
     with progress.stage("looking for what is missing") as stage:
         found = with_laws(diagnose(campaign, began, known.effects, stage.say), stage.say)

@@ -8,17 +8,15 @@ from pathlib import Path
 from pydantic import ValidationError
 
 from meshes.files import replacing
-from pipeline.add.command import starting_model
 from pipeline.answer.of_diagnosis import answered
 from pipeline.answer.record import Answer
-from pipeline.campaign import read
 from pipeline.campaign.reading import DESCRIPTION
 from pipeline.command import redraw, usable
 from pipeline.discover.beyond_catalogue import with_laws
 from pipeline.errors import InputError
 from pipeline.inference.model_file import NAME as MODEL
 from pipeline.inference.model_reading import read_model_file
-from pipeline.inference.suitable import known_effects
+from pipeline.opened import opened
 from pipeline.page.collect import Subject, collect
 from pipeline.page.isolability import attempted_isolability, isolability_anew
 from pipeline.page.record import NAME, Page
@@ -69,12 +67,10 @@ def report_campaign(
     quiet: bool = False,
 ) -> Path:
     """Collect and draw; returns the page. InputError for bad input, or a place inside the campaign."""
-    known = known_effects(effects_from)
-    campaign = read(folder)
+    campaign, model, known = opened(folder, model_file, effects_from)
     out = out or _own_place(folder)
     _outside(out, folder)
     usable(out, f"--out {out}")
-    model, known = starting_model(campaign, folder, model_file, known)
     saved = model_file or folder / MODEL
     uncertainty = read_model_file(saved, known).uncertainty if saved.exists() else {}
     subject = Subject(campaign, model, known, uncertainty)

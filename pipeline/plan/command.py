@@ -9,19 +9,19 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from pipeline.add.command import starting_model
 from pipeline.answer.of_diagnosis import in_words
 from pipeline.attempt import Attempts
 from pipeline.callbacks import OnProgress
-from pipeline.campaign import Campaign, Test, read
+from pipeline.campaign import Campaign, Test
 from pipeline.campaign.control import WAYS
 from pipeline.campaign.names import FORCE
-from pipeline.command import usable
+from pipeline.command import usable_places
 from pipeline.inference.estimated_sigmas import completed
 from pipeline.inference.fit import unfitted
 from pipeline.inference.load_cases import load_cases
 from pipeline.inference.model import Model
-from pipeline.inference.suitable import check_suitable, known_effects, scale_for, sized_model
+from pipeline.inference.suitable import check_suitable, scale_for, sized_model
+from pipeline.opened import opened
 from pipeline.plan.isolability import matrix, visible
 from pipeline.plan.next import Worth, best_next
 from pipeline.plan.record import Plan, plan_record
@@ -118,10 +118,8 @@ def plan_campaign(
 ) -> Plan:
     """Look at the plan of a campaign with the model it has. full: print every parameter and pair. InputError for bad
     input."""
-    campaign = read(folder)
-    model, known = starting_model(campaign, folder, model_file, known_effects(effects_from))
-    if json is not None:
-        usable(json.parent, f"--json {json}")
+    campaign, model, known = opened(folder, model_file, effects_from)
+    usable_places(json=json)
     with Progress(quiet).stage("what the tests show") as stage:
         plan = plan_of(campaign, model, known.effects, stage.say)
     if json is not None:

@@ -7,13 +7,12 @@ from dataclasses import dataclass
 from pathlib import Path
 from time import perf_counter
 
-from pipeline.add.command import starting_model
 from pipeline.callbacks import OnProgress
-from pipeline.campaign import Campaign, read
-from pipeline.command import usable
+from pipeline.campaign import Campaign
+from pipeline.command import usable_places
 from pipeline.errors import InputError
 from pipeline.inference.model import Model
-from pipeline.inference.suitable import known_effects
+from pipeline.opened import opened
 from pipeline.predict.asked import Asked, own_rows, read_table
 from pipeline.predict.files import compensation_table, readings_table
 from pipeline.predict.predicting import fitted_to, predicted
@@ -44,9 +43,7 @@ class Asking:
 
 def predict_readings(asking: Asking) -> Predictions:
     """Predict and print. InputError for bad input; nothing is written then."""
-    known = known_effects(asking.effects_from)
-    campaign = read(asking.folder)
-    model, _ = starting_model(campaign, asking.folder, asking.model, known)
+    campaign, model, _ = opened(asking.folder, asking.model, asking.effects_from)
     asked = own_rows(campaign) if asking.at is None else read_table(asking.at, campaign)
     _check(asking)
     with Progress(asking.quiet).stage("predict") as stage:
@@ -69,13 +66,7 @@ def predictions_of(
 
 
 def _check(asking: Asking) -> None:
-    for path, named in (
-        (asking.json and asking.json.parent, f"--json {asking.json}"),
-        (asking.compensation and asking.compensation.parent, f"--compensation {asking.compensation}"),
-        (asking.out, f"--out {asking.out}"),
-    ):
-        if path is not None:
-            usable(path, named)
+    usable_places(asking.out, json=asking.json, compensation=asking.compensation)
     for path in (asking.json, asking.compensation):
         if path is not None and path.resolve().parent == asking.folder.resolve():
             raise InputError(

@@ -6,7 +6,6 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Literal
 
-from pipeline.add.command import starting_model
 from pipeline.add.fitting import Added, add
 from pipeline.answer.of_diagnosis import answered
 from pipeline.answer.record import Answer
@@ -21,6 +20,7 @@ from pipeline.inference.suitable import known_effects, named_effects
 from pipeline.init.choices import Choices, filled
 from pipeline.init.command import found_in
 from pipeline.init.found import Found
+from pipeline.opened import starting_model
 from pipeline.page.collect import Subject, collect, shown_model
 from pipeline.page.command import of_diagnosis, write_page
 from pipeline.page.record import Isolability, Page

@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 from pydantic import BaseModel
 
-from fem.solvers import has_pardiso
+from fem.pardiso import has_pardiso
 from meshes.files import replacing
 from pipeline.manipulator.table_record import Table1
 from pipeline.progress import Progress, Stage

@@ -12,12 +12,12 @@ import numpy as np
 
 from fem.linear import LinearModel
 from fem.linkage import single_bar
-from fem.solvers import direct, multigrid
+from fem.solvers import automatic, direct, multigrid
 from fem.space import Space
 from meshes.solid import SolidMesh
 from tests.fem import bar_p
 
-SOLVERS = {"direct": direct, "multigrid": multigrid}
+SOLVERS = {"automatic": automatic, "direct": direct, "multigrid": multigrid}
 
 
 def main(path: str, solver: str) -> None:

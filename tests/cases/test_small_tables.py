@@ -14,7 +14,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from pipeline.add.command import add_effects, starting_model
+from pipeline.add.command import add_effects
 from pipeline.add.fitting import add
 from pipeline.answer.of_diagnosis import answered
 from pipeline.answer.record import Answer
@@ -25,6 +25,7 @@ from pipeline.compare.table import sentence
 from pipeline.inference.model import Model
 from pipeline.inference.model_file import NAME
 from pipeline.inference.suitable import known_effects
+from pipeline.opened import starting_model
 from pipeline.plan.command import plan_of
 from pipeline.plan.record import Plan
 from pipeline.selection.diagnosis import diagnose

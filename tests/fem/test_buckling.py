@@ -8,11 +8,11 @@ import pytest
 from fem.beam import Segment
 from fem.buckling import buckling
 from fem.euler import torsional_load
+from fem.factor import SolveError
 from fem.linear import LinearModel
 from fem.linkage import single_bar
 from fem.reduction import Reduction
 from fem.section_constants import section_constants
-from fem.solvers import SolveError
 from fem.space import Space
 from meshes.bar import Bar
 from meshes.resolution import Resolution

@@ -12,9 +12,9 @@ import pytest
 
 from fem import path
 from fem.buckling import Mode, buckling
+from fem.factor import SolveError
 from fem.linear import LinearModel, submatrix
 from fem.path import Path, State, follow, residual_and_tangent, with_imperfection
-from fem.solvers import SolveError
 from tests.fem import bar_p
 
 BOW = 0.01

@@ -8,22 +8,15 @@ import numpy as np
 import pytest
 import scipy.sparse as sp
 
-from fem import solvers
+from fem import pardiso, solvers
 from fem.coarse_space import linear_in_quadratic, prolongation
+from fem.factor import Factor, SolveError, checked
 from fem.linear import LinearModel, submatrix
+from fem.linkage import PLATFORM
+from fem.multigrid import MultigridFactor
+from fem.pardiso import PardisoFactor, SinglePardisoFactor, TooLarge, has_pardiso
 from fem.rigid_motions import rigid_motions
-from fem.solvers import (
-    Factor,
-    MultigridFactor,
-    PardisoFactor,
-    SolveError,
-    SuperLUFactor,
-    automatic,
-    checked,
-    direct,
-    has_pardiso,
-    multigrid,
-)
+from fem.solvers import SuperLUFactor, automatic, direct, multigrid
 from tests.fem import bar_p
 
 needs_pardiso = pytest.mark.skipif(not has_pardiso(), reason="pypardiso is not installed on this platform")
@@ -189,18 +182,71 @@ def test_rigid_motions_are_in_the_coarse_space(tetrahedra: bool) -> None:
         np.testing.assert_allclose(matrix @ motions[corners, axis], motions[:, axis], atol=1e-9)
 
 
+def three() -> sp.csr_matrix:
+    return sp.csr_matrix(np.diag([1.0, 2.0, 3.0]))
+
+
 def test_choice_by_size(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Direct for the small, multigrid for the large where there is a coarse space."""
-    k = sp.csr_matrix(np.diag([1.0, 2.0, 3.0]))
+    """Direct for the small; without pardiso multigrid for the large where there is a coarse space."""
+    assert automatic(three(), three).name == direct(three()).name
+    monkeypatch.setattr(solvers, "has_pardiso", lambda: False)
+    monkeypatch.setattr(solvers, "LARGE", 2)
+    assert automatic(three(), three).name == "multigrid"
+    assert automatic(three()).name == "SuperLU"
+    np.testing.assert_allclose(automatic(three(), three)(np.ones(3)), [1.0, 0.5, 1 / 3], rtol=1e-9)
 
-    def coarse() -> sp.csr_matrix:
-        return sp.csr_matrix(np.eye(3))
 
-    assert automatic(k, coarse).name == direct(k).name
-    monkeypatch.setattr(solvers, "LARGE", {"pardiso": 2, "SuperLU": 2})
-    assert automatic(k, coarse).name == "multigrid"
-    assert automatic(k).name == direct(k).name
-    np.testing.assert_allclose(automatic(k, coarse)(np.ones(3)), [1.0, 0.5, 1 / 3], rtol=1e-9)
+@needs_pardiso
+def test_choice_by_memory(monkeypatch: pytest.MonkeyPatch) -> None:
+    """What the analysis foretells has to be free."""
+    monkeypatch.setattr(solvers, "SINGLE", 2)
+    assert automatic(three()).name == "pardiso in single precision"
+    kept = automatic(bar_p.model(1).reduced + sp.eye(bar_p.model(1).reduction.size)).forecast
+    assert 2**20 < kept < 2**28
+    # Of the factor, then of multigrid's own of its coarse space, then of the factor again.
+    there = iter((1, 2**40, 1))
+    monkeypatch.setattr(pardiso, "free_memory", lambda: next(there))
+    monkeypatch.setattr(pardiso, "ALWAYS_THERE", 0)
+    assert automatic(three(), three).name == "multigrid"
+    with pytest.raises(TooLarge, match=r"3 unknowns takes 0\.0 GiB of memory, of which 0\.0 are free"):
+        automatic(three())
+
+
+@needs_pardiso
+def test_single_precision_and_iterations_are_double_precision() -> None:
+    """A bar's matrix, of condition 1e8, to 1e-7; its stiffness, an energy, to 1e-11."""
+    model = bar_p.model(1)
+    free = model.reduction.others(PLATFORM)
+    k = submatrix(model.reduced, free)
+    rhs = np.random.default_rng(0).standard_normal((k.shape[0], 3))
+    rhs[:, 1] = 0.0
+    factor = SinglePardisoFactor(k)
+    found, expected = factor(rhs), PardisoFactor(k)(rhs)
+    assert np.abs(found - expected).max() < 1e-7 * np.abs(expected).max()
+    assert factor.handed.dtype == np.float32 and 3 < factor.iterations < 15
+    with pytest.raises(SolveError, match="inertia is not available"):
+        _ = factor.negative_eigenvalues
+    again = factor.renewed(sp.csr_matrix(2.0 * k))
+    np.testing.assert_allclose(again(rhs), 0.5 * expected, atol=1e-7 * np.abs(expected).max())
+    single = LinearModel(
+        model.linkage, model.material, lambda matrix, _=None: SinglePardisoFactor(matrix.tocsr())
+    )
+    np.testing.assert_allclose(bar_p.entries(single.stiffness), bar_p.entries(model.stiffness), rtol=1e-11)
+    assert single.solved_by == "pardiso in single precision"
+
+
+@needs_pardiso
+def test_what_single_precision_does_not_hold_is_factorised_in_double() -> None:
+    """A beam by differences, of condition n^4; and a matrix that nothing holds is an error by either."""
+    n = 1500
+    second = sp.diags([np.ones(n - 1), np.full(n, -2.0), np.ones(n - 1)], [-1, 0, 1])
+    beam = sp.csr_matrix(second @ second)
+    factor = SinglePardisoFactor(beam)
+    assert factor.name == "pardiso" and factor.handed.dtype == np.float64
+    np.testing.assert_array_equal(factor(np.ones(n)), PardisoFactor(beam)(np.ones(n)))
+    assert factor.negative_eigenvalues == 0
+    with pytest.raises(SolveError):
+        SinglePardisoFactor(bar_p.model(1).matrices[0]).require_held()
 
 
 @pytest.mark.parametrize("make", FACTORS)

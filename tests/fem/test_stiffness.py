@@ -15,11 +15,12 @@ from hypothesis import strategies as st
 
 from fem.beam import Segment, one_end_warping_factor, stepped_stiffness
 from fem.convergence import extrapolate
+from fem.factor import SolveError
 from fem.linear import LinearModel
 from fem.linkage import PLATFORM, single_bar
 from fem.material import Isotropic
 from fem.section_constants import section_constants
-from fem.solvers import SolveError, SuperLUFactor, direct
+from fem.solvers import SuperLUFactor, direct
 from fem.space import Space
 from fem.stiffness import bar_stiffness
 from fem.virtual_experiments import virtual_experiments

@@ -13,7 +13,6 @@ from typing import Any, get_args
 
 import numpy as np
 
-from pipeline.add.command import starting_model
 from pipeline.add.fitting import add
 from pipeline.answer.of_diagnosis import answered
 from pipeline.answer.record import Answer, Verdict
@@ -23,6 +22,7 @@ from pipeline.errors import InputError
 from pipeline.improve.steps import steps
 from pipeline.inference.model import Model
 from pipeline.inference.suitable import Known, known_effects, named_effects
+from pipeline.opened import starting_model
 from pipeline.plan.command import plan_of
 from pipeline.predict.asked import own_rows
 from pipeline.predict.predicting import fitted_to, predicted

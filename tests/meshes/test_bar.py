@@ -10,7 +10,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from meshes.bar import Bar, Lug
-from meshes.discrete import discretise
+from meshes.discrete import FUNCTIONS, discretise
 from meshes.quality import quality
 from meshes.resolution import Resolution
 from meshes.section import ISection, Rectangle, Round, Section, Tube
@@ -242,3 +242,9 @@ def test_any_bar_has_its_volume_and_moments(section: Section, length: float, lug
     y, z = section.size
     bar = Bar(section, length, None if lug is None else Lug(12.0, lug * y, lug * z))
     assert errors(mesh_bar(bar, COARSE), bar).max() < 1e-11
+
+
+def test_the_order_of_functions_is_that_of_scikit_fem() -> None:
+    from skfem.io.meshio import INV_HEX_MAPPING
+
+    assert list(INV_HEX_MAPPING) == FUNCTIONS

@@ -14,6 +14,7 @@ from fem.frame.bench import Readings
 from pipeline.assessment.challenge.cases import ALWAYS, Case, case
 from pipeline.assessment.challenge.faults import FAULTS
 from pipeline.assessment.coverage.cases import is_size
+from pipeline.assessment.study import Tried
 from pipeline.assessment.virtual.bench import read_out, true_readings
 from pipeline.assessment.virtual.plan import GAUGES
 from pipeline.campaign import Campaign, ParallelogramRig
@@ -26,7 +27,6 @@ from pipeline.inference.predicted import Prediction
 from pipeline.inference.prediction import predict
 from pipeline.inference.residual import Whitening, whitening
 from pipeline.parameter_names import parted
-from pipeline.record import Record
 from pipeline.selection.confusability import multiple_correlation
 from pipeline.selection.diagnosis import Diagnosis, diagnose
 from pipeline.selection.fit_cache import FitCache
@@ -44,11 +44,10 @@ SHARES = (1.0, 0.7, 0.5, 0.35)
 """Of the loads, tried in turn where a bench does not bear them."""
 
 
-class Answered(Record):
+class Answered(Tried):
     """A case and its answer. sizes: mu, sigmas by which each hidden effect shows. gamma: 1 / sqrt(1 - rho), by effect,
     of the rival that looks most like it. sets: the answer, without what every bench has. inside: whether the 95 %
-    intervals hold the truth, of right answers. holdout: whitened RMS of each held-out test. code: digest of what
-    answered."""
+    intervals hold the truth, of right answers. holdout: whitened RMS of each held-out test."""
 
     number: int
     kind: str
@@ -64,8 +63,6 @@ class Answered(Record):
     holdout: tuple[float, ...] = ()
     error: str = ""
     seconds: float
-    commit: str
-    code: str
 
     @property
     def size(self) -> float:

@@ -3,48 +3,23 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from pathlib import Path
-from typing import Annotated
 
-import typer
 from matplotlib.figure import Figure
 
-from pipeline.assessment import trials
 from pipeline.assessment.extrapolation.approaches import APPROACHES, TRUTH
+from pipeline.assessment.extrapolation.cases import numbers
 from pipeline.assessment.extrapolation.page import PICTURE, page
-from pipeline.assessment.extrapolation.study import run
 from pipeline.assessment.extrapolation.table import Study, study
-from pipeline.assessment.extrapolation.trial import Trial
+from pipeline.assessment.extrapolation.trial import Trial, trial
+from pipeline.assessment.study import Study as StudyOf
 from reports.charts import dress, picture
 from reports.style import CYCLE, FAINT, INK
 
-OUT = Path("reports/extrapolation")
-STORE = OUT / "trials.jsonl"
 
-
-def main(
-    cases: Annotated[
-        int, typer.Option(min=1, help="Campaigns with hidden effects, from the first one on.")
-    ] = 100,
-    workers: Annotated[int, typer.Option(min=1, help="Processes.")] = 2,
-    store: Annotated[Path, typer.Option(help="Where finished campaigns are kept.")] = STORE,
-    out: Annotated[Path, typer.Option(help="Folder of the page.")] = OUT,
-) -> None:
-    """Predict beyond the fitted loads in several ways, and compare. Stopped and started again, it goes on."""
-    found = trials.followed(
-        "extrapolation",
-        run(cases, store, workers),
-        lambda done: f"{len(done)} of {cases} campaigns",
-        lambda done: written(done, out),
-    )
-    print(f"{out / 'extrapolation.md'}: {len(found)} campaigns")
-
-
-def written(found: Sequence[Trial], out: Path) -> None:
-    """The page, its record and its picture, in a folder."""
+def beside(found: Sequence[Trial]) -> dict[str, str | bytes]:
+    """The page's record and its picture."""
     it = study(found)
-    record = it.model_dump_json(indent=1) + "\n"
-    trials.left(out, {"extrapolation.json": record, "extrapolation.md": page(it), PICTURE: drawn(it)})
+    return {"extrapolation.json": it.model_dump_json(indent=1) + "\n", PICTURE: drawn(it)}
 
 
 def drawn(it: Study) -> bytes:
@@ -71,5 +46,20 @@ def drawn(it: Study) -> bytes:
     return picture(figure)
 
 
+STUDY = StudyOf(
+    name="extrapolation",
+    title="predictions beyond the fitted loads",
+    of="campaigns",
+    count=100,
+    counted="Campaigns with hidden effects, from the first one on.",
+    tasks=lambda count: [(n,) for n in numbers(count)],
+    trial=trial,
+    kind=Trial,
+    task=lambda it: (it.number,),
+    right=lambda it: not it.failed,
+    page=lambda found: page(study(found)),
+    beside=beside,
+)
+
 if __name__ == "__main__":
-    typer.run(main)
+    STUDY.command()

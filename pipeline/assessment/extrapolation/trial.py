@@ -8,16 +8,16 @@ from pipeline.assessment.challenge.cases import ALWAYS, Kind, case
 from pipeline.assessment.extrapolation.approaches import compared
 from pipeline.assessment.extrapolation.bench import measured
 from pipeline.assessment.extrapolation.yardstick import Error
-from pipeline.record import Record
+from pipeline.assessment.study import Tried
 from vjm.effects.base import Effect
 
 BENCH = "bench"
 
 
-class Trial(Record):
+class Trial(Tried):
     """A case. share: of the loads, that the bench bears even 1.5 times. sizes: mu, sigmas by which each hidden effect
     shows. verdict, sets: of the diagnosis, selected: by AIC; without what every bench has. errors, seconds, failed: by
-    approach, failed with the reason; "bench" where nothing could be measured. code: digest of what answered."""
+    approach, failed with the reason; "bench" where nothing could be measured."""
 
     number: int
     kind: Kind
@@ -31,8 +31,6 @@ class Trial(Record):
     errors: dict[str, Error]
     seconds: dict[str, float]
     failed: dict[str, str]
-    commit: str
-    code: str
 
     @property
     def mu(self) -> float:

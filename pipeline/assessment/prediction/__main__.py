@@ -9,7 +9,7 @@ from typing import Annotated
 import typer
 
 from pipeline.assessment import trials
-from pipeline.assessment.extrapolation.study import numbers
+from pipeline.assessment.extrapolation.cases import numbers
 from pipeline.assessment.prediction.table import page, study
 from pipeline.assessment.prediction.trial import Trial, trial
 from pipeline.provenance import commit

@@ -9,10 +9,10 @@ from pydantic import BaseModel
 
 from fem.buckling import Mode, buckling
 from fem.end_states import EndStates
+from fem.factor import Factor
 from fem.linear import LinearModel
 from fem.linkage import parallelogram
 from fem.path import follow, with_imperfection
-from fem.solvers import Factor
 from fem.space import Space
 from pipeline.progress import Stage
 from pipeline.validation.entries import rows

@@ -11,12 +11,13 @@ import scipy.sparse as sp
 from fem.axial import axial_stiffness
 from fem.buckling import buckling
 from fem.elasticity import stiffness_matrix, stress
+from fem.factor import SolveError
 from fem.linear import LinearModel, submatrix
 from fem.linkage import PLATFORM, Linkage, parallelogram, single_bar
 from fem.rigid_motions import rigid_motions
 from fem.slices.chain import Chain
 from fem.slices.solver import ChainFactor, ChainSolver
-from fem.solvers import SolveError, direct
+from fem.solvers import direct
 from fem.space import Space
 from meshes.bar import Bar, Lug
 from meshes.extrusion import section_solid, stepped_thickness

@@ -13,6 +13,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from fem.beam import Segment, stepped_stiffness
+from fem.factor import SolveError
 from fem.linear import LinearModel
 from fem.linkage import single_bar
 from fem.material import Isotropic
@@ -21,7 +22,6 @@ from fem.slices import stiffness
 from fem.slices.classes import mirrors, said
 from fem.slices.condensed import Prism
 from fem.slices.stiffness import chain_stiffness, first_half
-from fem.solvers import SolveError
 from fem.space import Space
 from meshes.bar import Bar, Lug
 from meshes.extrusion import drawn, kind_of, section_mesh, section_solid, section_sweep, stepped_thickness

@@ -12,7 +12,7 @@ import gmsh
 import numpy as np
 import pytest
 
-from fem.solvers import SolveError
+from fem.factor import SolveError
 from meshes.brought import abaqus, nastran
 from meshes.brought.formats import readers
 from meshes.brought.found import Brought

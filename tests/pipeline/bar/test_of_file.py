@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from typer.testing import CliRunner
 
-from fem.solvers import automatic_name
+from fem.pardiso import has_pardiso
 from pipeline.cli import app
 from tests.conftest import Done
 from tests.meshes.brought import made, parts, written
@@ -49,7 +49,9 @@ def test_a_case_with_a_file(pipeline_command: Callable[..., Done], tmp_path: Pat
     assert set(record["data"]) == {"link.inp"} and set(record["modelling"]) == {"distributed"}
     said = " ".join(record["said"])
     assert "linear cells were raised" in said and "band by mesh is not known" in said and "read past" in said
-    assert f"Solved by: {automatic_name(1, False)}, {record['mesh']['dofs']} unknowns" in said
+    assert (
+        f"Solved by: {'pardiso' if has_pardiso() else 'SuperLU'}, {record['mesh']['dofs']} unknowns" in said
+    )
     folder = tmp_path / "results" / "link-bar"
     assert "A link of two materials" in (folder / "index.html").read_text()
     assert sorted(p.stem for p in (folder / "modes").iterdir()) == ["clamped", "free", "guided", "pinned"]

@@ -31,11 +31,7 @@ class Dahl(Law):
         left = (memory[..., 1] - goal) * np.exp(-np.abs(way))
         slope = -np.sign(goal) * left / self.presliding
         friction = goal + left
-        return (
-            self.stiffness * q + friction,
-            self.stiffness + slope,
-            np.stack((q, friction), axis=-1),
-        )
+        return self.stiffness * q + friction, self.stiffness + slope, np.stack((q, friction), axis=-1)
 
 
 @dataclass(frozen=True)
@@ -82,10 +78,8 @@ class OneSidedHysteresis(Law):
     wedge: float
     spring: float
 
-    @property
-    def abrupt(self) -> bool:
-        """It has kinks."""
-        return True
+    abrupt = True
+    """It has kinks."""
 
     width: ClassVar[int] = 1
     """The slider's place."""

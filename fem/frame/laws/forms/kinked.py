@@ -16,10 +16,8 @@ class DeadZone(Elastic):
     stiffness: float
     inside: float
 
-    @property
-    def abrupt(self) -> bool:
-        """It has kinks."""
-        return True
+    abrupt = True
+    """It has kinks."""
 
     def curve(self, q: Floats) -> tuple[Floats, Floats]:
         """As of `Elastic`."""
@@ -35,10 +33,8 @@ class TwoSlopes(Elastic):
     plus: float
     minus: float
 
-    @property
-    def abrupt(self) -> bool:
-        """It has kinks."""
-        return True
+    abrupt = True
+    """It has kinks."""
 
     def curve(self, q: Floats) -> tuple[Floats, Floats]:
         """As of `Elastic`."""
@@ -56,10 +52,8 @@ class TwoDeadZones(Elastic):
     minus: float
     inside: float
 
-    @property
-    def abrupt(self) -> bool:
-        """It has kinks."""
-        return True
+    abrupt = True
+    """It has kinks."""
 
     def curve(self, q: Floats) -> tuple[Floats, Floats]:
         """As of `Elastic`."""

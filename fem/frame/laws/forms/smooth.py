@@ -158,10 +158,8 @@ class Power(Elastic):
     exponent: float
     smooth: float
 
-    @property
-    def abrupt(self) -> bool:
-        """Its slope changes within a small part of its range."""
-        return True
+    abrupt = True
+    """Its slope changes within a small part of its range."""
 
     def curve(self, q: Floats) -> tuple[Floats, Floats]:
         """As of `Elastic`."""

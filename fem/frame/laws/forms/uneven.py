@@ -39,10 +39,8 @@ class Jump(Elastic):
     place: float
     over: float
 
-    @property
-    def abrupt(self) -> bool:
-        """Its slope changes within a small part of its range."""
-        return True
+    abrupt = True
+    """Its slope changes within a small part of its range."""
 
     def curve(self, q: Floats) -> tuple[Floats, Floats]:
         """As of `Elastic`."""

@@ -2,56 +2,41 @@
 
 from __future__ import annotations
 
-from collections.abc import Hashable, Iterator, Sequence
-from pathlib import Path
-from typing import Annotated
+from collections.abc import Sequence
 
-import typer
-
-from pipeline.assessment import trials
-from pipeline.assessment.challenge.laws.cases import CASES, Kind
+from pipeline.assessment.challenge.laws.cases import CASES
 from pipeline.assessment.challenge.laws.outcome import LawOutcome, law_outcome
 from pipeline.assessment.challenge.laws.page import law_page
 from pipeline.assessment.challenge.laws.score import law_scored
-from pipeline.provenance import code_digest, commit
-
-STORE = Path("reports/challenge/laws_outcomes.jsonl")
-Task = tuple[Kind, int, str, str]
+from pipeline.assessment.study import Study, Task
 
 
-def main(
-    share: Annotated[float, typer.Option(min=0.01, max=1.0, help="Of each kind of case, the first.")] = 1.0,
-    workers: Annotated[int, typer.Option(min=1, help="Processes.")] = 2,
-    out: Annotated[Path, typer.Option(help="Folder of the score.")] = Path("reports/challenge"),
-    store: Annotated[Path, typer.Option(help="Where finished benches are kept.")] = STORE,
-    quiet: Annotated[bool, typer.Option("--quiet", help="No progress.")] = False,
-) -> None:
-    """The score of the look for laws."""
-    cases = [(kind, k) for kind, count in CASES.items() for k in range(max(1, round(share * count)))]
-    found = trials.followed(
-        "benches with laws",
-        run(cases, store, workers),
-        lambda done: f"{len(done)} of {len(cases)}, {sum(all(each.right) for each in done)} places right",
-        lambda done: written(done, out),
-        quiet,
-    )
-    print(f"{len(found)} benches; the score is in {out / 'laws.md'}")
+def tasks(count: int) -> Sequence[Task]:
+    """The first cases with one law, and of the other kinds in proportion."""
+    share = count / CASES["law"]
+    return [(kind, k) for kind, most in CASES.items() for k in range(max(1, round(share * most)))]
 
 
-def written(found: Sequence[LawOutcome], out: Path) -> None:
-    """The page and its record, in a folder."""
-    result = law_scored(found)
-    trials.left(out, {"laws.json": result.model_dump_json(indent=1) + "\n", "laws.md": law_page(result)})
+def _record(found: Sequence[LawOutcome]) -> str:
+    return law_scored(found).model_dump_json(indent=1) + "\n"
 
 
-def run(cases: Sequence[tuple[Kind, int]], store: Path, workers: int) -> Iterator[LawOutcome]:
-    """The outcomes of these cases, those in the store first; of the code that is here."""
-    here, code = commit(), code_digest()
-    wanted: dict[Hashable, Task] = {(*each, code): (*each, here, code) for each in cases}
-    return trials.run(
-        wanted, law_outcome, LawOutcome, lambda it: (it.kind, it.number, it.code), store, workers
-    )
-
+STUDY = Study(
+    name="laws",
+    title="benches with laws",
+    of="benches",
+    count=CASES["law"],
+    counted="Benches with one law; those with two and with none go with it.",
+    tasks=tasks,
+    trial=law_outcome,
+    kind=LawOutcome,
+    task=lambda it: (it.kind, it.number),
+    right=lambda it: all(it.right),
+    page=lambda found: law_page(law_scored(found)),
+    beside=lambda found: {"laws.json": _record(found)},
+    folder="challenge",
+    store="laws_outcomes.jsonl",
+)
 
 if __name__ == "__main__":
-    typer.run(main)
+    STUDY.command()

@@ -14,6 +14,7 @@ from pipeline.assessment.challenge.laws.cases import Kind, LawCase, clean_case, 
 from pipeline.assessment.challenge.laws.measured import SEEN, Truth, measured
 from pipeline.assessment.challenge.laws.names import FORMS, same_physics
 from pipeline.assessment.extrapolation.correction import corrected
+from pipeline.assessment.study import Tried
 from pipeline.campaign import Campaign
 from pipeline.discover.beyond_catalogue import looked
 from pipeline.discover.evidence import Rest
@@ -61,7 +62,7 @@ class Place(Record):
     evidence: float
 
 
-class LawOutcome(Record):
+class LawOutcome(Tried):
     """A case and what became of it."""
 
     number: int
@@ -90,8 +91,6 @@ class LawOutcome(Record):
     """Of the processor until the answer; without a diagnosis that of `discover`."""
     seconds_of_diagnosis: float = 0.0
     """Of them, before laws are looked for."""
-    commit: str = ""
-    code: str = ""
 
     @property
     def size(self) -> float:

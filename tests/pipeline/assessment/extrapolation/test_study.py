@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -9,12 +10,11 @@ import pytest
 from scipy.stats import binom
 
 from pipeline.assessment.challenge.cases import ALWAYS, ROUND
-from pipeline.assessment.extrapolation import __main__ as command
-from pipeline.assessment.extrapolation import study as module
+from pipeline.assessment.extrapolation.__main__ import STUDY
 from pipeline.assessment.extrapolation.approaches import APPROACHES, DIAGNOSIS, GAUSSIAN, PLAIN
 from pipeline.assessment.extrapolation.bench import measured
+from pipeline.assessment.extrapolation.cases import numbers
 from pipeline.assessment.extrapolation.page import page
-from pipeline.assessment.extrapolation.study import numbers, run
 from pipeline.assessment.extrapolation.table import median_interval, study
 from pipeline.assessment.extrapolation.trial import BENCH, Trial, trial
 from pipeline.assessment.extrapolation.yardstick import Error
@@ -67,10 +67,9 @@ def test_a_whole_case_runs_and_is_not_run_again(tmp_path: Path, monkeypatch: pyt
         done.append(again)
         return done[-1]
 
-    monkeypatch.setattr(module, "trial", one)
-    monkeypatch.setattr(module, "numbers", lambda _: [SMALL])
-    (begun,) = run(1, store, 1)
-    (again,) = run(1, store, 1)
+    whole = replace(STUDY, trial=one, tasks=lambda _: [(SMALL,)])
+    (begun,) = whole.run(1, 1, store, tmp_path)
+    (again,) = whole.run(1, 1, store, tmp_path)
     assert begun == again and done == [begun] and kept(store, Trial) == [begun]
     assert (
         set(begun.errors) == set(APPROACHES)
@@ -79,8 +78,8 @@ def test_a_whole_case_runs_and_is_not_run_again(tmp_path: Path, monkeypatch: pyt
     )
     assert begun.sets == (("modulus_error",),)
     assert begun.errors[DIAGNOSIS].outside < begun.errors[GAUSSIAN].outside
-    monkeypatch.setattr(module, "code_digest", lambda: "another")
-    (other,) = run(1, store, 1)
+    monkeypatch.setattr("pipeline.assessment.study.code_digest", lambda: "another")
+    (other,) = whole.run(1, 1, store, tmp_path)
     assert len(done) == 2 and other.code == "another"
 
 
@@ -164,9 +163,9 @@ def test_a_study_that_is_stopped_leaves_its_page(tmp_path: Path, monkeypatch: py
         yield fixed(2, 0.4, 0.1)
         raise KeyboardInterrupt
 
-    monkeypatch.setattr(command, "run", stopped)
+    monkeypatch.setattr("pipeline.assessment.trials.run", stopped)
     with pytest.raises(KeyboardInterrupt):
-        command.main(cases=3, workers=1, store=tmp_path / "store", out=tmp_path)
+        STUDY.run(3, 1, tmp_path / "store", tmp_path)
     assert "## 1 cases" in (tmp_path / "extrapolation.md").read_text()
     assert '"cases": 1' in (tmp_path / "extrapolation.json").read_text()
     assert (tmp_path / "extrapolation.png").read_bytes().startswith(b"\x89PNG")

@@ -7,8 +7,7 @@ from typing import Any
 import pytest
 
 from pipeline.assessment.challenge.laws import outcome as outcomes
-from pipeline.assessment.challenge.laws.__main__ import main
-from pipeline.assessment.challenge.laws.cases import CASES
+from pipeline.assessment.challenge.laws.__main__ import STUDY, tasks
 from pipeline.assessment.challenge.laws.names import FORMS, same_physics
 from pipeline.assessment.challenge.laws.outcome import HiddenLaw, LawOutcome, Place, law_outcome
 from pipeline.assessment.challenge.laws.page import law_page
@@ -23,7 +22,7 @@ CUBIC = HiddenLaw(site="along@tip", law="Cubic", mu=40.0, told=20.0, forms=("cub
 
 def made(number: int, **more: Any) -> LawOutcome:
     plain: dict[str, Any] = {"number": number, "kind": "law", "poor": False, "dirt": {}, "hidden": (CUBIC,)}
-    return LawOutcome.model_validate({**plain, **more})
+    return LawOutcome.model_validate({**plain, "commit": "abc", "code": "x", **more})
 
 
 def place(*group: str, forms: tuple[str, ...] = ("linear+cubic",)) -> Place:
@@ -91,9 +90,10 @@ def test_a_bench_that_finds_no_state_has_no_answer(monkeypatch: pytest.MonkeyPat
 
 def test_a_stored_run_is_scored_again(tmp_path: Path) -> None:
     store, code = tmp_path / "laws.jsonl", code_digest()
-    wanted = [(kind, k) for kind, count in CASES.items() for k in range(max(1, count // 100))]
+    wanted = tasks(1)
+    assert wanted == [("law", 0), ("pair", 0), *(("clean", k) for k in range(5))]
     kept = [made(k, kind=kind, hidden=(), code=code) for kind, k in wanted]
     store.write_text("".join(each.model_dump_json() + "\n" for each in kept))
-    main(share=0.01, workers=1, out=tmp_path, store=store, quiet=True)
-    assert json.loads((tmp_path / "laws.json").read_text())["cases"] == len(wanted) == 5
+    STUDY.run(1, 1, store, tmp_path, quiet=True)
+    assert json.loads((tmp_path / "laws.json").read_text())["cases"] == len(wanted) == 7
     assert (tmp_path / "laws.md").read_text().startswith("# Laws beyond the catalogue on virtual benches")
