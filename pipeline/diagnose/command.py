@@ -48,5 +48,5 @@ def _following(answer: Answer, folder: Path) -> list[str]:
     if any(law.form for law in answer.laws):
         return [command("discover", folder, "--write", "law.py")]
     if answer.verdict == "unknown" and not answer.doctor:
-        return [command("discover", folder)]
+        return [command("report" if answer.evidence and answer.evidence.law_words else "discover", folder)]
     return []

@@ -113,6 +113,8 @@ class Diagnosis(OfAnswer):
             "ambiguous": "model_of(...) takes one of the choices.",
             "unknown": 'bench.discover().save_effects("law.py") writes the laws as effects for a model.'
             if any(law.form for law in self.laws)
+            else "plot() draws the readings that the model misses most."
+            if self.answer.evidence and self.answer.evidence.law_words
             else "bench.discover() looks where in the linkage the rest sits, and what law it follows.",
         }
         if doctor:
@@ -194,10 +196,13 @@ class Diagnosis(OfAnswer):
     def _undecided(self) -> str:
         """Why there is no model yet, which choices there are, which test would tell."""
         listed = " or ".join(f"model_of({', '.join(map(repr, n))})" for n in self.choices)
-        several = any(self.choices)
+        # A zero that is open would be taken for an effect.
+        evidence = self.answer.evidence
+        several = any(self.choices) and not (evidence and evidence.zero)
         choices = f"allowed is {listed}" if several else "there is no effect to choose"
         test = f"; the test that would tell: {self.answer.next_test['why']}" if self.answer.next_test else ""
-        return f"{self.name}: the verdict is {self.verdict}, so that no model is certain; {choices}{test}"
+        sure = "" if self.verdict == "identified" else ", so that no model is certain"
+        return f"{self.name}: the verdict is {self.verdict}{sure}; {choices}{test}"
 
 
 def diagnose(bench: Given) -> Diagnosis:

@@ -53,8 +53,8 @@ class Readings:
 
     @staticmethod
     def may_be_asked(found: Fit, criteria: Criteria) -> bool:
-        """Whether there is enough about a fit, nothing of it has an order, and it is not off at the greatest loads."""
-        if found.degrees < criteria.few_readings or ordered(found, criteria):
+        """Whether nothing of a fit has an order, and it is not off at the greatest loads."""
+        if ordered(found, criteria):
             return False
         return not off_at_greatest_loads(found, criteria.false_alarm)
 
@@ -63,6 +63,9 @@ class Readings:
         if not self.may_be_asked(found, criteria):
             return self
         bad = self.single_bad(found, given, criteria)
+        if found.degrees < criteria.few_readings:
+            # Few readings say nothing of what sensors scatter by.
+            return Readings(bad) if bad else self
         whole = found if self.plain else _given(found, given)
         # A bad reading pulls a fit to itself, and what that leaves of its neighbours looks like long tails.
         rest = whole if not bad else self._beside(bad, found, given, criteria)

@@ -51,8 +51,7 @@ def _verdict(it: Answer, evidence: Evidence) -> Iterator[str]:
         yield f"nothing_tested: {asked}With that zero unknown no reading is left to test a model by."
         return
     before, rms = it.error[0].fit, it.error[-1].fit
-    way = "the error falls" if rms <= before else "but the error does not fall: it goes"
-    fall = f"{way} from {sigma(before)} to {sigma(rms)} sigma (1 is noise)"
+    fall = f"the error {'falls' if rms <= before else 'goes'} from {sigma(before)} to {sigma(rms)} sigma (1 is noise)"
     if it.verdict == "within_noise":
         yield f"within_noise: the model explains the measurements, {sigma(rms)} sigma are left (1 is noise)."
     elif it.verdict == "identified":
@@ -64,6 +63,9 @@ def _verdict(it: Answer, evidence: Evidence) -> Iterator[str]:
         yield f"ambiguous: {asked}{said}; these tests cannot tell; {fall}."
     elif evidence.because:
         yield f"unknown: {asked}{_and(best)} would explain the misfit, {fall}, but {evidence.because}."
+    elif best and rms > before:
+        told = f"{_and(best)}, the nearest, leaves {sigma(rms)}"
+        yield f"unknown: {asked}the misfit of {sigma(before)} sigma is no noise, {_unexplained(evidence)}; {told}."
     elif best:
         rest = f"what is left is no noise {_unexplained(evidence)}"
         yield f"unknown: {asked}{_and(best)} {'helps' if len(best) == 1 else 'help'}, {fall}, but {rest}."

@@ -11,7 +11,8 @@ that is more than was declared: the median of what they are once this shift is t
 all readings it is a bad one if its neighbours in the same channel are not off as well: a play or a step of a sensor
 comes in runs; and if nothing else of its row is: a state that is another one moves several sensors. Its column joins
 what the fit can move, and the next one is looked at, with those that were refused before. Those at the greatest
-loads of test after test are none (`pipeline.selection.adequacy.greatest_loads`).
+loads of test after test are none (`pipeline.selection.adequacy.greatest_loads`). Of few readings a law may show in one:
+there a bad one has two readings of its channel on either side that are not off, and others at greater loads.
 """
 
 from __future__ import annotations
@@ -31,7 +32,7 @@ from pipeline.inference.fit import Fit
 from pipeline.inference.noise import MEDIAN
 from pipeline.inference.orthonormal_basis import basis
 from pipeline.inference.residual import Residual
-from pipeline.selection.adequacy.greatest_loads import of_a_law
+from pipeline.selection.adequacy.greatest_loads import at_greatest_loads, of_a_law
 from pipeline.selection.adequacy.reading_errors import ReadingErrors
 from pipeline.selection.criteria import Criteria
 
@@ -39,6 +40,8 @@ Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
 FOR_NEITHER = 2.0 * float(np.log(2.0))
 """Twice the logarithm by which one explanation of a row has to be likelier than another."""
+FEW_BESIDE = 2
+"""Rows on either side that speak for a bad reading where there are few."""
 
 
 @dataclass(frozen=True)
@@ -115,10 +118,10 @@ def bad_readings(found: Fit, criteria: Criteria) -> tuple[BadReading, ...]:
     residual = found.whitened - taken @ (taken.T @ found.whitened)
     shifts = _Shifts(it, ReadingErrors.of(found), residual, taken, criteria.bad_seen)
     there = shifts.of.there.copy()
-    count = int(there.sum())
-    if count < criteria.few_readings:
-        return ()
+    count, few = int(there.sum()), found.degrees < criteria.few_readings
     there &= ~_kept(shifts)
+    if few:
+        there &= _amid(shifts)
     limit = float(norm.isf(0.5 * criteria.false_alarm / count))
     channels = it.load_cases.measured.shape[1]
     out: list[tuple[int, int, float, list[int]]] = []
@@ -134,7 +137,7 @@ def bad_readings(found: Fit, criteria: Criteria) -> tuple[BadReading, ...]:
         row, number, scale = look.row, look.number, look.scale
         # One of a row: what was off twice was another state.
         there[row] = False
-        beside = _beside(shifts, row, number, look.less.scores / scale)
+        beside = _beside(shifts, row, number, look.less.scores / scale, FEW_BESIDE if few else 1)
         rest = np.abs(look.less.scores[row]) / np.maximum(
             criteria.bad_neighbours * scale[row], criteria.bad_rest * sizes[row].max()
         )
@@ -235,11 +238,21 @@ def _not_told_apart(look: _Look, shifts: _Shifts, sizes: Array, criteria: Criter
     return sorted({int(of[k]) for k in near} - {int(of[look.number])})
 
 
-def _beside(shifts: _Shifts, row: int, number: int, scores: Array) -> Array:
-    """Scores of the same channel in the rows before and after, of the same test."""
+def _amid(shifts: _Shifts) -> Mask:
+    """(R, M) readings in rows with `FEW_BESIDE` of the same test before and after, not at its greatest load."""
+    whole = shifts.it.load_cases
+    first, rows = whole.first[whole.test], np.arange(len(whole.test))
+    after = whole.first[whole.test + 1] - 1 - rows
+    amid = (rows - first >= FEW_BESIDE) & (after >= FEW_BESIDE) & ~at_greatest_loads(whole)
+    return np.asarray(amid[:, None])
+
+
+def _beside(shifts: _Shifts, row: int, number: int, scores: Array, reach: int) -> Array:
+    """Scores of the same channel in so many rows before and after, of the same test."""
     whole = shifts.it.load_cases
     channel = shifts.of.channels[row, number]
-    rows = [k for k in (row - 1, row + 1) if 0 <= k < len(whole.test) and whole.test[k] == whole.test[row]]
+    near = [row + k for k in range(-reach, reach + 1) if k]
+    rows = [k for k in near if 0 <= k < len(whole.test) and whole.test[k] == whole.test[row]]
     return np.concatenate([scores[k][shifts.of.channels[k] == channel] for k in rows] or [np.zeros(0)])
 
 
