@@ -36,8 +36,8 @@ ANALYSE, FACTORISE, SOLVE, RELEASE = 11, 22, 33, -1
 # 2x2 pivots, indices from zero, fill to be reported.
 SETTINGS = {1: 1, 2: 2, 10: 8, 18: -1, 21: 1, 35: 1}
 NEGATIVE_PIVOTS, SINGLE = 23, 28
-PEAK_OF_ANALYSIS, KEPT_OF_ANALYSIS, OF_FACTOR = 15, 16, 17
-"""Of the settings after the analysis: KiB that it took at most, and that it and the factor take."""
+PEAK_OF_ANALYSIS, OF_FACTOR = 15, 17
+"""Of the settings after the analysis, in a row: KiB that it took at most, what it keeps, what a factor takes."""
 TOLERANCE, MOST_ITERATIONS = 1e-9, 30
 """Of the conjugate gradients about a factor in single precision: a bar of 280 000 unknowns takes eight, and thirty take
 what single precision saves."""
@@ -111,9 +111,7 @@ class PardisoFactor(Factor):
     @property
     def forecast(self) -> int:
         """Bytes that the analysis says the factor and its making take."""
-        peak, kept, factor = (
-            int(self.settings[number - 1]) for number in (PEAK_OF_ANALYSIS, KEPT_OF_ANALYSIS, OF_FACTOR)
-        )
+        peak, kept, factor = map(int, self.settings[PEAK_OF_ANALYSIS - 1 : OF_FACTOR])
         return 1024 * max(peak, kept + factor)
 
     def renewed(self, matrix: sp.csr_matrix) -> Factor:

@@ -33,6 +33,7 @@ class Record(BaseModel):
         """JSON; what is not finite is null."""
         return json.dumps(self.model_dump(mode="json"), indent=1, ensure_ascii=False, allow_nan=False) + "\n"
 
-    def write(self, path: Path) -> None:
-        """Write the JSON whole or not at all. InputError where nothing can be written."""
-        put(path, self.text())
+    def write(self, *paths: Path | None) -> None:
+        """Write the JSON to those that are given, whole or not at all. InputError where nothing can be written."""
+        for path in filter(None, paths):
+            put(path, self.text())

@@ -46,10 +46,7 @@ def add_effects(
     saved = not found.keep or (force and answer.verdict != "nothing_tested")
     if saved:
         save(folder / NAME, found, campaign, known)
-    if json is not None:
-        answer.write(json)
-    if out is not None:
-        answer.write(out / "answer.json")
+    answer.write(json, out and out / "answer.json")
     following = [command("compare", folder)]
     if answer.verdict != "within_noise":
         following.append(command("diagnose", folder))
@@ -75,8 +72,7 @@ def remove_effects(
     with progress.stage(f"removing {', '.join(names)}") as stage:
         found = remove(campaign, began, names, stage.say)
     save(folder / NAME, found, campaign, known)
-    if json is not None:
-        found.answer.write(json)
+    found.answer.write(json)
     show(found.answer, str(folder / NAME), [command("compare", folder)], quiet)
 
 

@@ -90,3 +90,5 @@ class LawFound(Record):
     """Whether it acts on the coordinate of the other sign at the tips of the bars."""
     curve: Curve | None = None
     """The law over its coordinate."""
+    effects: tuple[str, ...] = ()
+    """Effects of the catalogue that are this law, or hold it."""

@@ -49,9 +49,7 @@ def bar(asked: Asked) -> BarRecord:
     path = Path(asked.file)
     of_file = asked.file not in shipped_cases() and (path.suffix.lower() in readers() or names_a_file(path))
     record, folder = (_of_file if of_file else _of_case)(asked, progress)
-    record.write(folder / RECORD)
-    if asked.json is not None:
-        record.write(asked.json)
+    record.write(folder / RECORD, asked.json)
     page = [] if asked.stiffness_only else [f"report: {_draw(folder, progress)}"]
     print("\n".join([*summary(record), f"record: {folder / RECORD}", *page]), flush=True)
     return record

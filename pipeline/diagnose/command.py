@@ -34,10 +34,7 @@ def diagnose_campaign(
         stage.note = f"{len(found.cache.fits)} models fitted"
     with progress.stage("intervals"):
         answer = answered(found).model_copy(update={"seed": seed})
-    if json is not None:
-        answer.write(json)
-    if out is not None:
-        answer.write(out / "answer.json")
+    answer.write(json, out and out / "answer.json")
     show(answer, _following(answer, folder), quiet)
     return answer
 

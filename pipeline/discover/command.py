@@ -113,15 +113,13 @@ def _check(asked: Asked) -> None:
 def _written(asked: Asked, found: LawsFound) -> list[str]:
     """Writes what was asked for; commands that go on from there."""
     record = found.record
-    if asked.json is not None:
-        record.write(asked.json)
+    record.write(asked.json, asked.out and asked.out / "laws.json")
     if asked.out is not None:
         from reports.laws import drawn
 
         for name, content in drawn(record.model_dump()).items():
             with replacing(asked.out / name) as part:
                 part.write_bytes(content)
-        record.write(asked.out / "laws.json")
     if not found.effect_file:
         return []
     if asked.write is None:

@@ -11,24 +11,16 @@ count that it needs: a compliance of six directions that gives in one is no dear
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from time import perf_counter
 
 import numpy as np
 
 from pipeline.callbacks import OnProgress
+from pipeline.discover.by_name import effects_of, held_by
 from pipeline.discover.locating import mapped
-from pipeline.discover.looking import (
-    Looked,
-    called,
-    discovered,
-    effects_of,
-    explains,
-    fitted,
-    less_certain,
-    record,
-)
+from pipeline.discover.looking import Looked, discovered, explains, fitted, less_certain, record
 from pipeline.discover.search import Discovery, Law, fitted_to
 from pipeline.discover.words import law_sentences
 from pipeline.inference.fit import Fit
@@ -37,9 +29,7 @@ from pipeline.selection.cost import misfit, root_of, taken
 from pipeline.selection.criteria import CRITERIA
 from pipeline.selection.diagnosis import Diagnosis
 from pipeline.selection.fit_cache import Names
-from vjm.effects.base import Effect
 from vjm.effects.sensor_fault import SensorFault
-from vjm.forms import forms
 
 AT_NULL = 1e-3
 """Standard errors within which a number stands at null."""
@@ -152,7 +142,7 @@ def _judged(it: Diagnosis, found: Discovery, rival: _Rival, own: Names, begin: f
         -CRITERIA.law_alike
         if doubtful
         else 0.0
-        if own <= _held_by(found, it.cache.candidates)
+        if own <= held_by(found, it.cache.candidates)
         else CRITERIA.law_named
     )
     if behind > (CRITERIA.law_alike if several and rival.whole else alone):
@@ -166,13 +156,6 @@ def _judged(it: Diagnosis, found: Discovery, rival: _Rival, own: Names, begin: f
         )
     done, made = less_certain(replace(it, decision=decision), found), record(it, found, begin)
     return replace(done, laws=made.laws, law_words=law_sentences(made))
-
-
-def _held_by(found: Discovery, known: Mapping[str, Effect]) -> Names:
-    """The known effects that the laws are, alone or as one of two side by side."""
-    laws = [law for law in found.laws if law.ways]
-    parts = [(law, forms()[part]) for law in laws for part in law.ways[0].formed.form.name.split("+")]
-    return frozenset(name for law, form in parts for name in called(law, form, known))
 
 
 def _cost_of_set(it: Diagnosis, names: Names, several: bool) -> float:

@@ -2,22 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import replace
 from time import perf_counter
 
 from pipeline.callbacks import OnProgress
+from pipeline.discover.by_name import effects_of
 from pipeline.discover.record import Discovered
 from pipeline.discover.recording import recorded
-from pipeline.discover.search import Discovery, Law, discover, in_its_place
+from pipeline.discover.search import Discovery, discover, in_its_place
 from pipeline.inference.load_cases import LoadCases, load_cases
 from pipeline.inference.model import Model
 from pipeline.selection.adequacy.judgement import judge
 from pipeline.selection.diagnosis import Diagnosis
 from pipeline.selection.fit_cache import Names
-from vjm.effects.base import Effect
-from vjm.forms.base import Form
-from vjm.site_law import SiteLaw
 
 Looked = tuple[Diagnosis, Discovery | None]
 
@@ -39,24 +36,6 @@ def explains(it: Diagnosis, found: Discovery) -> bool:
     if found.end.lost or found.last.best >= it.cache.criteria.law_proposed:
         return False
     return judge(found.end, it.cache.criteria).noise
-
-
-def effects_of(found: Discovery, known: Mapping[str, Effect]) -> Names:
-    """The known effects that the laws are by another name."""
-    laws = [law for law in found.laws if law.ways]
-    return frozenset(name for law in laws for name in called(law, law.ways[0].formed.form, known))
-
-
-def called(law: Law, form: Form, known: Mapping[str, Effect]) -> Names:
-    """Known effects that are this form at the place of a law: those of the catalogue as the form says, and laws of
-    users at one of the sites that are not told apart."""
-    sites = {each.site.name for each in law.group}
-    own = [
-        name
-        for name, it in known.items()
-        if isinstance(it, SiteLaw) and it.form == form.name and it.site in sites
-    ]
-    return frozenset((*form.effects.get(law.site.kind, ()), *own))
 
 
 def less_certain(it: Diagnosis, found: Discovery) -> Diagnosis:

@@ -116,6 +116,7 @@ def _law(step: Law, error: ModelError | None, attempts: Attempts) -> LawFound:
         holdout=None if error is None else error.holdout,
         shape=shape,
         mirrored=step.site.mirrored,
+        effects=() if form is None else form.effects.get(step.site.kind, ()),
         curve=attempts.get("the curve", lambda: _curve(step, chosen, coordinate), None),
     )
 

@@ -84,6 +84,8 @@ def said_of(it: LawFound) -> Iterator[str]:
         return
     numbers = ", ".join(phrase(k, estimate(v.model_dump()), v.unit) for k, v in it.parameters.items())
     yield f"The form that explains most: {it.equation}, {numbers}."
+    if it.effects:
+        yield f"In the catalogue that is {' or '.join(it.effects)}: diagnose says whether that name is certain."
     if it.ties:
         names = ", ".join(tie.form for tie in it.ties[:MANY])
         apart = max(tie.beyond for tie in it.ties)

@@ -57,9 +57,7 @@ def improve_campaign(
     if out is not None:
         for number, step in enumerate(done):
             _write(out / f"step_{number}.toml", step.fit.model, {}, campaign, known)
-        answer.write(out / "answer.json")
-    if json is not None:
-        answer.write(json)
+    answer.write(json, out and out / "answer.json")
     # On a terminal the steps stand there already.
     told = [] if quiet or terminal().is_terminal else [waterfall(campaign.name, done)]
     going_on = following(answer, found.verdict, folder, out)

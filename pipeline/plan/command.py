@@ -122,7 +122,6 @@ def plan_campaign(
     usable_places(json=json)
     with Progress(quiet).stage("what the tests show") as stage:
         plan = plan_of(campaign, model, known.effects, stage.say)
-    if json is not None:
-        plan.write(json)
+    plan.write(json)
     show(plan, quiet, full=full)
     return plan

@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Mapping, Sequence
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -15,7 +13,6 @@ from pipeline.plan.isolability import Visible
 from pipeline.plan.next import Worth
 from pipeline.provenance import commit, versions
 from pipeline.record import Record
-from pipeline.saving import put
 
 
 class Size(Record):
@@ -68,11 +65,6 @@ class Plan(Record):
     """Commit of the program."""
     versions: dict[str, str]
     """Versions of the program and its libraries."""
-
-    def write(self, path: Path) -> None:
-        """Write the JSON whole or not at all. InputError where nothing can be written."""
-        text = json.dumps(self.model_dump(mode="json"), indent=1, ensure_ascii=False, allow_nan=False) + "\n"
-        put(path, text)
 
 
 def plan_record(

@@ -80,13 +80,11 @@ def _written(asking: Asking, it: Predictions) -> list[str]:
     if asking.compensation is not None:
         put(asking.compensation, compensation_table(it).encode())
         said.append(f"correction to be subtracted: {asking.compensation}")
-    if asking.json is not None:
-        it.write(asking.json)
+    it.write(asking.json, asking.out and asking.out / JSON)
     if asking.out is not None:
         from reports.prediction import drawn
 
         put(asking.out / CSV, readings_table(it).encode())
-        it.write(asking.out / JSON)
         for name, content in drawn(it.model_dump()).items():
             put(asking.out / name, content)
         said.append(f"every reading: {asking.out / CSV}")

@@ -40,6 +40,7 @@ from pipeline.selection.verdict import UNSURE_OF_TABLE, Decision
 from vjm.effects.base import Effect
 from vjm.effects.sensor_fault import SensorFault
 from vjm.effects.sized import all_sized
+from vjm.site_law import SiteLaw
 
 
 @dataclass(frozen=True, eq=False)
@@ -295,9 +296,14 @@ def suitable(
     campaign: Campaign, model: Model, known: Mapping[str, Effect]
 ) -> tuple[dict[str, Effect], dict[str, str]]:
     """Effects that could be added, by name and in the order of names, and why the others cannot."""
-    can, cannot = {}, {}
+    can, cannot = {}, _of_users(model, known)
     for name, effect in sorted(known.items()):
-        if name in model.names or not _may_exceed(effect, campaign) or _needs_a_sensor(effect):
+        if (
+            name in cannot
+            or name in model.names
+            or not _may_exceed(effect, campaign)
+            or _needs_a_sensor(effect)
+        ):
             continue
         try:
             check_suitable([effect], campaign)
@@ -305,6 +311,18 @@ def suitable(
         except InputError as error:
             cannot[name] = str(error)
     return can, cannot
+
+
+def _of_users(model: Model, known: Mapping[str, Effect]) -> dict[str, str]:
+    """Effects of the catalogue that a law of a user is, number for number, and why they are not looked for."""
+    every = [*known.values(), *(term.effect for term in model.terms)]
+    laws = [it for it in every if isinstance(it, SiteLaw) and "@" not in it.site]
+    same = [(law, name) for law in laws for name in law.law_form.effects.get(law.site, ()) if name in known]
+    return {
+        name: f"{law.name} is the same law and is looked for in its place"
+        for law, name in same
+        if len(known[name].parameters) == len(law.parameters)
+    }
 
 
 def _needs_a_sensor(effect: Effect) -> bool:

@@ -83,6 +83,8 @@ class Form(ABC):
     """Whether a linear part beside it makes another form."""
     beside: ClassVar[tuple[str, ...]] = ()
     """Places of that one, where they are not those of the form alone."""
+    holds: ClassVar[tuple[str, ...]] = ()
+    """Names of the forms that it is where some of its numbers are equal, or one."""
     effects: ClassVar[Mapping[str, tuple[str, ...]]] = {}
     """By kind of a site, the effects of the catalogue that together are this law there, or hold it."""
 

@@ -20,6 +20,7 @@ class Power(CurveForm):
     """y = A sign(x) abs(x / x0)^p, linear very near to zero."""
 
     name = "power"
+    holds = ("linear",)
     title = "power"
     equation = "y = A sign(x) abs(x / x0)^p"
     limits = "linear below a thousandth of x0"

@@ -14,6 +14,7 @@ class TwoLevel(Form):
     """y = T1 s1 + T2 s2, sliders of two reaches."""
 
     name = "two_level"
+    holds = ("coulomb",)
     title = "dry friction at two levels"
     equation = "y = z1 + z2, abs(zi) <= Ti, dzi = Ti/ri dx while it sticks"
     places = ("parallel",)

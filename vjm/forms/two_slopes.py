@@ -13,6 +13,7 @@ class TwoSlopes(CurveForm):
     """y = k+ x above zero, k- x below."""
 
     name = "two_slopes"
+    holds = ("linear",)
     title = "two slopes"
     equation = "y = k+ x where x > 0, k- x where x < 0"
     amplitudes = (

@@ -16,23 +16,14 @@ from pipeline.assessment.challenge.dirty.score import DirtyScored, dirty_scored
 from pipeline.assessment.challenge.outcome import Outcome, outcome
 from pipeline.assessment.challenge.page import page
 from pipeline.assessment.challenge.score import Goal, Scored, scored
-from pipeline.assessment.study import Study, Task
+from pipeline.assessment.study import Study
 from pipeline.command import usable
 
 Result = TypeVar("Result", Scored, DirtyScored)
 
 
-def _first(count: int) -> Sequence[Task]:
-    """Numbers, not the order of work, decide what a case is."""
-    return [(number,) for number in range(count)]
-
-
 def _named(it: Outcome | DirtyOutcome) -> bool:
     return it.score not in ("wrong", "false alarm")
-
-
-def _record(result: Scored | DirtyScored) -> str:
-    return result.model_dump_json(indent=1) + "\n"
 
 
 CLEAN: Study[Any] = Study(
@@ -41,13 +32,14 @@ CLEAN: Study[Any] = Study(
     of="campaigns",
     count=600,
     counted="Campaigns, from the first one on.",
-    tasks=_first,
+    # Numbers, not the order of work, decide what a case is.
+    tasks=lambda count: [(number,) for number in range(count)],
     trial=outcome,
     kind=Outcome,
     task=lambda it: (it.number,),
     right=_named,
     page=lambda found: page(scored(found)),
-    beside=lambda found: {"challenge.json": _record(scored(found))},
+    beside=lambda found: {"challenge.json": scored(found).text()},
 )
 DIRTY = replace(
     CLEAN,
@@ -56,7 +48,7 @@ DIRTY = replace(
     trial=dirty_outcome,
     kind=DirtyOutcome,
     page=lambda found: dirty_page(dirty_scored(found), None),
-    beside=lambda found: {"dirty.json": _record(dirty_scored(found))},
+    beside=lambda found: {"dirty.json": dirty_scored(found).text()},
 )
 
 

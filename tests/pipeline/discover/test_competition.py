@@ -6,14 +6,15 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from pipeline.discover import competition, looking
+from pipeline.discover import by_name, competition, looking
 from pipeline.discover.beyond_catalogue import looked, with_laws
 from pipeline.discover.effect_file import effect_text, write_effect
 from pipeline.discover.recording import recorded
 from pipeline.discover.search import Discovery
+from pipeline.discover.words import law_sentences
 from pipeline.inference.fit import Fit, fit
 from pipeline.inference.model import Model
-from pipeline.selection.diagnosis import Diagnosis, diagnose
+from pipeline.selection.diagnosis import Diagnosis, diagnose, suitable
 from tests.pipeline.bench import bench
 from tests.pipeline.discover.fits import GEOMETRY, effects_for, fitted_tests, friction_found
 from vjm.effects import catalogue, from_file
@@ -67,13 +68,15 @@ def test_one_effect_keeps_its_name_where_it_is_better_than_a_law_by_strong_evide
     assert costing(it, friction_found(), off, monkeypatch, several).verdict == verdict
 
 
+@pytest.mark.parametrize("form", ["linear+coulomb", "two_slopes", "power"])
 def test_no_strong_evidence_is_asked_of_a_name_that_is_a_part_of_the_law(
-    unknown: Diagnosis, monkeypatch: pytest.MonkeyPatch
+    unknown: Diagnosis, monkeypatch: pytest.MonkeyPatch, form: str
 ) -> None:
-    """A slope and a friction in the hinges, and the name of a spring: the law has to be better by its friction."""
+    """A slope and a friction in the hinges, or two slopes, and the name of a spring: the law has to be better by what
+    it has more."""
     found = friction_found()
     (law,) = found.laws
-    way = replace(law.ways[0], formed=replace(law.ways[0].formed, form=forms()["linear+coulomb"]))
+    way = replace(law.ways[0], formed=replace(law.ways[0].formed, form=forms()[form]))
     both = replace(found, steps=(replace(law, ways=(way,)),))
     it = named(unknown, (SPRING,))
     assert costing(it, both, -5.0, monkeypatch).verdict == "identified"
@@ -113,7 +116,7 @@ def test_a_law_that_is_the_effect_by_other_words_takes_no_name(
     unknown: Diagnosis, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     whole = friction_found()
-    assert looking.effects_of(whole, catalogue()) == {"joint_friction"}
+    assert by_name.effects_of(whole, catalogue()) == {"joint_friction"}
     monkeypatch.setattr(competition, "effects_of", lambda *_: frozenset({SPRING}))
     assert costing(named(unknown, (SPRING,)), whole, 20.0, monkeypatch).verdict == "identified"
 
@@ -138,24 +141,46 @@ def test_a_law_of_a_users_file_is_that_law_by_another_name() -> None:
         (law.site.name, "creep", False),
     ]:
         known = {"ours": as_a_user_has_it(form, site)}
-        assert ("ours" in looking.effects_of(found, known)) == there
+        assert ("ours" in by_name.effects_of(found, known)) == there
     both = replace(law.ways[0], formed=replace(law.ways[0].formed, form=forms()["linear+coulomb"]))
     more = replace(found, steps=(replace(law, ways=(both,)),))
     ours = {"ours": as_a_user_has_it("coulomb", law.site.name)}
-    assert "ours" not in looking.effects_of(more, ours)
-    assert "ours" in competition._held_by(more, ours)
+    assert "ours" not in by_name.effects_of(more, ours)
+    assert "ours" in by_name.held_by(more, ours)
+
+
+def test_an_effect_that_a_users_law_is_number_for_number_is_looked_for_as_that_law() -> None:
+    """Else the two names of one law would be a tie that no test can tell."""
+    campaign = bench("joint_friction.torque_Nmm", 600.0)
+    friction = catalogue()["joint_friction"].parameters
+
+    def left(site: str, form: str, count: int) -> tuple[bool, bool]:
+        law = SiteLaw.of(name="ours", title="", form=form, site=site, parameters=friction[:count])
+        can, cannot = suitable(campaign, Model(), {**catalogue(), "ours": law})
+        held = {**can, **suitable(campaign, Model().with_effects([law]), catalogue())[0]}
+        assert all("ours is the same law" in cannot[name] for name in set(cannot) & {"joint_friction"})
+        return "joint_friction" in can, {"joint_friction", BASE} <= set(held)
+
+    assert left("hinge_torque", "coulomb", 2) == (False, False)
+    assert left("hinge_torque@tip", "coulomb", 2) == (True, True)
+    # One of its six directions.
+    assert left("base_x", "linear", 1) == (True, True)
 
 
 @pytest.mark.long
 def test_what_was_found_and_written_is_named_when_the_campaign_is_diagnosed_again(tmp_path: Path) -> None:
     campaign = bench("joint_friction.torque_Nmm", 600.0)
-    known = {name: it for name, it in catalogue().items() if name != "joint_friction"}
-    first = looked(diagnose(campaign, Model(), known))
+    first = looked(
+        diagnose(campaign, Model(), {n: it for n, it in catalogue().items() if n != "joint_friction"})
+    )
     assert first[0].verdict == "unknown" and first[1] is not None
     path = tmp_path / "found.py"
     write_effect(path, effect_text(first[1], recorded(first[1], campaign, 0.0)))
     (ours,) = from_file(path)
-    again = with_laws(diagnose(campaign, Model(), {**known, **from_file(path)}))
+    assert "In the catalogue that is joint_friction" in " ".join(
+        law_sentences(recorded(first[1], campaign, 0.0))
+    )
+    again = with_laws(diagnose(campaign, Model(), {**catalogue(), **from_file(path)}))
     assert (again.verdict, again.sets) == ("identified", ((GEOMETRY.name, ours),))
 
 

@@ -208,3 +208,23 @@ def test_a_table_rises_from_knot_to_knot_and_goes_on() -> None:
     # Areas below the polygon, from zero on either side.
     area = far * np.array([0.0, 0.05, 0.25, 0.85, 1.65, 2.85, 7.6, 0.025, 0.175, 0.625, 2.025, 3.175])
     assert answer.energy == pytest.approx(area)
+
+
+HELD: dict[str, tuple[list[float], list[float]]] = {
+    "two_slopes": ([], []),
+    "two_level": ([0.2, 0.2], [0.2]),
+    "power": ([1.0, 1.0], []),
+}
+"""Shapes of a form that holds another, and of the other, at which both are one."""
+
+
+def test_a_form_that_holds_another_is_that_one_at_some_of_its_numbers() -> None:
+    assert set(HELD) == {name for name, form in forms().items() if form.holds}
+    x, first = ways(1.0)
+    for name, (shapes, others) in HELD.items():
+        form = forms()[name]
+        columns = form.columns(x, first, np.array(shapes))
+        for other in form.holds:
+            wanted = forms()[other].columns(x, first, np.array(others))
+            found = columns @ np.linalg.lstsq(columns, wanted, rcond=None)[0]
+            assert found == pytest.approx(wanted, abs=1e-12)

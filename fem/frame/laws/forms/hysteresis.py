@@ -58,11 +58,8 @@ class BoucWen(Law):
         new = np.where(length > straight, (from_here + t) / (1.0 + from_here * t), z + straight)
         slope = np.where(new > 0.0, 1.0 - new**2, 1.0)
         z = sign * new
-        return (
-            self.stiffness * q + self.force * z,
-            self.stiffness + self.force / self.presliding * slope,
-            np.stack((q, z), axis=-1),
-        )
+        rate = self.force / self.presliding * slope
+        return self.stiffness * q + self.force * z, self.stiffness + rate, np.stack((q, z), axis=-1)
 
 
 @dataclass(frozen=True)

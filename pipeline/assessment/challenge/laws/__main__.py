@@ -17,10 +17,6 @@ def tasks(count: int) -> Sequence[Task]:
     return [(kind, k) for kind, most in CASES.items() for k in range(max(1, round(share * most)))]
 
 
-def _record(found: Sequence[LawOutcome]) -> str:
-    return law_scored(found).model_dump_json(indent=1) + "\n"
-
-
 STUDY = Study(
     name="laws",
     title="benches with laws",
@@ -33,7 +29,7 @@ STUDY = Study(
     task=lambda it: (it.kind, it.number),
     right=lambda it: all(it.right),
     page=lambda found: law_page(law_scored(found)),
-    beside=lambda found: {"laws.json": _record(found)},
+    beside=lambda found: {"laws.json": law_scored(found).text()},
     folder="challenge",
     store="laws_outcomes.jsonl",
 )
