@@ -24,7 +24,15 @@ LEFT_OUT = {
     "reports": ("challenge", "coverage", "extrapolation", "sensitivity", "studio", "validation"),
     "pipeline": tuple(
         f"assessment/{study}"
-        for study in ("doubts", "extrapolation", "left_out", "mistaken", "prediction", "sensitivity")
+        for study in [
+            "challenge/laws",
+            "doubts",
+            "extrapolation",
+            "left_out",
+            "mistaken",
+            "prediction",
+            "sensitivity",
+        ]
     ),
 }
 """Folders of packages that only a checkout has: results, and studies of the diagnosis that no command runs."""
