@@ -2,7 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
-from functools import cached_property
+from functools import cached_property, partial
 
 import numpy as np
 import scipy.sparse as sp
@@ -83,13 +83,15 @@ class LinearModel:
         """Whether its cells have the coarse space that multigrid needs."""
         return {m.space.mesh.kind for m in self.linkage.members} <= set(CORNERS_AND_EDGES)
 
-    def factor(self, free: Ints) -> Factor:
-        """The stiffness of the unknowns `free`, ready to solve; SolveError if they are not held."""
+    def factor(self, free: Ints, few: bool = False) -> Factor:
+        """The stiffness of the unknowns `free`, ready to solve; SolveError if they are not held. few: whether for few
+        right-hand sides, which may take more each."""
         if self._by_chain is not None:
             factor: Factor = self._by_chain.part(free)
         else:
             coarse = (lambda: prolongation(self.reduction, free)) if self.has_coarse else None
-            factor = self.solver(Part(self.reduced, free), coarse)
+            made = partial(automatic, few=few) if self.solver is automatic else self.solver
+            factor = made(Part(self.reduced, free), coarse)
         factor.require_held()
         return factor
 
@@ -111,7 +113,7 @@ class LinearModel:
 
     @cached_property
     def _units(self) -> tuple[Floats, str]:
-        factor = self.factor(self.reduction.others(PLATFORM))
+        factor = self.factor(self.reduction.others(PLATFORM), few=True)
         return self.motions(PLATFORM, (), factor), factor.name
 
     @cached_property

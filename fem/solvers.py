@@ -70,15 +70,16 @@ def multigrid(matrix: Sparse, coarse: Coarse | None = None) -> Factor:
     return MultigridFactor(matrix.tocsr(), coarse(), direct)
 
 
-def automatic(matrix: Sparse, coarse: Coarse | None = None) -> Factor:
-    """For positive definite matrices: direct where there is memory for it, in single precision and refined from
-    `SINGLE` unknowns on, else multigrid where it can be had."""
+def automatic(matrix: Sparse, coarse: Coarse | None = None, few: bool = False) -> Factor:
+    """For positive definite matrices: direct where there is memory for it, else multigrid where it can be had. few:
+    whether there are few right-hand sides; from `SINGLE` unknowns on single precision, refined, is quicker then."""
     count = matrix.shape[0]
     if not has_pardiso():
         return multigrid(matrix, coarse) if count > LARGE and coarse is not None else direct(matrix)
-    try:
-        return (SinglePardisoFactor if count >= SINGLE else PardisoFactor)(matrix)
-    except TooLarge:
-        if coarse is None:
-            raise
-        return multigrid(matrix, coarse)
+    for make in (SinglePardisoFactor,) if few and count >= SINGLE else (PardisoFactor, SinglePardisoFactor):
+        try:
+            return make(matrix)
+        except TooLarge:
+            if coarse is None and make is SinglePardisoFactor:
+                raise
+    return multigrid(matrix, coarse)

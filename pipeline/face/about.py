@@ -63,6 +63,8 @@ def effects_of(subject: Subject, effects: Iterable[str | Effect]) -> tuple[Subje
     """Effects by name, or as they are given, and a subject that knows them all. InputError for a name that is
     unknown."""
     every = list(effects)
+    if wrong := [it for it in every if not isinstance(it, str | Effect)]:
+        raise InputError(f"{wrong[0]!r} is no effect, allowed are names and effects, one after another")
     subject = subject.knowing(it for it in every if isinstance(it, Effect))
     names = [it.name if isinstance(it, Effect) else it for it in every]
     return subject, named_effects(names, subject.known.effects)

@@ -316,12 +316,12 @@ def suitable(
 def _of_users(model: Model, known: Mapping[str, Effect]) -> dict[str, str]:
     """Effects of the catalogue that a law of a user is, number for number, and why they are not looked for."""
     every = [*known.values(), *(term.effect for term in model.terms)]
-    laws = [it for it in every if isinstance(it, SiteLaw) and "@" not in it.site]
-    same = [(law, name) for law in laws for name in law.law_form.effects.get(law.site, ()) if name in known]
     return {
         name: f"{law.name} is the same law and is looked for in its place"
-        for law, name in same
-        if len(known[name].parameters) == len(law.parameters)
+        for law in every
+        if isinstance(law, SiteLaw) and "@" not in law.site
+        for name in law.law_form.effects.get(law.site, ())
+        if name in known and len(known[name].parameters) == len(law.parameters)
     }
 
 

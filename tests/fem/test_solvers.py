@@ -200,14 +200,19 @@ def test_choice_by_size(monkeypatch: pytest.MonkeyPatch) -> None:
 def test_choice_by_memory(monkeypatch: pytest.MonkeyPatch) -> None:
     """What the analysis foretells has to be free."""
     monkeypatch.setattr(solvers, "SINGLE", 2)
-    assert automatic(three()).name == "pardiso in single precision"
+    assert (automatic(three()).name, automatic(three(), few=True).name) == (
+        "pardiso",
+        "pardiso in single precision",
+    )
     kept = automatic(bar_p.model(1).reduced + sp.eye(bar_p.model(1).reduction.size)).forecast
     assert 2**20 < kept < 2**28
-    # Of the factor, then of multigrid's own of its coarse space, then of the factor again.
-    there = iter((1, 2**40, 1))
+    # Of the factor in either precision, then of multigrid's own of its coarse space, then of the factors again.
+    there = iter((1, 1, 2**40, 1, 2**40, 1, 2**40, 1, 1))
     monkeypatch.setattr(pardiso, "free_memory", lambda: next(there))
     monkeypatch.setattr(pardiso, "ALWAYS_THERE", 0)
     assert automatic(three(), three).name == "multigrid"
+    assert automatic(three(), three).name == "pardiso in single precision"
+    assert automatic(three(), three, few=True).name == "multigrid"
     with pytest.raises(TooLarge, match=r"3 unknowns takes 0\.0 GiB of memory, of which 0\.0 are free"):
         automatic(three())
 

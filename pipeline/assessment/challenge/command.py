@@ -22,10 +22,6 @@ from pipeline.command import usable
 Result = TypeVar("Result", Scored, DirtyScored)
 
 
-def _named(it: Outcome | DirtyOutcome) -> bool:
-    return it.score not in ("wrong", "false alarm")
-
-
 CLEAN: Study[Any] = Study(
     name="challenge",
     title="challenge",
@@ -37,7 +33,7 @@ CLEAN: Study[Any] = Study(
     trial=outcome,
     kind=Outcome,
     task=lambda it: (it.number,),
-    right=_named,
+    right=lambda it: it.score not in ("wrong", "false alarm"),
     page=lambda found: page(scored(found)),
     beside=lambda found: {"challenge.json": scored(found).text()},
 )

@@ -32,7 +32,7 @@ def identified(case: Case, s: Specimen, fit: Fit | None, study: MeshStudy) -> Ba
     """The bar's record."""
     mesh, bar = s.space.mesh, s.bar
     r = s.model.reduction
-    factor = s.model.factor(r.others(PLATFORM))
+    factor = s.model.factor(r.others(PLATFORM), few=True)
     raw = s.model.energy_products(s.model.motions(PLATFORM, (), factor))
     stiffness = 0.5 * (raw + raw.T)
     paper = None if case.paper is None else np.array(case.paper.bar_stiffness)

@@ -71,6 +71,8 @@ def test_a_name_that_is_taken_is_refused() -> None:
         bench().add(Taken())
     with pytest.raises(InputError, match="effect 'modulus_eror' is unknown"):
         bench().add("modulus_eror")
+    with pytest.raises(InputError, match=r"\['modulus_error'\] is no effect, allowed are names and effects"):
+        bench().add(["modulus_error"])
 
 
 def test_effects_are_taken_out_again() -> None:

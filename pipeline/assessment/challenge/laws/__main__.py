@@ -2,20 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-
 from pipeline.assessment.challenge.laws.cases import CASES
 from pipeline.assessment.challenge.laws.outcome import LawOutcome, law_outcome
 from pipeline.assessment.challenge.laws.page import law_page
 from pipeline.assessment.challenge.laws.score import law_scored
-from pipeline.assessment.study import Study, Task
-
-
-def tasks(count: int) -> Sequence[Task]:
-    """The first cases with one law, and of the other kinds in proportion."""
-    share = count / CASES["law"]
-    return [(kind, k) for kind, most in CASES.items() for k in range(max(1, round(share * most)))]
-
+from pipeline.assessment.study import Study
 
 STUDY = Study(
     name="laws",
@@ -23,7 +14,10 @@ STUDY = Study(
     of="benches",
     count=CASES["law"],
     counted="Benches with one law; those with two and with none go with it.",
-    tasks=tasks,
+    # Of each kind a share.
+    tasks=lambda count: [
+        (kind, k) for kind, n in CASES.items() for k in range(max(1, count * n // CASES["law"]))
+    ],
     trial=law_outcome,
     kind=LawOutcome,
     task=lambda it: (it.kind, it.number),

@@ -7,7 +7,7 @@ from typing import Any
 import pytest
 
 from pipeline.assessment.challenge.laws import outcome as outcomes
-from pipeline.assessment.challenge.laws.__main__ import STUDY, tasks
+from pipeline.assessment.challenge.laws.__main__ import STUDY
 from pipeline.assessment.challenge.laws.names import FORMS, same_physics
 from pipeline.assessment.challenge.laws.outcome import HiddenLaw, LawOutcome, Place, law_outcome
 from pipeline.assessment.challenge.laws.page import law_page
@@ -90,7 +90,7 @@ def test_a_bench_that_finds_no_state_has_no_answer(monkeypatch: pytest.MonkeyPat
 
 def test_a_stored_run_is_scored_again(tmp_path: Path) -> None:
     store, code = tmp_path / "laws.jsonl", code_digest()
-    wanted = tasks(1)
+    wanted = STUDY.tasks(1)
     assert wanted == [("law", 0), ("pair", 0), *(("clean", k) for k in range(5))]
     kept = [made(k, kind=kind, hidden=(), code=code) for kind, k in wanted]
     store.write_text("".join(each.model_dump_json() + "\n" for each in kept))
