@@ -84,15 +84,19 @@ def _searched(cache: FitCache, begun: Sequence[Names]) -> Found:
         alone = [names for names in starts if len(names - root_of(cache, names)) == 1]
         one = _best(cache, alone or [best])
         best = _built(cache, _best(cache, [best, *(e.names for e in _competing(cache, one, 1))]))
+        best = _exchanged(cache, best)
     return Found(cache, best, ()) if cache.fit(best).rms > cache.criteria.far else with_rivals(cache, best)
 
 
 def _unforeseen(cache: FitCache, start: Names) -> list[Names]:
-    """Far from an explanation, sets with one effect more of which rows choose the side, fitted where a look sees
-    anything of it: what was written about the rig may explain most that it sees, and the rest, how far noise moves a
-    row within a play, it does not see."""
-    if cache.fit(start).rms <= cache.criteria.far or not nominals(cache.whole.campaign):
-        return []
+    """Far from an explanation what was written about the rig may explain most that a look sees of a play, and the rest,
+    how far noise moves a row within it, it does not see."""
+    far = cache.fit(start).rms > cache.criteria.far and nominals(cache.whole.campaign)
+    return _sided(cache, start) if far else []
+
+
+def _sided(cache: FitCache, start: Names) -> list[Names]:
+    """Sets with one effect more of which rows choose the side, where a look sees anything of it: fitted."""
     here = cost(cache, start)
     some = [e for e in estimates(cache, start, (1,)) if e.names != start and e.cost < here]
     some = [e for e in some if all(sided(cache.candidates[name]) for name in e.names - start)]
@@ -114,6 +118,22 @@ def _built(cache: FitCache, best: Names) -> Names:
         best = better
         if slow and cache.fit(best).rms > cache.criteria.far:
             return best
+
+
+def _exchanged(cache: FitCache, best: Names) -> Names:
+    """The best set with one effect in the place of another, as long as more than noise is left: the first effects of a
+    set may be those that look most like several others together (A. J. Miller, Subset Selection in Regression, 2nd ed.,
+    2002, section 3.4)."""
+    while not is_noise(cache, best) and len(cache.fits) < cache.criteria.most_fits:
+        own = best - root_of(cache, best)
+        starts = [best - {n} - {m for m in own if n in cache.candidates[m].includes} for n in sorted(own)]
+        others = [e.names for start in starts if len(own) > 1 for e in _competing(cache, start, 1)[:2]]
+        kinked = [names for start in starts if len(own) > 1 for names in _sided(cache, start)]
+        better = _best(cache, [best, *others, *kinked])
+        if better == best:
+            break
+        best = _built(cache, better)
+    return best
 
 
 def _switched(cache: FitCache, start: Names) -> Names:
@@ -170,14 +190,16 @@ def _looked_up(cache: FitCache, start: Names, count: int) -> list[Estimate]:
     wanted = [e for e in every if len(e.names - start) == count]
     if count == 1 or cache.fit(start).rms > cache.criteria.far:
         return wanted
-    vain = [e for e in every if e not in wanted and e.names in cache.fits and not _smooth(cache, e, start)]
+    vain = [
+        e
+        for e in every
+        if e not in wanted
+        and e.names in cache.fits
+        and any(not cache.candidates[n].smooth for n in e.names - start)
+    ]
     missed = {e.names: cost(cache, e.names) - e.cost for e in vain}
     missed = {one: value for one, value in missed.items() if cost(cache, one) >= cost(cache, start)}
     return [replace(e, cost=e.cost + sum(v for one, v in missed.items() if one < e.names)) for e in wanted]
-
-
-def _smooth(cache: FitCache, e: Estimate, start: Names) -> bool:
-    return all(cache.candidates[name].smooth for name in e.names - start)
 
 
 def _grown(cache: FitCache, start: Names) -> Names:

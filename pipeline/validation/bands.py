@@ -89,10 +89,5 @@ HIGH_MESH = Band(
     "mesh error of the critical load of a higher mode",
     "default run 5.0 %; an upper estimate, for waves along the bar converge faster",
 )
-REFINED = Band(
-    0.01,
-    "share",
-    "error of a load path by its steps, elements or segments",
-    "default run 0.24 %",
-)
+REFINED = Band(0.01, "share", "error of a load path by its steps, elements or segments", "default run 0.24 %")
 TABLE = Band(0.01, "share", "Table 1, virtual springs against frame elements", "default run 1e-8")

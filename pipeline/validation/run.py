@@ -153,13 +153,7 @@ def run(case: Case, detail: Detail, workshop: Workshop, out: Path, typed: str) -
         orthoglide=table,
         errata=springs.errata,
         warnings=alarms(
-            bar,
-            buckling,
-            springs.parallelogram,
-            springs.critical,
-            springs.curves,
-            springs.refinement,
-            table,
+            bar, buckling, springs.parallelogram, springs.critical, springs.curves, springs.refinement, table
         ),
         yield_MPa=case.material.yield_MPa,
         story=story(bar, buckling, springs, table, limit),

@@ -145,13 +145,7 @@ def with_band(
 def torsion_record(supports: str, load: float) -> Buckling:
     """The torsional load by formula."""
     return Buckling(
-        body="bar",
-        model="formula",
-        supports=supports,
-        plane="torsion",
-        mode=1,
-        load_N=load,
-        formula=TORSION,
+        body="bar", model="formula", supports=supports, plane="torsion", mode=1, load_N=load, formula=TORSION
     )
 
 

@@ -3,19 +3,25 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from pathlib import Path
+from types import SimpleNamespace
+from typing import Any
 
 import pytest
 
 from pipeline.assessment.coverage.cases import BASE
 from pipeline.assessment.virtual.bench import measure
 from pipeline.assessment.virtual.plan import GAUGES, SENSORS, PlannedTest, bench_plan
-from pipeline.campaign import Campaign
+from pipeline.campaign import Campaign, read
 from pipeline.inference.load_cases import load_cases
 from pipeline.inference.model import Model
+from pipeline.selection import search
+from pipeline.selection.criteria import CRITERIA
 from pipeline.selection.diagnosis import Diagnosis, diagnose
+from pipeline.selection.first_order_costs import Estimate
 from pipeline.selection.fit_cache import FitCache
 from pipeline.selection.search import _unforeseen
-from pipeline.simulate import bench_rig, scaled
+from pipeline.simulate import bench_rig, scaled, simulate
 from tests.pipeline.selection.bench import AXIAL, COARSE, bench
 from vjm.effects import catalogue
 
@@ -70,3 +76,39 @@ def test_near_an_explanation_a_play_that_alone_finds_nothing_is_in_no_pair() -> 
     assert PLAY not in it.sets[0]
     more = [names for names in it.cache.fits if PLAY in names and names - {PLAY} >= set(it.sets[0])]
     assert [len(names) for names in more] == [len(it.sets[0]) + 1]
+
+
+def test_an_effect_that_hid_others_is_exchanged(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The best single one may look most like two others together: beside one of these the other takes its place."""
+    costs = {"": 90.0, "m": 50.0, "a": 70.0, "b": 80.0, "ma": 40.0, "mb": 49.0, "ab": 10.0}
+    known = {frozenset(names): value for names, value in costs.items()}
+
+    def competing(_: object, start: frozenset[str], count: int) -> list[Estimate]:
+        return [
+            Estimate(names, value, {})
+            for names, value in known.items()
+            if names > start and len(names - start) == count
+        ]
+
+    monkeypatch.setattr(search, "cost", lambda _, names: known.get(names, 95.0))
+    monkeypatch.setattr(search, "is_noise", lambda _, names: known[names] < 20.0)
+    monkeypatch.setattr(search, "root_of", lambda *_: frozenset())
+    monkeypatch.setattr(search, "_competing", competing)
+    monkeypatch.setattr(search, "_sided", lambda *_: [])
+    monkeypatch.setattr(search, "_built", lambda _, names: names)
+    effect = SimpleNamespace(includes=())
+    cache: Any = SimpleNamespace(fits={}, criteria=CRITERIA, candidates=dict.fromkeys("mab", effect))
+    assert search._exchanged(cache, frozenset("ma")) == frozenset("ab")
+    # One alone is what singles were looked at for, and what leaves noise stays.
+    assert search._exchanged(cache, frozenset("m")) == frozenset("m")
+    assert search._exchanged(cache, frozenset("ab")) == frozenset("ab")
+    cache.fits = dict.fromkeys(range(CRITERIA.most_fits))
+    assert search._exchanged(cache, frozenset("ma")) == frozenset("ma")
+
+
+@pytest.mark.long
+def test_a_play_and_a_friction_are_found_where_a_contact_looks_most_like_them(tmp_path: Path) -> None:
+    simulate(tmp_path / "it", ["joint_friction=400", "joint_clearance"], 8, quiet=True)
+    found = diagnose(read(tmp_path / "it"), Model(), catalogue())
+    assert found.verdict == "identified"
+    assert set(found.possible[0]) == {"bar_geometric_nonlinearity", "joint_clearance", "joint_friction"}
