@@ -138,13 +138,8 @@ def _judged(it: Diagnosis, found: Discovery, rival: _Rival, own: Names, begin: f
     # set by that alone.
     doubtful = rival.kinked or not rival.whole
     # A law that holds the effect and more has to be better by what it has more.
-    alone = (
-        -CRITERIA.law_alike
-        if doubtful
-        else 0.0
-        if own <= held_by(found, it.cache.candidates)
-        else CRITERIA.law_named
-    )
+    more = 0.0 if own <= held_by(found, it.cache.candidates) else CRITERIA.law_named
+    alone = -CRITERIA.law_alike if doubtful else more
     if behind > (CRITERIA.law_alike if several and rival.whole else alone):
         return it
     told = _told(found, rival)
