@@ -1,6 +1,6 @@
 """MKL's multithreaded pardiso, called through the library that pypardiso brings.
 
-In single precision a factor takes half of the memory and of the time, and is near enough to a bar's matrix for
+In single precision a factor takes half of the memory and less time, and is near enough to a bar's matrix for
 conjugate gradients in double precision to end in some ten steps.
 The arguments are handed over by ourselves: pypardiso's own call copies the whole index array at every solution.
 Source: Intel oneAPI Math Kernel Library, Developer Reference, "oneMKL PARDISO - parallel direct sparse solver".
