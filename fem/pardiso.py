@@ -93,12 +93,9 @@ class PardisoFactor(Factor):
         self.settings[SINGLE - 1] = handed.dtype == np.float32
         self.threads = 1 if handed.shape[0] < SMALL else cores()
         library().MKL_Set_Num_Threads(self.threads)
-        nothing = np.zeros(1, dtype=handed.dtype)
-        # MKL keeps the factor outside Python's memory.
-        self.release = weakref.finalize(
-            self, call, RELEASE, self.handle, self.settings, handed, nothing, nothing
-        )
         none = np.zeros(handed.shape[0], dtype=handed.dtype)
+        # MKL keeps the factor outside Python's memory.
+        self.release = weakref.finalize(self, call, RELEASE, self.handle, self.settings, handed, none, none)
         self.run(ANALYSE, none, none)
         needed = self.forecast
         if needed > ALWAYS_THERE and needed > (there := free_memory()):
@@ -248,8 +245,8 @@ def cores() -> int:
 
 @cache
 def has_pardiso() -> bool:
-    """Whether MKL's pardiso can be called on this machine."""
-    return importlib.util.find_spec("pypardiso") is not None
+    """Whether MKL's pardiso can be called on this machine, and its memory asked for before."""
+    return all(importlib.util.find_spec(name) is not None for name in ("pypardiso", "psutil"))
 
 
 @cache

@@ -23,12 +23,20 @@ TWO = 3.0
 KINKED = 3.0
 """The same with that for effects with kinks as well: up to 2.6 (an axis that was not zeroed)."""
 
+EXCHANGED = 0.5
+"""Of what is left of a search's work, for effects in the places of others: rivals and faults of sensors come after."""
+
 
 @contextmanager
 def until(cache: FitCache, searches: float) -> Iterator[None]:
     """TooMuch where more is done in it than is left of so many searches."""
     with at_most(searches * cache.work - (spent() - cache.since)):
         yield
+
+
+def for_exchange(cache: FitCache) -> AbstractContextManager[None]:
+    """TooMuch where more is done in it than that."""
+    return at_most(EXCHANGED * (cache.work - (spent() - cache.since)))
 
 
 def for_faults(cache: FitCache) -> AbstractContextManager[None]:

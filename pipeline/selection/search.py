@@ -7,6 +7,7 @@ set that competes is fitted with the full model.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from contextlib import suppress
 from dataclasses import replace
 from itertools import combinations
 
@@ -14,6 +15,7 @@ import numpy as np
 
 from pipeline.inference.nuisances import nominals
 from pipeline.inference.stops import sided
+from pipeline.selection.allotted import for_exchange
 from pipeline.selection.cost import cost, is_noise, root_of
 from pipeline.selection.exclusion import possible
 from pipeline.selection.few_rows import few, grown_by_everything
@@ -123,17 +125,18 @@ def _built(cache: FitCache, best: Names) -> Names:
 def _exchanged(cache: FitCache, best: Names) -> Names:
     """The best set with one effect in the place of another, as long as more than noise is left: the first effects of a
     set may be those that look most like several others together (A. J. Miller, Subset Selection in Regression, 2nd ed.,
-    2002, section 3.4)."""
-    while not is_noise(cache, best) and len(cache.fits) < cache.criteria.most_fits:
-        own = best - root_of(cache, best)
-        starts = [best - {n} - {m for m in own if n in cache.candidates[m].includes} for n in sorted(own)]
-        others = [e.names for start in starts if len(own) > 1 for e in _competing(cache, start, 1)[:2]]
-        kinked = [names for start in starts if len(own) > 1 for names in _sided(cache, start)]
-        better = _best(cache, [best, *others, *kinked])
-        if better == best:
-            break
-        best = _built(cache, better)
-    return best
+    2002, section 3.4). What was found until then where that takes too long."""
+    with suppress(TooMuch), for_exchange(cache):
+        while not is_noise(cache, best) and len(cache.fits) < cache.criteria.most_fits:
+            own = best - root_of(cache, best)
+            starts = [best - {n} - {m for m in own if n in cache.candidates[m].includes} for n in sorted(own)]
+            others = [e.names for start in starts if len(own) > 1 for e in _competing(cache, start, 1)[:2]]
+            kinked = [names for start in starts if len(own) > 1 for names in _sided(cache, start)]
+            better = _best(cache, [best, *others, *kinked])
+            if better == best:
+                break
+            best = _built(cache, better)
+    return _best(cache, [best, *cache.fits])
 
 
 def _switched(cache: FitCache, start: Names) -> Names:

@@ -24,6 +24,7 @@ from pipeline.selection.search import _unforeseen
 from pipeline.simulate import bench_rig, scaled, simulate
 from tests.pipeline.selection.bench import AXIAL, COARSE, bench
 from vjm.effects import catalogue
+from vjm.work import elsewhere, spent
 
 PLAY = "joint_clearance"
 
@@ -97,13 +98,39 @@ def test_an_effect_that_hid_others_is_exchanged(monkeypatch: pytest.MonkeyPatch)
     monkeypatch.setattr(search, "_sided", lambda *_: [])
     monkeypatch.setattr(search, "_built", lambda _, names: names)
     effect = SimpleNamespace(includes=())
-    cache: Any = SimpleNamespace(fits={}, criteria=CRITERIA, candidates=dict.fromkeys("mab", effect))
+    cache: Any = SimpleNamespace(
+        fits={}, criteria=CRITERIA, candidates=dict.fromkeys("mab", effect), work=1e9, since=spent()
+    )
     assert search._exchanged(cache, frozenset("ma")) == frozenset("ab")
     # One alone is what singles were looked at for, and what leaves noise stays.
     assert search._exchanged(cache, frozenset("m")) == frozenset("m")
     assert search._exchanged(cache, frozenset("ab")) == frozenset("ab")
     cache.fits = dict.fromkeys(range(CRITERIA.most_fits))
     assert search._exchanged(cache, frozenset("ma")) == frozenset("ma")
+
+
+def test_what_an_exchange_may_take_leaves_some_for_what_comes_after(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Beyond half of what is left of a search it ends with what was found, not with the search."""
+    names = frozenset("ma")
+    monkeypatch.setattr(search, "cost", lambda *_: 40.0)
+    monkeypatch.setattr(search, "is_noise", lambda *_: False)
+    monkeypatch.setattr(search, "root_of", lambda *_: frozenset())
+    monkeypatch.setattr(search, "_sided", lambda *_: [])
+    asked = list[frozenset[str]]()
+
+    def competing(_: object, start: frozenset[str], __: int) -> list[Estimate]:
+        asked.append(start)
+        elsewhere(60.0)
+        return []
+
+    monkeypatch.setattr(search, "_competing", competing)
+    effect = SimpleNamespace(includes=())
+    cache: Any = SimpleNamespace(
+        fits={}, criteria=CRITERIA, candidates=dict.fromkeys("ma", effect), work=200.0, since=spent()
+    )
+    assert search._exchanged(cache, names) == names and len(asked) == 2
+    assert spent() - cache.since < cache.work
+    assert search._exchanged(cache, names) == names and len(asked) == 3
 
 
 @pytest.mark.long
