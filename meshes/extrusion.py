@@ -29,11 +29,6 @@ def section_sweep(section: Section, resolution: Resolution, thickness: Sequence[
     return drawn(section_mesh(section, resolution), kind_of(section), thickness)
 
 
-def section_solid(section: Section, resolution: Resolution, thickness: Sequence[float]) -> SweptMesh:
-    """The same as `section_sweep` with the solid mesh, whose faces are base and tip."""
-    return solid(section_mesh(section, resolution), kind_of(section), thickness)
-
-
 def stepped_thickness(length: float, counts: Sequence[int]) -> Floats:
     """Thicknesses (n,) mm, thin at both ends: `counts[i]` layers at each end are 2^i times as thick as the first one.
 

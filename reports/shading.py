@@ -9,7 +9,6 @@ from math import log10
 
 from matplotlib.colors import LinearSegmentedColormap, to_hex, to_rgb
 
-Rgb = tuple[float, float, float]
 Stops = tuple[tuple[float, str], ...]
 ATTENTION = 3.0
 """Sigmas below which a misfit is drawn in white and grey: the root mean square of noise stays far below."""

@@ -94,6 +94,10 @@ def linkage(rig: Rig, q_deg: float = 0.0) -> Linkage:
     rig: of `rigs`. q_deg: angle of the bars of a parallelogram, between -90 and 90; other rigs have none. InputError
     for an angle that the rig cannot have; RuntimeError where it has no stiffness.
     """
+    if not isinstance(rig, Rig):
+        raise InputError(
+            f"rig is {rig!r}, allowed is one of parastiff.rigs, as parastiff.rigs.bar(length_mm=...)"
+        )
     if q_deg and not isinstance(rig.mechanism(()), Parallelogram):
         raise InputError(f"q_deg is {q_deg:g}, allowed is 0: a {rig.kind} has no angle of bars")
     if not abs(q_deg) < 90.0:

@@ -74,18 +74,12 @@ class _Top(Table):
 Kind = Rig | type[Rig]
 
 
-def read_model(path: Path, known: Mapping[str, Effect] | None = None, rig: Kind | None = None) -> Model:
-    """The model in a file. known: effects by name; default the catalogue. rig: what it is for, or its class.
+def read_model_file(path: Path, known: Known | None = None, rig: Kind | None = None) -> ModelFile:
+    """The model in a file with what it says of itself. known: default the catalogue. rig: what it is for, or its class.
 
     BadCampaign, an InputError, names file, line and key, what was found and what is allowed, for every mistake.
     """
-    return read_model_file(path, None if known is None else Known(known, {}), rig).model
-
-
-def read_model_file(path: Path, known: Known | None = None, rig: Kind | None = None) -> ModelFile:
-    """The model in a file with what it says of itself; complaints as above."""
-    complaints = Complaints(str(path))
-    return _Reader(_text(path), path, complaints).read(known, rig)
+    return _Reader(_text(path), path, Complaints(str(path))).read(known, rig)
 
 
 def _text(path: Path) -> str:

@@ -15,6 +15,7 @@ from reports.quantities import short
 
 Array = NDArray[np.float64]
 Span = tuple[float, float]
+ROUNDING = 1e-9
 EDGE = 0.01
 """Of a range, by which a number must lie beyond it: readings at its edge have noise."""
 
@@ -54,11 +55,19 @@ class Ranges:
         """What of the inputs and predicted readings of a row lies beyond, by column."""
         for column, value in columns.items():
             span = self.spans.get(column)
-            if span is None:
-                if value:
-                    yield f"{column} {short(value)}, in no fitted test"
-            elif _beyond(value, span):
+            # What nothing moves is predicted as zero or as the rounding of what others of its unit are.
+            small = abs(value) <= ROUNDING * self._largest(column)
+            if span is None and not small:
+                yield f"{column} {short(value)}, in no fitted test"
+            elif span is not None and not small and _beyond(value, span):
                 yield _said(column, value, span)
+
+    def _largest(self, column: str) -> float:
+        """Size of what was fitted in the unit of a column."""
+        unit = column.rpartition("_")[2]
+        return max(
+            (max(map(abs, s)) for c, s in self.spans.items() if c.rpartition("_")[2] == unit), default=0.0
+        )
 
 
 def _columns(test: Test, campaign: Campaign) -> Iterator[tuple[str, Array]]:
@@ -78,7 +87,7 @@ def _columns(test: Test, campaign: Campaign) -> Iterator[tuple[str, Array]]:
 
 def _beyond(value: float, span: Span) -> bool:
     low, high = span
-    margin = EDGE * (high - low) + 1e-9 * max(abs(low), abs(high))
+    margin = EDGE * (high - low) + ROUNDING * max(abs(low), abs(high))
     return not low - margin <= value <= high + margin
 
 

@@ -21,6 +21,7 @@ from pipeline.selection.adequacy.constancy import departures
 from pipeline.selection.adequacy.patterns import Shape, left_of, shapes
 from pipeline.selection.cost import cost, misfit
 from pipeline.selection.criteria import Criteria
+from pipeline.selection.determined import blind
 from pipeline.selection.faulty_sensor import shapes_of
 from pipeline.selection.first_order_costs import estimates
 from pipeline.selection.fit_cache import FitCache, Names
@@ -34,8 +35,8 @@ def certain(found: Found, sets: tuple[Names, ...], doubted: Collection[str] = ()
     """Names of the effects with numbers that are in all sets of a verdict and that nothing else replaces. doubted:
     those in whose place a fault of a sensor explains as much. None where a number of the first set is held back, at its
     bound or by how plausible it is: what it may not explain others take up. None of an effect of which some tests would
-    have twice as much, or nothing: there it is another. None where the search ended before its rivals and what the
-    readings are were looked at."""
+    have twice as much, or nothing: there it is another; none of which no number is determined. None where the search
+    ended before its rivals and what the readings are were looked at."""
     if found.ended:
         return ()
     cache, criteria = found.cache, found.cache.criteria
@@ -53,7 +54,10 @@ def certain(found: Found, sets: tuple[Names, ...], doubted: Collection[str] = ()
     beside = misfit(cache, best) - mine[0]
     needed = (criteria.certain_sigmas * max(1.0, fit.rms)) ** 2
     least = mine[count] + beside + needed
-    return tuple(name for name in names if _beaten(cache, best, name, count + criteria.certain_more, least))
+    sure = tuple(it for it in names if _beaten(cache, best, it, count + criteria.certain_more, least))
+    # Of two that do the same each is missed where the other is at the end of what it may be.
+    unseen = blind(fit, cache.whole) if sure else frozenset()
+    return tuple(name for name in sure if name not in unseen)
 
 
 def _inconstant(fit: Fit, criteria: Criteria) -> Iterator[str]:

@@ -20,6 +20,14 @@ def undetermined(found: Fit, whole: LoadCases) -> tuple[str, ...]:
     return tuple(each.name for k, each in enumerate(found.model.free) if not has_an_end(land, k))
 
 
+def blind(found: Fit, whole: LoadCases) -> frozenset[str]:
+    """Names of the effects with numbers of which the data determine none: of two that do the same, each is."""
+    told = undetermined(found, whole)
+    names = (term.effect.name for term in found.model.terms)
+    numbers = {name: [free.name for free in found.model.free if free.effect == name] for name in names}
+    return frozenset(name for name, its in numbers.items() if its and set(its) <= set(told))
+
+
 def determined(found: Fit, whole: LoadCases, criteria: Criteria) -> Fit:
     """The fit with numbers that nothing determines put at their null and left there, those that show least first.
 
@@ -28,8 +36,8 @@ def determined(found: Fit, whole: LoadCases, criteria: Criteria) -> Fit:
     as many numbers as there are combinations. The same fit where all are determined, or where it would leave more.
     """
     here = found
-    while blind := tuple(dict.fromkeys((*undetermined(here, whole), *at_bound(here.model)))):
-        fewer = _with_one_less(here, blind, whole, criteria, found.chi_square)
+    while unseen := tuple(dict.fromkeys((*undetermined(here, whole), *at_bound(here.model)))):
+        fewer = _with_one_less(here, unseen, whole, criteria, found.chi_square)
         if fewer is None:
             return found
         here = fewer
@@ -37,7 +45,7 @@ def determined(found: Fit, whole: LoadCases, criteria: Criteria) -> Fit:
 
 
 def _with_one_less(
-    here: Fit, blind: Sequence[str], whole: LoadCases, criteria: Criteria, least: float
+    here: Fit, unseen: Sequence[str], whole: LoadCases, criteria: Criteria, least: float
 ) -> Fit | None:
     """The fit with one of these numbers at null that leaves hardly more than the least; None where each leaves more.
 
@@ -45,8 +53,8 @@ def _with_one_less(
     other at its usual size tells the product.
     """
     free = {each.name: k for k, each in enumerate(here.model.free)}
-    sizes = {n: float(np.linalg.norm(here.jacobian[:, free[n]])) * _typical(here, free[n]) for n in blind}
-    for name in sorted(blind, key=lambda each: sizes[each]):
+    sizes = {n: float(np.linalg.norm(here.jacobian[:, free[n]])) * _typical(here, free[n]) for n in unseen}
+    for name in sorted(unseen, key=lambda each: sizes[each]):
         fewer = fit(_nulled(here.model, name), whole, here.prediction, None, criteria.plausible)
         if fewer.chi_square <= least + criteria.undetermined_rise:
             return fewer

@@ -34,7 +34,7 @@ from pipeline.selection.allotted import BESIDE, KINKED, MISTAKES, TWO, until
 from pipeline.selection.criteria import Criteria
 from pipeline.selection.faulty_sensor import least_with_a_fault
 from pipeline.selection.fit_cache import FitCache, Names
-from pipeline.selection.mended_table import Left, Table, prescribed
+from pipeline.selection.mended_table import Left, Table, is_far, prescribed
 from pipeline.selection.mistakes import possible
 from pipeline.selection.mistakes.base import Mistake, columns_of, with_readings
 from pipeline.selection.signatures import look
@@ -80,14 +80,12 @@ def suspicions(cache: FitCache) -> tuple[Suspicion, ...]:
         with _told(found), until(cache, KINKED):
             enough = [max(it.after, noise) * criteria.doctor_factor / share for it in found]
             kinked = _least_with_kinks(cache, table, enough)
-        found = [
-            it for it in found if not kinked.clears(it.after / share, noise / share, criteria.doctor_factor)
-        ]
-    least = max(min((it.after for it in found), default=0.0), noise)
+        if all(kinked.clears(it.after / share, noise / share, criteria.doctor_factor) for it in found):
+            return ()
+    least = max(min(it.after for it in found), noise)
     kept = [it for it in found if it.after < least + criteria.doctor_tie * least / noise]
     # Less than one of chi-square says nothing: then in the order of the columns.
-    names = columns_of(cache.whole.campaign)
-    return tuple(sorted(kept, key=lambda it: (int(it.after - least), *_place(it.mistake, names))))
+    return tuple(sorted(kept, key=lambda it: (int(it.after - least), *_place(it.mistake, cache.whole))))
 
 
 @contextmanager
@@ -100,9 +98,9 @@ def _told(found: Sequence[Suspicion]) -> Iterator[None]:
         raise TooMuch(f"{error}; until then it looked as if {words}: check that by hand") from error
 
 
-def _place(mistake: Mistake, names: Sequence[str]) -> tuple[int, int]:
+def _place(mistake: Mistake, whole: LoadCases) -> tuple[int, int]:
     """How many columns have a mistake, and where the first of them stands."""
-    places = [names.index(column) for column in mistake.columns if column in names]
+    places = [k for k, name in enumerate(columns_of(whole.campaign)) if name in mistake.columns]
     return len(mistake.columns), min(places, default=0)
 
 
@@ -142,13 +140,13 @@ def _mended(table: Table, cache: FitCache) -> list[Suspicion]:
 
 
 def _better_than_two(table: Table, found: list[Suspicion]) -> list[Suspicion]:
-    """Of these those that explain more than two smooth effects: a table may be right and the rig lack two, of which
-    neither alone explains most."""
+    """These, where one explains more than two smooth effects, as ties of it explain as much; else none: a table may be
+    right and the rig lack two, of which neither alone explains most."""
     noise, criteria = max(table.fit.degrees, 1), table.cache.criteria
     factor = criteria.doctor_factor
     rival = factor * criteria.doctor_far * max(noise, min(it.after for it in found))
     two = table.beside_rival(rival).left_by_two({it.beside for it in found})
-    return [it for it in found if not two.clears(it.after, noise, factor)]
+    return [] if all(two.clears(it.after, noise, factor) for it in found) else found
 
 
 def _least_with_kinks(cache: FitCache, table: Table, enough: Sequence[float]) -> Left:
@@ -200,28 +198,29 @@ def _looked_at(
     from an explanation are slow, so that they are made of the table as it is and of what may be right alone. known:
     those that were found before, of which one that leaves far more is no tie."""
     criteria, enough, skipped = table.cache.criteria, list[tuple[Mistake, Table]](), False
-    share, near = 1.0 / criteria.doctor_fitted, criteria.doctor_factor * max(table.fit.degrees, 1)
+    share, noise = 1.0 / criteria.doctor_fitted, max(table.fit.degrees, 1)
+    near = criteria.doctor_factor * noise
     plain = _without_buckling(table, mistakes)
     for alone, mistake, mended in plain:
         if any(it.after < near for it in known) or any(it.first_order < near for _, it in enough):
-            if alone > criteria.doctor_far * plain[0][0]:
+            if alone > criteria.doctor_far * max(plain[0][0], noise):
                 continue
             share = BESIDE
         left = _within_its_share(mended, attrgetter("first_order"), share)
         skipped |= left is None
-        if left is not None and left * criteria.doctor_factor < min(table.first_order, fault):
+        if left is not None and left * criteria.doctor_factor < min(table.alone, fault):
             enough.append((mistake, mended))
     out: list[Suspicion] = []
     if not enough:
         return out, skipped
-    before = min(table.first_order, table.plain.first_order, fault)
+    before = min(table.alone, table.plain.alone, fault)
     least = min(mended.first_order for _, mended in enough)
     if before < criteria.doctor_sure * least or table.leaves_bounds:
         table = table.beside_rival(criteria.doctor_factor * criteria.doctor_far * max(least, near))
         before = min(before, table.left[0])
     for mistake, mended in sorted(enough, key=lambda it: it[1].first_order):
         there = [it.after for it in (*known, *out)]
-        if there and mended.first_order > criteria.doctor_far * min(there):
+        if there and mended.first_order > criteria.doctor_far * max(min(there), noise):
             continue
         told = _within_its_share(
             mended,
@@ -252,27 +251,13 @@ def _suspicion(mended: Table, mistake: Mistake, before: float, table: Table) -> 
     prescribes = prescribed(mended.cache.whole, mistake)
     # With zeros in its columns far more has to be left than with what they prescribe.
     silent = _silenced(mended, mistake).first_order if prescribes else np.inf
-    if silent <= mended.first_order + criteria.doctor_explains:
-        return ()
-    if mended.left[0] * criteria.doctor_factor > before:
+    silences = silent <= mended.first_order + criteria.doctor_explains
+    if silences or mended.left[0] * criteria.doctor_factor > before:
         return ()
     larger = _size(mended, mistake) >= (1.0 - ROUNDING) * _size(table, mistake)
     heard = larger or (prescribes and silent > criteria.doctor_follows * mended.first_order)
-    if not _explained(mended.cache.fit(mended.left[1]), mistake, criteria, heard):
-        return ()
-    return (Suspicion(mistake, before, *mended.left, heard or _follows(mended, mistake)),)
-
-
-def _follows(mended: Table, mistake: Mistake) -> bool:
-    """Whether the model predicts what the columns of a mistake read, with no further number that could be fitted to
-    them: no kink makes a column a multiple of what it is."""
-    criteria = mended.cache.criteria
-    loud = [
-        signal > criteria.doctor_follows * left
-        for signal, left, count in _signals(mended.fit, mistake)
-        if signal > criteria.doctor_explains * count
-    ]
-    return bool(loud) and all(loud)
+    explained = _explained(mended.cache.fit(mended.left[1]), mistake, criteria, heard)
+    return (Suspicion(mistake, before, *mended.left, heard),) if explained else ()
 
 
 def _size(table: Table, mistake: Mistake) -> float:
@@ -295,11 +280,11 @@ def _within_its_share(mended: Table, look: Callable[[Table], T], share: float) -
 def _promising(table: Table) -> list[Mistake]:
     """Those that a first-order look at all does not exclude: the best of each kind, then the others, best first."""
     criteria, whole, base = table.cache.criteria, table.cache.whole, table.fit
-    before = table.first_order
-    if min(before, table.plain.first_order) < criteria.doctor_factor * max(base.degrees, 1):
+    before = table.alone
+    if min(before, table.plain.alone) < criteria.doctor_factor * max(base.degrees, 1):
         return []
-    linear = predict_linear(whole)
-    out: list[tuple[float, Mistake]] = []
+    linear, far = predict_linear(whole), is_far(base)
+    out: list[tuple[bool, float, Mistake]] = []
     for mistake in possible(whole.campaign, criteria):
         mended = mistake.mended(whole.campaign)
         cases = load_cases(mended)
@@ -308,14 +293,17 @@ def _promising(table: Table) -> list[Mistake]:
         ]
         fits = [Fit(base.model, there, residual(cases, there), 0) for there in every]
         found = min(fits, key=lambda it: it.chi_square)
-        # What leaves more when it is mended is none.
-        left = table.first_order_of(found) if found.chi_square < base.chi_square else np.inf
+        # What leaves more when it is mended is none, unless the model then predicts what it did not before.
+        off = is_far(found)
+        better = far or found.chi_square < base.chi_square
+        left = table.first_order_of(found) if better else np.inf
         if left * criteria.doctor_look < before:
-            out.append((left, mistake))
-    out.sort(key=lambda it: it[0])
+            out.append((off, left, mistake))
+    out.sort(key=lambda it: it[:2])
     # One of each kind first: several units that silence a column leave alike, and a sign with what it spoilt more.
-    best = {mistake.kind: mistake for _, mistake in reversed(out)}
-    return [mistake for _, mistake in sorted(out, key=lambda it: best[it[1].kind] is not it[1])]
+    best = {mistake.kind: mistake for *_, mistake in reversed(out)}
+    out.sort(key=lambda it: (it[0], best[it[2].kind] is not it[2]))
+    return [mistake for *_, mistake in out]
 
 
 def _foreseen(base: Prediction, whole: LoadCases, cases: LoadCases, linear: Prediction) -> Iterator[Array]:

@@ -18,12 +18,15 @@ from pipeline.inference.declared_sigmas import trusted
 from pipeline.inference.fit import Fit
 from pipeline.inference.load_cases import LoadCases, load_cases
 from pipeline.inference.prior import in_tails
+from pipeline.inference.suitable import scale_for, sized_model
 from pipeline.selection.cost import misfit
 from pipeline.selection.criteria import Criteria
+from pipeline.selection.determined import blind
 from pipeline.selection.first_order import FirstOrder
 from pipeline.selection.first_order_costs import estimates
 from pipeline.selection.fit_cache import FitCache, Names
 from pipeline.selection.mistakes.base import Mistake, columns_of
+from vjm.effects.sized import all_sized
 
 Array = NDArray[np.float64]
 
@@ -37,6 +40,16 @@ def prescribed(cases: LoadCases, mistake: Mistake) -> bool:
     """Whether a column of a mistake prescribes anything."""
     names = np.isin(columns_of(cases.campaign), mistake.columns)
     return bool(np.any(np.isin(cases.channels, np.flatnonzero(names))))
+
+
+def is_far(found: Fit) -> bool:
+    """Whether a fit is off by more than half of what is read or predicted, as with every unit but the true one: there
+    a first-order look says nothing."""
+    cases, it = found.residual.load_cases, found.prediction
+    there = cases.predicted & cases.fitted[:, None] & ~it.lost[:, None]
+    read, said, sigma = (values[there] for values in (cases.measured, it.values, cases.spread))
+    size = np.maximum(np.abs(read), np.abs(said))
+    return bool(np.sum(((read - said) / sigma) ** 2) > 0.25 * np.sum((size / sigma) ** 2))
 
 
 @dataclass(frozen=True)
@@ -97,6 +110,13 @@ class Table:
         return max(found.chi_square - max(gains, default=0.0), 0.0)
 
     @cached_property
+    def alone(self) -> float:
+        """What the best single effect leaves of the table as it is: to first order, which says nothing of readings that
+        are a few times what is predicted (dials in inches are a modulus of 25 times, far from null): then fitted."""
+        near = self.first_order < self.cache.criteria.doctor_factor * max(self.fit.degrees, 1)
+        return self.left[0] if near and is_far(self.fit) else self.first_order
+
+    @cached_property
     def leaves_bounds(self) -> bool:
         """Whether an effect would explain most with a number beyond its bounds, to first order: what it does within
         them only a fit can tell."""
@@ -154,16 +174,19 @@ class Table:
             two += some
         out = Left(self.left[0])
         for names in (*self.sets, *two):
-            out = out.or_that(cache.fit(names), misfit(cache, names), cache.criteria)
+            new = out.or_that(cache.fit(names), misfit(cache, names), cache.criteria)
+            # Two that do the same go beyond what one of them may be.
+            if new != out and (names in self.sets or not blind(cache.fit(names), cache.whole)):
+                out = new
         return out
 
     def mended(self, mistake: Mistake) -> Table:
         """The table without a mistake, with the sigmas that its scatter then allows. Where it prescribes otherwise no
         state and no number of the table as it is is near."""
-        it = self.cache
-        cases = load_cases(trusted(mistake.mended(it.whole.campaign), it.base))
+        it, campaign = self.cache, mistake.mended(self.cache.whole.campaign)
+        # Bars that are a thousand times stiffer have other typical sizes.
+        base, candidates = sized_model(it.base, campaign), all_sized(it.candidates, scale_for(campaign))
+        cases = load_cases(trusted(campaign, base))
         before = None if prescribed(it.whole, mistake) else it
-        new = FitCache(
-            cases, it.base, it.candidates, it.on_progress, it.criteria, before=before, since=it.since
-        )
+        new = FitCache(cases, base, candidates, it.on_progress, it.criteria, before=before, since=it.since)
         return replace(self, cache=new)

@@ -79,8 +79,8 @@ class TableCriteria:
         25.0,
         FACTOR,
         "doctor",
-        "by which chi-square of a column is more than what is left of it, for a mistake that makes it smaller not to "
-        "silence it; with zeros in the columns that it prescribes so much more is left",
+        "by which more is left with zeros in the columns that a mistake prescribes, for one that makes them smaller "
+        "not to silence them",
     )
     doctor_fitted: int = criterion(4, COUNT, "doctor", "mistakes that are fitted, those that promise most")
     doctor_steps: int = criterion(100, COUNT, "doctor", "load steps in which mistakes are looked for")

@@ -7,13 +7,6 @@ from reports.campaign.names import measured
 from reports.load import Json
 from reports.quantities import estimate, interval_text, value_text
 
-VERDICTS = {
-    "identified": "Identified",
-    "within_noise": "Within noise",
-    "ambiguous": "Ambiguous",
-    "unknown": "Unknown",
-    "nothing_tested": "Nothing tested",
-}
 PLAIN = "the model as it stands"
 _UNIT = r"(?:Nmm|mm|rad|deg|N|K|C)(?:\d+)?"
 _PARAMETER = re.compile(rf"\b([a-z]\w*?)_{_UNIT}(?:_per_\w+)?(?= (?:=|not determined|fixed|at its bound))")

@@ -9,9 +9,10 @@ import pytest
 
 from fem.rigid_motions import rigid_motions
 from fem.slices.stiffness import chain_stiffness
-from meshes.extrusion import section_solid, stepped_thickness
+from meshes.extrusion import stepped_thickness
 from meshes.resolution import Resolution
 from tests.fem import bar_p
+from tests.meshes.solids import section_solid
 from tests.peers import calculix
 
 pytestmark = [

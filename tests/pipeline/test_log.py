@@ -10,7 +10,7 @@ from typer.testing import CliRunner
 
 from pipeline.campaign import write
 from pipeline.cli import app
-from pipeline.inference.model_reading import read_model
+from pipeline.inference.model_reading import read_model_file
 from pipeline.log import ROOT
 from tests.pipeline.bench import bench
 
@@ -37,7 +37,9 @@ def test_a_fit_is_traced_step_by_step_and_ends_as_without(tmp_path: Path) -> Non
     log = tmp_path / "fit.log"
     log.write_text("what was there\n")
     added(tmp_path / "logged", "--log", str(log))
-    one, other = (read_model(tmp_path / name / "model.toml").values for name in ("plain", "logged"))
+    one, other = (
+        read_model_file(tmp_path / name / "model.toml").model.values for name in ("plain", "logged")
+    )
     assert one.tolist() == other.tolist()
     text = log.read_text()
     assert text.startswith("what was there\n")

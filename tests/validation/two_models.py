@@ -12,10 +12,10 @@ from fem.frame import bench
 from fem.frame.errors import Errors
 from fem.frame.rig import Gauge, Rig
 from meshes.solid import Floats
+from tests.vjm.load_paths import load_path
 from vjm.effects import base as effects_base
 from vjm.effects import catalogue
 from vjm.effects.thermal_expansion import DRIVE
-from vjm.equilibrium import load_path
 from vjm.mechanisms.assembly import GaugeAt
 from vjm.mechanisms.bar import Bar
 from vjm.mechanisms.parallelogram import Parallelogram

@@ -8,10 +8,11 @@ import numpy as np
 import pytest
 
 from tests.vjm.beams import BAR_P
+from tests.vjm.load_paths import load_path
 from tests.vjm.strategies import LENGTH, WIDTH
 from vjm import paper
 from vjm.bars import compliance_at_tip
-from vjm.equilibrium import equilibrium, load_path, unloaded
+from vjm.equilibrium import equilibrium, unloaded
 from vjm.laws import Linear
 from vjm.link import Link
 from vjm.lumped import Lumped

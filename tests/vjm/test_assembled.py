@@ -12,10 +12,11 @@ import pytest
 from fem.frame import bench
 from fem.frame.errors import Errors
 from fem.frame.rig import Rig as FrameRig
+from tests.vjm.load_paths import load_path
 from vjm import lagrangian, paper
 from vjm.effects import catalogue
 from vjm.effects.base import Rig
-from vjm.equilibrium import Equilibrium, drive_values, load_path
+from vjm.equilibrium import Equilibrium, drive_values
 from vjm.frames import Array
 from vjm.history import by_history
 from vjm.mechanism import initial_memory

@@ -10,10 +10,11 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from tests.vjm.beams import BAR_P
+from tests.vjm.load_paths import load_path
 from tests.vjm.strategies import LENGTH, WIDTH, fixed_seed
 from vjm import paper, stiffness
 from vjm.effects.joint_friction import Jenkins
-from vjm.equilibrium import equilibrium, load_path
+from vjm.equilibrium import equilibrium
 from vjm.laws import Adding, Law, Linear, Polynomial, Spring
 from vjm.link import Link
 from vjm.mechanism import ElasticChain

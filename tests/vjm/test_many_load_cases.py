@@ -8,9 +8,10 @@ from typing import get_args
 import numpy as np
 import pytest
 
+from tests.vjm.load_paths import load_path
 from tests.vjm.strategies import LENGTH, WIDTH
 from vjm import paper
-from vjm.equilibrium import Equilibrium, equilibrium, load_path, unloaded
+from vjm.equilibrium import Equilibrium, equilibrium, unloaded
 from vjm.lumped import SpringAt
 from vjm.mechanisms.parallelogram import Parallelogram
 from vjm.refined import Refined

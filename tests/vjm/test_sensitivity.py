@@ -10,10 +10,11 @@ import pytest
 
 from fem.beam import uniform_stiffness
 from tests.vjm.beams import BAR_P
+from tests.vjm.load_paths import load_path
 from tests.vjm.strategies import LENGTH, WIDTH
 from vjm import paper
 from vjm.effects.joint_friction import Jenkins
-from vjm.equilibrium import Equilibrium, equilibrium, load_path
+from vjm.equilibrium import Equilibrium, equilibrium
 from vjm.laws import Polynomial
 from vjm.mechanism import Mechanism
 from vjm.mechanisms.assembly import GaugeAt

@@ -7,10 +7,11 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from tests.vjm.load_paths import load_path
 from tests.vjm.strategies import LENGTH, WIDTH
 from vjm import paper
 from vjm.effects.joint_friction import Jenkins
-from vjm.equilibrium import equilibrium, load_path
+from vjm.equilibrium import equilibrium
 from vjm.frames import adjoint, exp, log
 from vjm.mechanisms.assembly import GaugeAt
 from vjm.mechanisms.parallelogram import Parallelogram

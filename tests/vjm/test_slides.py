@@ -7,11 +7,12 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from tests.vjm.load_paths import load_path
 from vjm import paper
 from vjm.clearance import Clearance
 from vjm.effects.base import for_bars
 from vjm.effects.contact_stiffening import Contact
-from vjm.equilibrium import equilibrium, load_path, nearby
+from vjm.equilibrium import equilibrium, nearby
 from vjm.increments import UNSURE
 from vjm.mechanisms.parallelogram import Parallelogram
 from vjm.slides import with_slides

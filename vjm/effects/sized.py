@@ -86,7 +86,8 @@ def _sizes(stiffness: Array) -> tuple[float, float]:
 
 def sized(effect: Effect, scale: Scale) -> Effect:
     """The effect with typical sizes, bounds and probes of a rig; a user's own effect stays as it is."""
-    if scale == Scale() or not shipped(effect) or not effect.parameters:
+    as_it_is = scale == Scale() and effect.parameters == type(effect).parameters
+    if as_it_is or not shipped(effect) or not effect.parameters:
         return effect
     return effect.sized_by(scale.of)
 

@@ -101,13 +101,17 @@ GROUPS = {
     "all displacements": TRAVELS,
     "all rotations": TURNS,
 }
+ALIKE = {"_mm": "readings in mm", "_rad": "readings in rad"}
+"""By the end of a column's name: of platform and gauges together."""
 
 
 def groups(campaign: Campaign) -> dict[str, tuple[str, ...]]:
     """Each column that was read, and groups of several, by what to call them."""
     there = read(campaign)
     out: dict[str, tuple[str, ...]] = {name: (name,) for name in there}
-    for words, names in GROUPS.items():
+    # Dials on the bars are of the same make as those at the platform.
+    every = {f"all {words}": [name for name in there if name.endswith(unit)] for unit, words in ALIKE.items()}
+    for words, names in (GROUPS | every).items():
         mine = tuple(name for name in names if name in there)
         if len(mine) > 1 and mine not in out.values():
             out[words] = mine

@@ -14,23 +14,30 @@ from pipeline.campaign.mapped.units import INCH, LBF, UNITS
 from pipeline.selection.criteria import Criteria
 from pipeline.selection.mistakes.base import FORCES, MOMENTS, Mistake, groups, times, verb
 
-KGF, THOUSAND, DEGREE = (UNITS[name].factor for name in ("kgf", "kN", "°"))
+KGF, TEN, THOUSAND, DEGREE = (UNITS[name].factor for name in ("kgf", "daN", "kN", "°"))
 POUND = round(LBF, 7)
 """N, as tables of factors print it."""
-FORCE = {"kgf": KGF, "lbf": POUND, "kN": THOUSAND, "mN": 1.0 / THOUSAND}
+FORCE = {"kgf": KGF, "daN": TEN, "lbf": POUND, "kN": THOUSAND, "mN": 1.0 / THOUSAND}
 MOMENT = {
     "N·m": THOUSAND,
+    "N·cm": TEN,
     "kgf·mm": KGF,
     "kgf·m": THOUSAND * KGF,
     "kgf·cm": UNITS["kgf·cm"].factor,
     "lbf·in": POUND * INCH,
     "N·µm": 1.0 / THOUSAND,
 }
-LENGTH = {"m": THOUSAND, "in": INCH, "µm": 1.0 / THOUSAND, "thousandths of an inch": INCH / THOUSAND}
+LENGTH = {
+    "m": THOUSAND,
+    "cm": TEN,
+    "inches": INCH,
+    "µm": 1.0 / THOUSAND,
+    "thousandths of an inch": INCH / THOUSAND,
+}
 TURN = {"degrees": DEGREE, "mrad": 1.0 / THOUSAND}
 BOTH = {"kgf": KGF, "lbf": POUND}
 """Of forces and moments together."""
-KNOWN = {"thousandths of an inch": "thou", "degrees": "°"}
+KNOWN = {"inches": "in", "thousandths of an inch": "thou", "degrees": "°"}
 """How the files spell a unit that is said in words."""
 MEANT = {"N": FORCE, "Nmm": MOMENT, "mm": LENGTH, "rad": TURN}
 WRITTEN = {"N": "N", "Nmm": "N·mm", "mm": "mm", "rad": "rad"}

@@ -20,12 +20,13 @@ from fem.slices.solver import ChainFactor, ChainSolver
 from fem.solvers import direct
 from fem.space import Space
 from meshes.bar import Bar, Lug
-from meshes.extrusion import section_solid, stepped_thickness
+from meshes.extrusion import stepped_thickness
 from meshes.layers import as_sweep
 from meshes.resolution import Resolution
 from meshes.solid import SolidMesh
 from meshes.store import mesh_bar
 from tests.fem import bar_p
+from tests.meshes.solids import section_solid
 
 LUG = Lug(6.0, 12.0, 15.5)
 

@@ -16,7 +16,7 @@ from pipeline.compare.models import compare_models
 from pipeline.errors import InputError
 from pipeline.inference.model import Model
 from pipeline.inference.model_file import ModelFile, write_model
-from pipeline.inference.model_reading import read_model
+from pipeline.inference.model_reading import read_model_file
 from pipeline.manipulator.description import SHIPPED
 from tests.pipeline.campaign.example import CSV, TOML
 from tests.pipeline.inference import manipulators
@@ -113,9 +113,9 @@ def test_a_parallelogram_has_no_point(tmp_path: Path) -> None:
 def test_a_saved_model_of_a_manipulator_is_that_of_its_parallelograms(tmp_path: Path) -> None:
     model = Model().with_effects([catalogue()["axis_flexibility"]])
     write_model(tmp_path / "model.toml", ModelFile(model))
-    assert read_model(tmp_path / "model.toml", rig=ManipulatorRig).names == ("axis_flexibility",)
+    assert read_model_file(tmp_path / "model.toml", rig=ManipulatorRig).model.names == ("axis_flexibility",)
     with pytest.raises(InputError, match="needs a rig of kind parallelogram, not bar"):
-        read_model(tmp_path / "model.toml", rig=BarRig)
+        read_model_file(tmp_path / "model.toml", rig=BarRig)
 
 
 def test_a_campaign_on_a_machine_without_a_parallelogram(tmp_path: Path) -> None:

@@ -298,3 +298,8 @@ def test_functions_take_a_bench_a_campaign_a_folder_or_a_result() -> None:
     assert parastiff.plan(campaign).record == parastiff.plan(folder).record == ambiguous().plan().record
     with pytest.raises(InputError, match="3 is no bench, allowed are"):
         parastiff.plan(3)  # type: ignore[arg-type]
+
+
+def test_a_linkage_is_asked_of_a_rig() -> None:
+    with pytest.raises(InputError, match=r"^rig is 310, allowed is one of parastiff\.rigs"):
+        parastiff.linkage(310, 80)  # type: ignore[arg-type]

@@ -14,9 +14,10 @@ from pipeline.inference.model import Model
 from pipeline.inference.prediction import predict
 from pipeline.selection.signatures import probed
 from tests.pipeline.selection.bench import bench
+from tests.vjm.load_paths import load_path
 from vjm.effects import catalogue
 from vjm.effects.base import Rig
-from vjm.equilibrium import Equilibrium, load_path
+from vjm.equilibrium import Equilibrium
 from vjm.lagrangian import layout
 from vjm.reasons import Reason
 

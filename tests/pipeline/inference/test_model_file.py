@@ -12,7 +12,7 @@ from pipeline.campaign import BarRig, ParallelogramRig
 from pipeline.errors import InputError
 from pipeline.inference.model import Model, Term
 from pipeline.inference.model_file import ModelFile, Uncertainty, model_text, write_model
-from pipeline.inference.model_reading import read_model, read_model_file
+from pipeline.inference.model_reading import read_model_file
 from pipeline.inference.suitable import Known, known_effects
 from vjm.effects.base import Effect
 from vjm.tolerances import tolerances
@@ -103,7 +103,7 @@ def test_the_file_says_units_and_meaning_and_the_order_of_the_effects(tmp_path: 
     text = (tmp_path / "model.toml").read_text(encoding="utf-8")
     assert text.index("modulus_error") < text.index("axis_flexibility")
     assert "radial_mm_per_N = 2e-06 # mm/N, give of one hinge across its axis" in text
-    assert read_model(tmp_path / "model.toml", KNOWN.effects) == model
+    assert read_model_file(tmp_path / "model.toml", KNOWN).model == model
 
 
 def test_a_file_edited_by_hand_is_read(tmp_path: Path) -> None:
@@ -225,11 +225,11 @@ def test_an_effect_that_this_rig_cannot_have_is_refused(tmp_path: Path) -> None:
     effect = next(e for e in KNOWN.effects.values() if e.kinds == ("parallelogram",))
     path = tmp_path / "model.toml"
     write_model(path, ModelFile(Model((Term(effect, effect.typicals),))))
-    assert read_model(path, KNOWN.effects, ParallelogramRig).names == (effect.name,)
+    assert read_model_file(path, KNOWN, ParallelogramRig).model.names == (effect.name,)
     with pytest.raises(
         InputError, match=f"effect '{effect.name}': needs a rig of kind parallelogram, not bar"
     ):
-        read_model(path, KNOWN.effects, BarRig)
+        read_model_file(path, KNOWN, BarRig)
 
 
 def test_a_file_that_cannot_be_written_is_said_and_leaves_the_old_one(tmp_path: Path) -> None:

@@ -7,10 +7,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from tests.vjm.load_paths import load_path
 from vjm import paper
 from vjm.clearance import CENTRING
 from vjm.effects import catalogue
-from vjm.equilibrium import load_path
 from vjm.frames import Array
 from vjm.mechanisms.assembly import GaugeAt
 from vjm.mechanisms.parallelogram import Parallelogram

@@ -14,10 +14,10 @@ import pytest
 from scipy.integrate import quad
 from scipy.optimize import brentq
 
+from tests.vjm.load_paths import load_path
 from vjm import refined, yielding
 from vjm.effects import catalogue
 from vjm.effects.base import Rig
-from vjm.equilibrium import load_path
 from vjm.fibres import HARDENING, Fibres, lobatto
 from vjm.mechanisms.bar import Bar
 from vjm.refined import Refined

@@ -22,10 +22,10 @@ WRONG = {
     "all forces are in lbf": made.over(4.4482216, *made.FORCES),
     "fx_N is in kN": made.over(1000.0, "fx_N"),
     "all moments are in N·m": made.over(1000.0, *made.MOMENTS),
-    "x_mm is in in": made.over(25.4, "x_mm"),
+    "x_mm is in inches": made.over(25.4, "x_mm"),
     "all displacements are in m": made.over(1000.0, "x_mm", "y_mm", "z_mm"),
     "rz_rad is in degrees": made.over(np.pi / 180.0, "rz_rad"),
-    "x_mm was converted to in the wrong way round or twice": made.over(1.0 / 25.4, "x_mm"),
+    "x_mm was converted to inches the wrong way round or twice": made.over(1.0 / 25.4, "x_mm"),
     "fz_N has the wrong sign": made.over(-1.0, "fz_N"),
     "all forces and moments have the wrong sign": made.over(-1.0, *made.FORCES, *made.MOMENTS),
     "fy_N and fz_N are exchanged": made.exchanged("fy_N", "fz_N"),
@@ -122,7 +122,7 @@ def test_a_sigma_goes_with_the_column_where_it_is_in_the_same_unit(sigma_too: bo
         sigmas = wrong.noise.sigmas
         sigmas[0] /= 25.4
         wrong = replace(wrong, noise=wrong.noise.of(sigmas))
-    mended = named(wrong, "x_mm is in in").mended(wrong)
+    mended = named(wrong, "x_mm is in inches").mended(wrong)
     np.testing.assert_allclose(mended.noise.sigmas, right.noise.sigmas, rtol=1e-12)
 
 
