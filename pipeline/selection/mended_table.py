@@ -49,7 +49,7 @@ def is_far(found: Fit) -> bool:
     there = cases.predicted & cases.fitted[:, None] & ~it.lost[:, None]
     read, said, sigma = (values[there] for values in (cases.measured, it.values, cases.spread))
     size = np.maximum(np.abs(read), np.abs(said))
-    return bool(np.sum(((read - said) / sigma) ** 2) > 0.25 * np.sum((size / sigma) ** 2))
+    return bool(2.0 * np.linalg.norm((read - said) / sigma) > np.linalg.norm(size / sigma))
 
 
 @dataclass(frozen=True)
