@@ -46,6 +46,10 @@ class Table:
     rows: Sequence[Sequence[Cell]]
     notes: Sequence[str] = ()
 
+    def fraction_width(self, column: int) -> int:
+        """Characters right of the point that the column reserves, so that the points stand in one line."""
+        return max((len(row[column].fraction) for row in self.rows), default=0)
+
 
 def table(
     caption: str, columns: Sequence[Column], rows: Sequence[Sequence[str | Cell]], *notes: str

@@ -19,7 +19,8 @@ from reports.plots import style
 from reports.style import FAINT, INK
 
 COLOURS = {"before": "#D55E00", "after": "#0072B2"}
-DASHES = {"before": "dash", "after": "solid"}
+WIDTHS = {"before": 1.0, "after": 2.4}
+"""Dashes of a line that goes back over itself, as load and relief do, are no dashes."""
 SYMBOLS = {"before": "diamond-open", "after": "circle-open"}
 NAMES = {"before": BEFORE, "after": AFTER}
 HEIGHT = 500
@@ -62,7 +63,7 @@ def _predicted(test: Json, curve: Json, key: str) -> dict[str, Any]:
         "x": test["loads"],
         "y": curve[key],
         "text": _steps(test),
-        "line": {"color": COLOURS[key], "dash": DASHES[key], "width": 2},
+        "line": {"color": COLOURS[key], "width": WIDTHS[key]},
         "legendgroup": key,
         "xaxis": "x",
         "yaxis": "y",
@@ -92,7 +93,7 @@ def _left(test: Json, curve: Json, key: str, axis: str) -> dict[str, Any]:
         "x": test["loads"],
         "y": curve[f"left_{key}"],
         "text": _steps(test),
-        "line": {"color": COLOURS[key], "width": 1, "dash": DASHES[key]},
+        "line": {"color": COLOURS[key], "width": 1},
         "marker": {"color": COLOURS[key], "size": 5, "symbol": SYMBOLS[key]},
         "legendgroup": key,
         "showlegend": False,

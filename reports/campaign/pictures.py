@@ -7,9 +7,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from reports.campaign import first_picture
-from reports.campaign.curve import BAND, COLOURS
+from reports.campaign.curve import BAND, COLOURS, NAMES, WIDTHS
 from reports.campaign.names import (
-    AFTER,
     BEFORE,
     by_role,
     channel_label,
@@ -29,7 +28,6 @@ from reports.style import FAINT, INK
 
 WORST = 6
 """Curves that are shown as pictures."""
-STYLES = {"before": (BEFORE, "--"), "after": (AFTER, "-")}
 
 
 def draw(page: Json) -> dict[str, bytes]:
@@ -52,7 +50,7 @@ def misfit(page: Json) -> bytes:
     axes = figure.subplots(1, len(stages), sharey=True, squeeze=False, gridspec_kw={"wspace": 0.04})[0]
     grids = [_grid(tests, names, f"rms_{key}") for key in stages]
     shades = colormap(MISFIT)
-    titles = [f"{key}: {STYLES[key][0]}" for key in stages] if len(stages) > 1 else [BEFORE]
+    titles = [f"{key}: {NAMES[key]}" for key in stages] if len(stages) > 1 else [BEFORE]
     for ax, grid, title in zip(axes, grids, titles, strict=True):
         shares = np.array([[np.nan if np.isnan(v) else share_of(v) for v in row] for row in grid])
         image = ax.imshow(shares, cmap=shades, vmin=0.0, vmax=1.0, aspect="auto")
@@ -78,9 +76,9 @@ def curve(test: Json, it: Json, stages: Sequence[str]) -> bytes:
     upper, *lower = figure.subplots(
         len(heights), 1, sharex=True, gridspec_kw={"height_ratios": heights, "hspace": 0.12}
     )
-    loads, styles = _floats(test["loads"]), {key: STYLES[key] for key in stages}
-    for key, (name, dash) in styles.items():
-        upper.plot(loads, _floats(it[key]), color=COLOURS[key], ls=dash, lw=1.6, label=name)
+    loads = _floats(test["loads"])
+    for key in stages:
+        upper.plot(loads, _floats(it[key]), color=COLOURS[key], lw=WIDTHS[key], label=NAMES[key])
     upper.errorbar(
         loads,
         _floats(it["measured"]),
@@ -95,9 +93,9 @@ def curve(test: Json, it: Json, stages: Sequence[str]) -> bytes:
     upper.set_ylabel(f"{channel_label(it['channel'])}, {unit_label(it['unit'])}")
     upper.set_title(standing(test), fontsize=10, loc="left", color=INK)
     upper.legend(frameon=False, fontsize=8, loc="lower right", bbox_to_anchor=(1.0, 1.0), ncol=3)
-    for ax, (key, (_, dash)) in zip(lower, styles.items(), strict=True):
+    for ax, key in zip(lower, stages, strict=True):
         ax.axhspan(-BAND, BAND, color=FAINT, alpha=0.18, lw=0)
-        ax.plot(loads, _floats(it[f"left_{key}"]), color=COLOURS[key], ls=dash, marker="o", ms=3, lw=0.9)
+        ax.plot(loads, _floats(it[f"left_{key}"]), color=COLOURS[key], marker="o", ms=3, lw=0.9)
         ax.set_ylabel(f"left {key},\nsigma" if len(stages) > 1 else "left, sigma", fontsize=9)
     for ax in (upper, *lower):
         dress(ax)

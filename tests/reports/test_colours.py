@@ -15,7 +15,7 @@ from matplotlib.colors import to_rgb
 from numpy.typing import NDArray
 
 from reports.bars import FILLS
-from reports.campaign.curve import COLOURS, DASHES, SYMBOLS
+from reports.campaign.curve import COLOURS, SYMBOLS, WIDTHS
 from reports.shading import ATTENTION, LIKENESS, MISFIT, Stops, colour, contrast, ink_on, share_of
 from reports.style import FAINT, INK
 
@@ -95,5 +95,5 @@ def test_numbers_can_be_read_on_every_colour(stops: Stops) -> None:
 
 
 def test_before_and_after_differ_without_any_colour() -> None:
-    for look in (DASHES, SYMBOLS):
+    for look in (WIDTHS, SYMBOLS):
         assert set(look) == set(COLOURS) and len(set(look.values())) == len(look)
