@@ -47,8 +47,9 @@ class Table:
     notes: Sequence[str] = ()
 
     def fraction_width(self, column: int) -> int:
-        """Characters right of the point that the column reserves, so that the points stand in one line."""
-        return max((len(row[column].fraction) for row in self.rows), default=0)
+        """Characters right of the point that the column reserves; none beside a power of ten, its digits are narrow."""
+        its = [row[column].fraction for row in self.rows]
+        return 0 if any("×" in it for it in its) else max(map(len, its), default=0)
 
 
 def table(

@@ -15,6 +15,7 @@ from pipeline.campaign.mapped.schema import ColumnTable, DerivedTable
 from pipeline.campaign.mapped.units import UNITS, NoUnit, Unit, unit
 from pipeline.campaign.sheet import LARGEST, told
 from pipeline.toml.complaints import Complaints, shown
+from pipeline.toml.spelling import unknown_name
 
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
@@ -76,8 +77,8 @@ def _used(
     used = []
     for name, it in declared.columns.items():
         if name not in layout.names and it.what != "ignore":
-            there = ", ".join(shown(each) for each in layout.names)
-            complaints.add(f"column {shown(name)}", f"is not in the file, which has {there}")
+            said = f"is under [columns] and not in the file, {unknown_name(name, layout.names)}"
+            complaints.add(f"column {shown(name)}", said)
         elif name in parts:
             said = "is used by [derived] already, allowed is one use of each: delete its line here or there"
             complaints.add(f"column {shown(name)}", said)

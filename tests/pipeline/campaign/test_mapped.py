@@ -192,7 +192,11 @@ def test_a_first_row_is_that_of_each_test(tmp_path: Path) -> None:
             "a,b\n0,0\n",
             "is z, as column 'a' is",
         ),
-        ('"gone" = { is = "z", unit = "mm" }', "a\n0\n", "column 'gone': is not in the file, which has 'a'"),
+        (
+            '"gone" = { is = "z", unit = "mm" }',
+            "a\n0\n",
+            "column 'gone': is under [columns] and not in the file, allowed: a",
+        ),
         ('"a" = { is = "z", unit = "mm" }', "a,a\n0,0\n", "column 'a': is there twice"),
         ('"a" = { is = "z", unit = "mm" }', "a\n0,5\n", "line 2: has 2 cells, the header has 1"),
         ('"a" = { is = "sigma.z", unit = "mm" }', "a\n0\n", "is not read yet, write one sigma"),
