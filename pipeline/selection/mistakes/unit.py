@@ -27,13 +27,8 @@ MOMENT = {
     "lbf·in": POUND * INCH,
     "N·µm": 1.0 / THOUSAND,
 }
-LENGTH = {
-    "m": THOUSAND,
-    "cm": TEN,
-    "inches": INCH,
-    "µm": 1.0 / THOUSAND,
-    "thousandths of an inch": INCH / THOUSAND,
-}
+LENGTH = {"m": THOUSAND, "cm": TEN, "inches": INCH, "µm": 1.0 / THOUSAND}
+LENGTH |= {"thousandths of an inch": INCH / THOUSAND}
 TURN = {"degrees": DEGREE, "mrad": 1.0 / THOUSAND}
 BOTH = {"kgf": KGF, "lbf": POUND}
 """Of forces and moments together."""
