@@ -16,6 +16,7 @@ from reports.quantities import short
 Array = NDArray[np.float64]
 Span = tuple[float, float]
 ROUNDING = 1e-9
+"""Of the largest number in a unit, below which another in that unit is rounding."""
 EDGE = 0.01
 """Of a range, by which a number must lie beyond it: readings at its edge have noise."""
 

@@ -293,7 +293,7 @@ def _promising(table: Table) -> list[Mistake]:
         ]
         fits = [Fit(base.model, there, residual(cases, there), 0) for there in every]
         found = min(fits, key=lambda it: it.chi_square)
-        # What leaves more when it is mended is none, unless the model then predicts what it did not before.
+        # What leaves more when it is mended is none, but of a table so far off chi-square says nothing.
         off = is_far(found)
         better = far or found.chi_square < base.chi_square
         left = table.first_order_of(found) if better else np.inf
