@@ -136,7 +136,7 @@ KINDS: Mapping[str, Make] = {
         1.0 / 9.80665, FORCES, "all forces were converted to kgf the wrong way round or twice"
     ),
     "moments in N·m": _unit(1000.0, MOMENTS, "all moments are in N·m"),
-    "displacements in inches": _unit(25.4, SHIFTS, "all displacements are in in"),
+    "displacements in inches": _unit(25.4, SHIFTS, "all displacements are in inches"),
     "displacements in m": _unit(1000.0, SHIFTS, "all displacements are in m"),
     "rotations in degrees": _unit(float(np.radians(1.0)), TURNS, "all rotations are in degrees"),
     "sign of a force or moment": _sign((*FORCES, *MOMENTS)),
