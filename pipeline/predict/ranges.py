@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -57,18 +58,20 @@ class Ranges:
         for column, value in columns.items():
             span = self.spans.get(column)
             # What nothing moves is predicted as zero or as the rounding of what others of its unit are.
-            small = abs(value) <= ROUNDING * self._largest(column)
+            small = abs(value) <= ROUNDING * self._largest.get(column.rpartition("_")[2], 0.0)
             if span is None and not small:
                 yield f"{column} {short(value)}, in no fitted test"
             elif span is not None and not small and _beyond(value, span):
                 yield _said(column, value, span)
 
-    def _largest(self, column: str) -> float:
-        """Size of what was fitted in the unit of a column."""
-        unit = column.rpartition("_")[2]
-        return max(
-            (max(map(abs, s)) for c, s in self.spans.items() if c.rpartition("_")[2] == unit), default=0.0
-        )
+    @cached_property
+    def _largest(self) -> dict[str, float]:
+        """By unit, as columns end, the size of what was fitted in it."""
+        out: dict[str, float] = {}
+        for column, (low, high) in self.spans.items():
+            unit = column.rpartition("_")[2]
+            out[unit] = max(abs(low), abs(high), out.get(unit, 0.0))
+        return out
 
 
 def _columns(test: Test, campaign: Campaign) -> Iterator[tuple[str, Array]]:

@@ -40,7 +40,7 @@ def told(folder: Path) -> list[str]:
     return [it.hypothesis for it in examined(read(folder), lambda _: None).mistakes]
 
 
-@pytest.mark.parametrize("turn", [0.0, TURN])
+@pytest.mark.parametrize("turn", [pytest.param(0.0, marks=pytest.mark.long), TURN])
 @pytest.mark.parametrize("words", MISTAKES)
 def test_a_unit_is_among_what_is_told(tmp_path: Path, words: str, turn: float) -> None:
     measured(tmp_path, loads(7), turn, {})

@@ -15,9 +15,10 @@ from pipeline.selection.criteria import Criteria
 from pipeline.selection.mistakes.base import FORCES, MOMENTS, Mistake, groups, times, verb
 
 KGF, TEN, THOUSAND, DEGREE = (UNITS[name].factor for name in ("kgf", "daN", "kN", "°"))
+MILLI = 1.0 / THOUSAND
 POUND = round(LBF, 7)
 """N, as tables of factors print it."""
-FORCE = {"kgf": KGF, "daN": TEN, "lbf": POUND, "kN": THOUSAND, "mN": 1.0 / THOUSAND}
+FORCE = {"kgf": KGF, "daN": TEN, "lbf": POUND, "kN": THOUSAND, "mN": MILLI}
 MOMENT = {
     "N·m": THOUSAND,
     "N·cm": TEN,
@@ -25,11 +26,10 @@ MOMENT = {
     "kgf·m": THOUSAND * KGF,
     "kgf·cm": UNITS["kgf·cm"].factor,
     "lbf·in": POUND * INCH,
-    "N·µm": 1.0 / THOUSAND,
+    "N·µm": MILLI,
 }
-LENGTH = {"m": THOUSAND, "cm": TEN, "inches": INCH, "µm": 1.0 / THOUSAND}
-LENGTH |= {"thousandths of an inch": INCH / THOUSAND}
-TURN = {"degrees": DEGREE, "mrad": 1.0 / THOUSAND}
+LENGTH = {"m": THOUSAND, "cm": TEN, "inches": INCH, "µm": MILLI, "thousandths of an inch": MILLI * INCH}
+TURN = {"degrees": DEGREE, "mrad": MILLI}
 BOTH = {"kgf": KGF, "lbf": POUND}
 """Of forces and moments together."""
 KNOWN = {"inches": "in", "thousandths of an inch": "thou", "degrees": "°"}
