@@ -13,7 +13,7 @@ from typing import Any, NamedTuple
 Write = Callable[[float, int], str]
 
 NONE = "–"
-NOT_DETERMINED, FIXED, AT_BOUND = "not determined", "fixed", "at its bound"
+NOT_DETERMINED, FIXED, AT_BOUND = "not determined", "not fitted", "at its bound"
 PLACES = 2
 """Digits of a standard error that count."""
 UNKNOWN, MOST = 4, 8
@@ -149,7 +149,7 @@ def ends_text(it: Estimate, write: Write = plain) -> tuple[str, str]:
 
 
 def interval_text(it: Estimate, write: Write = plain) -> str:
-    """793.5 .. 815.3, above 793.5, below 815.3, "fixed" or "not determined"."""
+    """793.5 .. 815.3, above 793.5, below 815.3, "not fitted" or "not determined"."""
     if it.interval == "fixed":
         return FIXED
     low, high = ends_text(it, write)
@@ -161,7 +161,7 @@ def interval_text(it: Estimate, write: Write = plain) -> str:
 
 
 def marks(it: Estimate) -> tuple[str, ...]:
-    """What is to be said beside a value: at its bound, not determined, fixed."""
+    """What is to be said beside a value: at its bound, not determined, not fitted."""
     said = interval_text(it)
     return (*((AT_BOUND,) if it.at_bound else ()), *((said,) if said in (NOT_DETERMINED, FIXED) else ()))
 

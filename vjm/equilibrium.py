@@ -18,7 +18,7 @@ from vjm.frames import POSE_NAMES, Array, moment
 from vjm.increments import Start, directly, solve
 from vjm.laws import Response
 from vjm.mechanism import ElasticChain, Mechanism, initial_memory
-from vjm.newton import CONVERGED, Iterate, Step, dense, newton
+from vjm.newton import CONVERGED, Iterate
 from vjm.problem import Held, Problem, channel_numbers
 from vjm.readings import Readings
 
@@ -235,12 +235,12 @@ def equilibrium(
     start: state to begin from, broadcast over the batch; default the unloaded mechanism. Laws with memory
     continue from it. Where it is no stable equilibrium itself, a short step on the way from it is tried and no more.
     follow: stay on the branch of the start even where it is unstable.
-    Quadratic near a solution and able to stay on an unstable branch, which Eq. 6 (`picard`) is not. Load cases
+    Quadratic near a solution and able to stay on an unstable branch, which Eq. 6 is not. Load cases
     that fail at once, or end unstable, are approached in increments. What is unstable all the same, past a
     critical load, is returned as such: see `Equilibrium.unstable` and `vjm.stability.verified`.
     ValueError for targets whose last axis is not 6 or that are not finite.
     """
-    problem, first, before, batch = _posed(mechanism, targets, held, start, drives, memory)
+    problem, first, before, batch = posed(mechanism, targets, held, start, drives, memory)
     astray = np.zeros(batch, dtype=bool)
     if start is not None:
         astray |= ~start.converged | ((start.unstable > 0) & (not follow))
@@ -259,39 +259,8 @@ def nearby(
 ) -> Equilibrium:
     """As `equilibrium`, by Newton's method alone: what wants a more careful approach has not converged. targets
     (..., 6); memory (..., M) before the step."""
-    problem, first, _, batch = _posed(mechanism, targets, held, start, drives, memory)
+    problem, first, _, batch = posed(mechanism, targets, held, start, drives, memory)
     return record(problem, directly(problem, first, TOLERANCE), batch)
-
-
-def picard(
-    mechanism: Mechanism,
-    poses: ArrayLike,
-    start: Equilibrium | None = None,
-    tolerance: float = TOLERANCE,
-    limit: int = 500,
-) -> Equilibrium:
-    """The paper's own iteration, Eq. 6 with its block matrix inverted (as printed it is not, and fails).
-
-    poses: (..., 6). Each step linearises t = g but drops the Hessians of g, so this is a Picard iteration: it
-    converges linearly, the slower the larger the load against the springs, and may diverge near or beyond a
-    critical load. `equilibrium` is the safe choice there; both share residual and record. Laws beside the
-    linear springs enter with their tangent.
-    """
-    problem, first, _, batch = _posed(mechanism, poses, POSE_NAMES, start, None, None)
-    place = problem.place
-    weight = place.scale / place.energy
-    parts = list(zip(mechanism.chains, place.coordinates, place.memories, strict=True))
-
-    def without_hessians(unknowns: Array, members: np.ndarray) -> tuple[Array, Step]:
-        rows, matrix = problem.whole(unknowns, members)
-        for chain, x, past in parts:
-            strain = unknowns[..., x] - chain.rest[chain.moving]
-            matrix[..., x, x] = weight[x, None] * chain.respond(strain, problem.memory[members, past]).tangent
-        return rows, dense(rows, matrix, place.scale)
-
-    return record(
-        problem, newton(without_hessians, first, place.scale, tolerance, limit, patience=limit), batch
-    )
 
 
 def stack(states: Collection[Equilibrium]) -> Equilibrium:
@@ -326,7 +295,7 @@ def _checked(targets: ArrayLike) -> Array:
     return targets
 
 
-def _posed(
+def posed(
     mechanism: Mechanism,
     targets: ArrayLike,
     held: Held,

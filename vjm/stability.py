@@ -10,7 +10,7 @@ space of C.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -18,9 +18,6 @@ from vjm import lagrangian
 from vjm.equilibrium import Equilibrium
 from vjm.frames import Array
 from vjm.problem import Held, held_mask
-from vjm.reasons import Reason
-
-UNSTABLE = f"{Reason.UNSTABLE}, past a critical load"
 
 
 @dataclass(frozen=True, eq=False)
@@ -61,17 +58,6 @@ def negative_eigenvalues(state: Equilibrium, held: Held) -> np.ndarray:
     """
     values = np.linalg.eigvalsh(bordered_tangent(state, held))
     return np.sum(values < 0, axis=-1) - lagrangian.layout(state.mechanism).closures
-
-
-def verified(state: Equilibrium) -> Equilibrium:
-    """The state with unstable equilibria marked as failed: past a critical load they are no answer.
-
-    A marked member keeps its pose and load, for study.
-    """
-    reason = state.reason.copy()
-    for index in map(tuple, np.argwhere(state.unstable > 0)):
-        reason[index] = f"{UNSTABLE}: {state.unstable[index]} negative eigenvalue(s) of the tangent"
-    return replace(state, converged=state.converged & ~(state.unstable > 0), reason=reason)
 
 
 def reduced_modes(state: Equilibrium, held: Held) -> Modes:

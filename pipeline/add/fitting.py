@@ -9,7 +9,15 @@ from time import perf_counter
 import numpy as np
 
 from pipeline.answer.record import Answer, Correlation
-from pipeline.answer.summary import changes, confusable, error_of, nominals_of, undetermined, values_of
+from pipeline.answer.summary import (
+    changes,
+    confusable,
+    error_of,
+    nominals_of,
+    uncertainty_of,
+    undetermined,
+    values_of,
+)
 from pipeline.answer.wording.added import sentences
 from pipeline.attempt import Attempts
 from pipeline.callbacks import OnProgress
@@ -18,7 +26,7 @@ from pipeline.campaign.order import by_name
 from pipeline.errors import InputError
 from pipeline.inference.declared_sigmas import trusted
 from pipeline.inference.estimated_sigmas import completed
-from pipeline.inference.fit import Fit, fit, unfitted
+from pipeline.inference.fit import Fit, fit, numbers_of, unfitted
 from pipeline.inference.intervals import correlations, intervals, only_together, profile_likelihood, straight
 from pipeline.inference.load_cases import LoadCases, load_cases
 from pipeline.inference.model import Model, at_bound
@@ -52,11 +60,7 @@ class Added:
     @property
     def uncertainty(self) -> dict[str, Uncertainty]:
         """Of every fitted number, for the model's file."""
-        return {
-            name: Uncertainty(value.std, value.low95, value.high95)
-            for name, value in self.answer.parameters.items()
-            if value.interval != "fixed"
-        }
+        return uncertainty_of(self.answer.parameters, self.model)
 
 
 def add(
@@ -97,9 +101,7 @@ def add(
             after = min(polished, anew, key=lambda each: each.order)
     else:
         after = unfitted(model.with_effects(effects), cases)
-    return _compared(
-        cases, (before, after), len(model.free), new, on_progress, start, cache.unseen if new else ()
-    )
+    return _compared(cases, (before, after), model, new, on_progress, start, cache.unseen if new else ())
 
 
 def remove(
@@ -123,21 +125,22 @@ def remove(
     less = model
     for name in names:
         less = less.without(name)
-    return _compared(cases, (before, fit(less, cases)), len(model.free), (), on_progress, start)
+    return _compared(cases, (before, fit(less, cases)), model, (), on_progress, start)
 
 
 def _compared(
     cases: LoadCases,
     fits: tuple[Fit, Fit],
-    numbers: int,
+    was: Model,
     new: Sequence[str],
     on_progress: OnProgress,
     start: float,
     unseen: Collection[str] = (),
 ) -> Added:
-    """The answer about a fit, beside the one before, which had so many fitted numbers. unseen: numbers that stayed at
-    null because these readings do not see them."""
+    """The answer about a fit, beside the one before, of the model as it was, which was fitted to these tests. unseen:
+    numbers that stayed at null because these readings do not see them."""
     before, after = fits
+    numbers = numbers_of(was, cases, before.prediction)
     on_progress("intervals")
     attempts = Attempts()
     land = profile_likelihood(after, cases)
@@ -155,7 +158,7 @@ def _compared(
     pairs = attempts.get("correlations of the numbers", lambda: correlations(land), [])
     together = attempts.get("what is seen only together", lambda: only_together(land), [])
     names = [each.name for each in after.model.free]
-    errors = (error_of(before, cases, numbers), error_of(after, cases, len(after.model.free), judged))
+    errors = (error_of(before, cases, numbers), error_of(after, cases, after.numbers, judged))
     answer = Answer(
         campaign=cases.campaign.name,
         verdict="unknown" if judged and not judged.noise else "within_noise" if judged else "nothing_tested",
@@ -193,6 +196,6 @@ def _keeps(before: Fit, after: Fit, numbers: int, nothing: str | None) -> str:
         return f"it has no prediction for {lost} rows for which the model before has one"
     if after.chi_square > before.chi_square + WORSE:
         return "it leaves more than the model before"
-    if len(after.model.free) > numbers and after.chi_square >= before.chi_square * (1.0 - NOTHING):
+    if after.numbers > numbers and after.chi_square >= before.chi_square * (1.0 - NOTHING):
         return "its further numbers take nothing off what the model before leaves"
     return ""

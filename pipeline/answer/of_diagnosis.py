@@ -77,8 +77,7 @@ def answer_of(it: Diagnosis, found: Fit | None = None) -> Answer:
         alternatives=tuple((*cache.base.names, *names) for names in it.possible[1:]),
         parameters=values,
         error=tuple(
-            error_of(each, whole, len(each.model.free), it.judgement if each is steps[-1] else None)
-            for each in steps
+            error_of(each, whole, each.numbers, it.judgement if each is steps[-1] else None) for each in steps
         ),
         tests=changes(before, it.fit, whole),
         # Where nothing is tested no candidate promises anything.

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -14,6 +14,7 @@ from pipeline.inference.fit import Fit
 from pipeline.inference.intervals import Interval
 from pipeline.inference.load_cases import LoadCases
 from pipeline.inference.model import Model, at_bound
+from pipeline.inference.model_file import Uncertainty
 from pipeline.inference.noise import chi_square, lag_one
 from pipeline.inference.nuisances import nominals
 from pipeline.inference.objective import Objective
@@ -45,6 +46,13 @@ def values_of(model: Model, intervals: Sequence[Interval]) -> dict[str, Value]:
                 at_bound=name in bounded,
             )
     return out
+
+
+def uncertainty_of(values: Mapping[str, Value], model: Model) -> dict[str, Uncertainty]:
+    """Of every number that a fit of the model may move, for the model's file; of one that the readings do not see,
+    that nothing is known."""
+    free = {each.name for each in model.free}
+    return {name: Uncertainty(it.std, it.low95, it.high95) for name, it in values.items() if name in free}
 
 
 def nominals_of(found: Fit, criteria: Criteria) -> tuple[NominalValue, ...]:

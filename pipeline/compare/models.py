@@ -19,7 +19,7 @@ from pipeline.compare.headline import headline
 from pipeline.compare.record import Comparison, ModelError
 from pipeline.inference.declared_sigmas import trusted
 from pipeline.inference.estimated_sigmas import completed
-from pipeline.inference.fit import Fit, unfitted
+from pipeline.inference.fit import Fit, numbers_of, unfitted
 from pipeline.inference.frame_prediction import predict_frame
 from pipeline.inference.linear_prediction import predict_linear
 from pipeline.inference.load_cases import LoadCases, load_cases
@@ -139,7 +139,7 @@ def _error(key: str, model: Model, cases: LoadCases, solve: Solve) -> ModelError
         # Absurd numbers may overflow on their way to being lost; the rows are looked at, not the warnings.
         with np.errstate(all="ignore"):
             prediction = _settled(cases, solve)
-            discrepancy = Discrepancy(cases, prediction, len(model.free))
+            discrepancy = Discrepancy(cases, prediction, numbers_of(model, cases, prediction))
             found = _judged(key, title, model, discrepancy)
     except (ValueError, ArithmeticError, RuntimeError) as error:
         return ModelError(model=key, title=title, effects=names, failed=plain(error))

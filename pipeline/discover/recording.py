@@ -77,7 +77,7 @@ def _no_noise(found: Discovery, whole: LoadCases) -> Iterator[str]:
 
 def _error(fitted: Fit, whole: LoadCases) -> ModelError:
     """What a model leaves of the fitted tests and of those that were held out."""
-    return error_of(unfitted(fitted.model, whole), whole, len(fitted.model.free))
+    return error_of(unfitted(fitted.model, whole), whole, fitted.numbers)
 
 
 def _entered(step: Added, model: Model) -> Entered:

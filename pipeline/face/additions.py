@@ -12,6 +12,7 @@ from rich.console import RenderableType
 from pipeline.add.fitting import Added
 from pipeline.add.fitting import add as fit_with
 from pipeline.add.fitting import remove as fit_without
+from pipeline.answer.summary import uncertainty_of
 from pipeline.answer.tables.added import error_table, parameter_table
 from pipeline.errors import InputError
 from pipeline.face.about import Given, effects_of, subject_of
@@ -24,7 +25,7 @@ from pipeline.face.subject import Subject
 from pipeline.improve.command import improved
 from pipeline.improve.steps import steps
 from pipeline.inference.model import Model
-from pipeline.inference.model_file import NAME, ModelFile, Uncertainty, write_model
+from pipeline.inference.model_file import NAME, ModelFile, write_model
 from pipeline.parameter_names import parted
 from pipeline.provenance import commit, versions
 from pipeline.selection.diagnosis import diagnose as search
@@ -95,7 +96,8 @@ class Addition(OfAnswer):
                 )
         place = Path(path) if path is not None else Path(campaign.folder or "") / NAME
         files = known.files_of(self.model.names)
-        write_model(place, ModelFile(self.model, self._known(), files, self.name, commit(), versions()))
+        told = uncertainty_of(self.answer.parameters, self.model)
+        write_model(place, ModelFile(self.model, told, files, self.name, commit(), versions()))
         return place
 
     def plot(self) -> Picture:
@@ -123,13 +125,6 @@ class Addition(OfAnswer):
         for name, it in self.answer.parameters.items():
             yield *parted(name), it.value, it.std, it.low95, it.high95, it.interval, it.unit, it.meaning
 
-    def _known(self) -> dict[str, Uncertainty]:
-        return {
-            name: Uncertainty(it.std, it.low95, it.high95)
-            for name, it in self.answer.parameters.items()
-            if it.interval != "fixed"
-        }
-
 
 def add(bench: Given, *effects: str | Effect) -> Addition:
     """The model of a bench with further effects, all its free numbers fitted to the tests that may be fitted.
@@ -155,7 +150,9 @@ def improve(bench: Given) -> Addition:
     it = subject_of(bench)
     found = search(it.campaign, it.model, it.known.effects)
     done = list(steps(found))
-    return Addition(it.with_model(done[-1].fit.model), improved(found, it.model, done), it.model)
+    return Addition(
+        it.with_model(done[-1].fit.model.freed(it.model)), improved(found, it.model, done), it.model
+    )
 
 
 def _addition(it: Subject, found: Added) -> Addition:

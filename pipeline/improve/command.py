@@ -9,6 +9,7 @@ from rich.live import Live
 
 from pipeline.answer.of_diagnosis import answered
 from pipeline.answer.record import Answer
+from pipeline.answer.summary import uncertainty_of
 from pipeline.campaign import Campaign
 from pipeline.command import usable, usable_places
 from pipeline.discover.beyond_catalogue import with_laws
@@ -47,16 +48,12 @@ def improve_campaign(
     done = _watched(found, quiet)
     last = done[-1].fit
     answer = improved(found, began, done).model_copy(update={"seed": seed})
-    uncertainty = {
-        name: Uncertainty(v.std, v.low95, v.high95)
-        for name, v in answer.parameters.items()
-        if v.interval != "fixed"
-    }
+    saved = last.model.freed(began)
     if answer.added:
-        _write(folder / NAME, last.model, uncertainty, campaign, known)
+        _write(folder / NAME, saved, uncertainty_of(answer.parameters, saved), campaign, known)
     if out is not None:
         for number, step in enumerate(done):
-            _write(out / f"step_{number}.toml", step.fit.model, {}, campaign, known)
+            _write(out / f"step_{number}.toml", step.fit.model.freed(began), {}, campaign, known)
     answer.write(json, out and out / "answer.json")
     # On a terminal the steps stand there already.
     told = [] if quiet or terminal().is_terminal else [waterfall(campaign.name, done)]

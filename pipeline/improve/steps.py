@@ -56,4 +56,4 @@ def _step(it: Diagnosis, added: str, names: Names) -> Step:
     # Of what was identified, numbers that nothing determines are no part.
     settled = it.verdict == "identified" and names == it.decision.sets[0]
     found = it.fit if settled else it.cache.fit(names)
-    return Step(added, found, error_of(found, it.cache.whole, len(found.model.free)))
+    return Step(added, found, error_of(found, it.cache.whole, found.numbers))

@@ -59,12 +59,20 @@ class Fit:
         return float(self.whitened @ self.whitened) + self.residual.charged
 
     @cached_property
+    def zeros(self) -> int:
+        """Unknown zeros. Rows that a model loses have no column of theirs, but it is still there to be spent."""
+        return max(self.residual.zeros.shape[1], self.residual.load_cases.unknown_zeros)
+
+    @cached_property
+    def numbers(self) -> int:
+        """Free numbers that the readings determine, alone or together: a number that nothing reads takes no residual
+        away."""
+        return int(np.sum(_seen(self._information[0])))
+
+    @cached_property
     def degrees(self) -> int:
         """Residuals less fitted numbers and unknown zeros."""
-        zeros = self.residual.zeros.shape[1]
-        # Rows that a model loses have no column of their zero, but it is still there to be spent.
-        zeros = max(zeros, self.residual.load_cases.unknown_zeros)
-        return int(self.whitened.size - zeros - len(self.model.free))
+        return int(self.whitened.size - self.zeros - self.numbers)
 
     @cached_property
     def lost(self) -> int:
@@ -82,13 +90,22 @@ class Fit:
         """Whitened root mean square over the degrees of freedom; 1 is noise."""
         return float(np.sqrt(self.chi_square / max(self.degrees, 1)))
 
+    @property
+    def _scale(self) -> Array:
+        return np.array([abs(each.parameter.typical) for each in self.model.free])
+
+    @cached_property
+    def _information(self) -> tuple[Array, Array]:
+        """(P,), (P, P) eigenvalues and vectors of the information on the free numbers in their typical sizes."""
+        scaled = self.jacobian * self._scale
+        values, vectors = np.linalg.eigh(scaled.T @ scaled)
+        return np.asarray(values), np.asarray(vectors)
+
     @cached_property
     def covariance(self) -> Array:
         """(P, P) of the free numbers; infinite variance where the data say nothing."""
-        scale = np.array([abs(each.parameter.typical) for each in self.model.free])
-        scaled = self.jacobian * scale
-        values, vectors = np.linalg.eigh(scaled.T @ scaled)
-        seen = values > SQUARED * max(values.max(initial=0.0), TINY)
+        scale, (values, vectors) = self._scale, self._information
+        seen = _seen(values)
         inverse = (vectors[:, seen] / values[seen]) @ vectors[:, seen].T
         hidden = np.sum(vectors[:, ~seen] ** 2, axis=1) > PROFILE.shared**2
         inverse[hidden, hidden] = np.inf
@@ -120,6 +137,11 @@ class Fit:
     def std(self) -> Array:
         """(P,) standard errors."""
         return np.sqrt(np.diag(self.covariance))
+
+
+def _seen(values: Array) -> NDArray[np.bool_]:
+    """Of which eigenvalues of the information the readings tell more than rounding."""
+    return np.asarray(values > SQUARED * max(values.max(initial=0.0), TINY))
 
 
 def fit(
@@ -194,6 +216,11 @@ def as_it_is(model: Model, load_cases: LoadCases, start: Prediction) -> Fit:
     model, own = beside(model, own, near)
     there = Objective(model, own).at(model.values, near).with_slopes
     return Fit(model, there.prediction, there.residual, there.rounds)
+
+
+def numbers_of(model: Model, load_cases: LoadCases, there: Prediction) -> int:
+    """Numbers of a model that the readings determine, with its own values, which predict what is there."""
+    return as_it_is(model, load_cases, there).numbers if model.free and load_cases.fitted.any() else 0
 
 
 def unmoved(found: Fit, cases: LoadCases) -> Fit | None:

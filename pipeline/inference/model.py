@@ -119,7 +119,7 @@ class Model:
     def with_effects(self, effects: Iterable[Effect]) -> Model:
         """The model with further effects at values beside null, where they are there and do next to nothing.
 
-        Numbers that are fixed are null.         ValueError for an effect that is in the model already.
+        Numbers that are fixed are null. ValueError for an effect that is in the model already.
         """
         terms = list(self.terms)
         for effect in effects:
@@ -132,6 +132,11 @@ class Model:
             }
             terms.append(Term(effect, start))
         return replace(self, terms=tuple(terms))
+
+    def freed(self, began: Model) -> Model:
+        """The model with no other fixed numbers than the one it began with: what readings do not see is open, and a
+        prediction that it matters to has a wide interval."""
+        return replace(self, fixed=began.fixed)
 
     def without(self, name: str) -> Model:
         """The model without one of its effects."""

@@ -8,7 +8,7 @@ from pipeline.answer.record import ModelError, Verdict
 from pipeline.answer.summary import error_of
 from pipeline.callbacks import OnProgress
 from pipeline.compare.error import Discrepancy
-from pipeline.inference.fit import fit, unfitted
+from pipeline.inference.fit import fit, numbers_of, unfitted
 from pipeline.inference.load_cases import LoadCases
 from pipeline.inference.model import Model
 from pipeline.selection.adequacy.judgement import judge
@@ -35,10 +35,12 @@ def stages(model: Model, cases: LoadCases, on_progress: OnProgress = lambda _: N
     for count in range(1, len(model.terms)):
         part = replace(model, terms=model.terms[:count])
         on_progress(" + ".join(part.names))
-        found.append((fit(part, cases, plain.prediction), len(part.free)))
+        fitted = fit(part, cases, plain.prediction)
+        found.append((fitted, fitted.numbers))
     if model.terms:
         on_progress(" + ".join(model.names))
-        found.append((unfitted(model, cases), len(model.free)))
+        as_saved = unfitted(model, cases)
+        found.append((as_saved, numbers_of(model, cases, as_saved.prediction)))
     nothing = untested(found[-1][0])
     judged = None if nothing else judge(found[-1][0])
     errors = tuple(

@@ -9,12 +9,13 @@ from typing import Literal
 from pipeline.add.fitting import Added, add
 from pipeline.answer.of_diagnosis import answered
 from pipeline.answer.record import Answer
+from pipeline.answer.summary import uncertainty_of
 from pipeline.callbacks import OnProgress
 from pipeline.campaign import read
 from pipeline.campaign.reading import DESCRIPTION
 from pipeline.discover.beyond_catalogue import with_laws
 from pipeline.discover.command import LawsFound, laws_found
-from pipeline.inference.model_file import NAME, ModelFile, Uncertainty, model_text
+from pipeline.inference.model_file import NAME, ModelFile, model_text
 from pipeline.inference.model_reading import read_model_file
 from pipeline.inference.suitable import known_effects, named_effects
 from pipeline.init.choices import Choices, filled
@@ -158,13 +159,9 @@ def _diagnosed(task: Task, subject: Subject, on_progress: OnProgress) -> Done:
 
 def _proposal(task: Task, it: Subject, on_progress: OnProgress) -> Proposal:
     """The model with the set of an answer."""
-    answer, model = it.answer, shown_model(it)
+    answer, model = it.answer, shown_model(it).freed(it.model)
     assert answer is not None
-    told = {
-        name: Uncertainty(value.std, value.low95, value.high95)
-        for name, value in answer.parameters.items()
-        if value.interval != "fixed"
-    }
+    told = uncertainty_of(answer.parameters, model)
     file = ModelFile(model, told, it.known.files_of(model.names), it.campaign.name, commit(), versions())
     page = collect(it, (), on_progress)
     return Proposal(page, model_text(file, task.at), model_text(file, task.folder), answer)

@@ -98,7 +98,7 @@ def test_ends_that_the_data_do_not_set() -> None:
     assert (value_text(lost), std_text(lost), interval_text(lost)) == ("–", "–", "not determined")
     assert phrase("rx_rad", lost, "rad") == "rx_rad not determined"
     held = Estimate(5.0, None, None, None, "fixed")
-    assert phrase("rx_rad", held, "rad") == "rx_rad = 5 rad (fixed)"
+    assert phrase("rx_rad", held, "rad") == "rx_rad = 5 rad (not fitted)"
 
 
 def test_a_value_at_its_bound_is_shown_as_such() -> None:

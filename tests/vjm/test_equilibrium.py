@@ -7,9 +7,10 @@ import pytest
 from hypothesis import given
 
 from tests.vjm.load_paths import load_path
+from tests.vjm.picard import picard
 from tests.vjm.strategies import LENGTH, WIDTH, angles, bar_stiffness, displacements, fixed_seed
 from vjm import closed_forms, paper
-from vjm.equilibrium import equilibrium, nearby, picard, unloaded
+from vjm.equilibrium import equilibrium, nearby, unloaded
 from vjm.frames import POSE_NAMES, exp, log
 from vjm.increments import UNSURE
 from vjm.mechanisms.parallelogram import Parallelogram

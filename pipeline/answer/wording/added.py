@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from pipeline.answer.record import LEVEL, Answer, ModelError
-from pipeline.parameter_names import parted
 from reports.quantities import Estimate, short, sigma, value_text
 
 CLEARLY = 1.0 - LEVEL
@@ -59,10 +58,10 @@ def _with(answer: Answer) -> str:
 def _details(answer: Answer) -> Iterator[str]:
     before, after = answer.error[0], answer.error[-1]
     if before.chi_square is not None and after.chi_square is not None:
-        numbers = sum(parted(name)[0] in answer.added for name in answer.parameters)
+        numbers = before.degrees - after.degrees if answer.added else 0
         gain = before.chi_square - after.chi_square
         word = "fell" if gain >= 0.0 else "rose"
-        cost = {0: "without a further number", 1: "for one further number"}
+        cost = {0: "without a further number that they determine", 1: "for one further number"}
         yield (
             f"Chi-square {word} by {short(abs(gain), 4)} to {short(after.chi_square, 4)} on {after.degrees} degrees of "
             f"freedom, {cost.get(numbers, f'for {numbers} further numbers')}{_with(answer)}."
@@ -78,10 +77,11 @@ def _details(answer: Answer) -> Iterator[str]:
         yield f"{name} is not larger than zero by these tests: its interval begins where the effect is absent."
     yield from limits(answer)
     yield from written(answer)
+    alone = [group[0] for group in answer.undetermined if len(group) == 1]
+    if alone:
+        yield f"These tests say nothing about {_list(tuple(alone))}: not determined."
     for group in answer.undetermined:
-        if len(group) == 1:
-            yield f"{group[0]} is not determined by these tests: they say nothing about it."
-        else:
+        if len(group) > 1:
             yield f"Only combinations of {_list(group)} are determined by these tests, none of them alone."
     for pair in answer.correlations:
         yield f"{pair.first} and {pair.second} are hardly told apart: correlation {pair.value:+.3f}."

@@ -19,8 +19,7 @@ def untested(found: Fit, fitted: int = 0) -> str | None:
 
     fitted: numbers that were fitted to these readings before, beside those that are free now.
     """
-    readings, free = found.whitened.size, len(found.model.free)
-    zeros, numbers = readings - free - found.degrees, free + fitted
+    readings, zeros, numbers = found.whitened.size, found.zeros, len(found.model.free) + fitted
     if found.degrees > fitted:
         return None
     spent = [
