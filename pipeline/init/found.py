@@ -105,9 +105,24 @@ def _of_text(path: Path) -> Found:
             best = (merit, rows, mark)
     if best is None:
         raise BadTable("has no rows of numbers, allowed is a table with two columns or more")
+    _no_commas_in_numbers(best[1], best[2])
     found = _of_rows(best[1], used, NAMES.get(best[2], best[2]), None)
     header = lines[found.header_row - 1] if found.header_row else ""
     return replace(found, comment=comment) if comment and header.startswith(comment) else found
+
+
+def _no_commas_in_numbers(rows: list[tuple[Cell, ...]], mark: str) -> None:
+    """BadTable where commas part the cells and the numbers too: whole numbers alone, more of them than names."""
+    first, width, _ = _data(rows)
+    names = next((row for row in reversed(rows[:first]) if len(row) > 1 and not _numbers(row)), None)
+    data = [word(cell) for row in rows[first:] for cell in row]
+    whole = bool(data) and _numbers(rows[first]) == width and not any("." in it for it in data)
+    if mark == "," and whole and names and len(names) < width <= 2 * len(names):
+        raise BadTable(
+            f"has {width} cells under {len(names)} names, as decimal commas between commas make them; allowed is a "
+            "table with semicolons between its cells, or with decimal points",
+            first + 1,
+        )
 
 
 def _remark(lines: list[str]) -> str | None:

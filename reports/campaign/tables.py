@@ -173,15 +173,11 @@ def rivals(page: Json) -> Table:
             Cell(set_of(it["effects"], page["titles"]), "", " + ".join(it["effects"])),
             Cell(sigma(it["error"]["fit"])),
             Cell(sigma(it["error"]["holdout"])),
-            Cell("; ".join(_said(it["parameters"], name) for name in it["effects"]).strip("; ")),
+            Cell("; ".join(values(it["parameters"], name) for name in it["effects"]).strip("; ")),
         ]
         for it in page["rivals"]
     ]
     return table("Sets that explain the readings alike", columns, rows)
-
-
-def _said(parameters: Json, effect: str) -> str:
-    return ", ".join(f"{what} {value} ({interval})" for what, value, interval in values(parameters, effect))
 
 
 def sigmas(page: Json) -> Table:

@@ -1,11 +1,11 @@
 """What a page says in words for people: titles of effects in the place of their code names."""
 
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 
 from reports.campaign.names import measured
 from reports.load import Json
-from reports.quantities import estimate, interval_text, value_text
+from reports.quantities import FIXED, NOT_DETERMINED, estimate, interval_text, phrase
 
 PLAIN = "the model as it stands"
 _UNIT = r"(?:Nmm|mm|rad|deg|N|K|C)(?:\d+)?"
@@ -77,13 +77,12 @@ def _catalogue_words(it: Json) -> str:
     return f"{it['name']}: {it['title']}, {it['equation']}. In data: {it['signature']}."
 
 
-def values(parameters: Json, effect: str) -> Iterator[tuple[str, str, str]]:
-    """What each parameter of an effect is, its value with its unit, and its 95 % interval."""
-    for name, it in parameters.items():
-        if name.rpartition(".")[0] == effect:
-            known = estimate(it)
-            unit = "" if it["unit"] == "1" else f" {it['unit']}"
-            yield it["meaning"], f"{value_text(known)}{unit}", interval_text(known)
+def values(parameters: Json, effect: str) -> str:
+    """What each parameter of an effect is that the readings see, its value with its unit and its 95 % interval."""
+    own = [it for name, it in parameters.items() if name.rpartition(".")[0] == effect]
+    seen = [it for it in own if interval_text(estimate(it)) not in (FIXED, NOT_DETERMINED)]
+    told = [f"{it['meaning']} {phrase('', estimate(it), it['unit']).removeprefix(' = ')}" for it in seen]
+    return ", ".join(told) + (f"; not seen: {len(own) - len(seen)}" if 0 < len(seen) < len(own) else "")
 
 
 def sure(page: Json) -> list[str]:
@@ -104,9 +103,7 @@ def sure(page: Json) -> list[str]:
         ]
     out = []
     for name in certain:
-        numbers = ", ".join(
-            f"{meaning} {value} ({interval})" for meaning, value, interval in values(page["parameters"], name)
-        )
+        numbers = values(page["parameters"], name)
         out.append(f"{capital(title_of(name, titles))}{f': {numbers}' if numbers else ''}.")
     return out
 

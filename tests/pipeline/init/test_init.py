@@ -329,3 +329,18 @@ def test_a_file_that_is_not_there_is_missing_whatever_its_format(suffix: str, tm
     with pytest.raises(InputError) as caught:
         init(tmp_path / "out", file, "bar")
     assert str(caught.value) == f"{file} is missing, allowed is a file of readings"
+
+
+@pytest.mark.parametrize("row", ["0,0000,-0,0024", "50,-0,0024"])
+def test_decimal_commas_between_commas_are_refused(tmp_path: Path, row: str) -> None:
+    file = tmp_path / "r.csv"
+    file.write_text("\n".join(["Load [N],Dial [mm]", *[row] * 5]) + "\n")
+    with pytest.raises(BadTable, match="decimal commas between commas"):
+        looked(file)
+
+
+@pytest.mark.parametrize("row", ["5,7,", "5,7,,", "5.5,7.5", "5,7"])
+def test_whole_numbers_and_empty_cells_are_not(tmp_path: Path, row: str) -> None:
+    file = tmp_path / "r.csv"
+    file.write_text("\n".join(["Load [N],Dial [mm]", *[row] * 5]) + "\n")
+    assert looked(file).separator == ","
