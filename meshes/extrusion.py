@@ -24,11 +24,6 @@ FACES = [(1, 7), (1, 5), (1, 4), (1, 6), (0, 8), (2, 8), (1, 8)]
 DRAWN = {"hexahedron20": BEFORE + BEHIND + EDGES, "hexahedron27": BEFORE + BEHIND + EDGES + FACES}
 
 
-def section_sweep(section: Section, resolution: Resolution, thickness: Sequence[float]) -> Sweep:
-    """The section meshed in its plane and drawn through layers of these thicknesses (n,) mm, base first."""
-    return drawn(section_mesh(section, resolution), kind_of(section), thickness)
-
-
 def stepped_thickness(length: float, counts: Sequence[int]) -> Floats:
     """Thicknesses (n,) mm, thin at both ends: `counts[i]` layers at each end are 2^i times as thick as the first one.
 

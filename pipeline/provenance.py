@@ -6,6 +6,7 @@ import subprocess
 from functools import cache
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
+from typing import Any
 
 ROOT = Path(__file__).resolve().parent.parent
 PACKAGES = (
@@ -44,6 +45,11 @@ def commit() -> str:
         return head + ("+" if git("status", "--porcelain", "--", "*.py", "*.toml") else "")
     except (OSError, subprocess.CalledProcessError):
         return "unknown"
+
+
+def made_with() -> dict[str, Any]:
+    """Commit and versions of a result, by the names of its fields."""
+    return {"commit": commit(), "versions": versions()}
 
 
 def git(*arguments: str) -> str:

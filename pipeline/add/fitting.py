@@ -34,7 +34,7 @@ from pipeline.inference.model_file import Uncertainty
 from pipeline.inference.multistart import best_fit
 from pipeline.inference.prediction import predict
 from pipeline.inference.suitable import check_suitable, scale_for, sized_model
-from pipeline.provenance import commit, versions
+from pipeline.provenance import made_with
 from pipeline.selection.adequacy.judgement import judge
 from pipeline.selection.adequacy.untested import in_units, untested
 from pipeline.selection.criteria import CRITERIA
@@ -175,8 +175,7 @@ def _compared(
         not_done=tuple(attempts.failed),
         evaluations=1 + after.evaluations + land.evaluations,
         seconds=round(perf_counter() - start, 3),
-        commit=commit(),
-        versions=versions(),
+        **made_with(),
         data=dict(cases.campaign.digests),
     )
     keep = _keeps(before, after, numbers, nothing) if new else ""

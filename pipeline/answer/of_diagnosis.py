@@ -34,7 +34,7 @@ from pipeline.inference.fit import Fit
 from pipeline.inference.intervals import correlations, intervals, only_together, profile_likelihood, straight
 from pipeline.inference.model import Model
 from pipeline.inference.nuisances import nominals
-from pipeline.provenance import commit, versions
+from pipeline.provenance import made_with
 from pipeline.selection.cost import taken
 from pipeline.selection.cross_validation import crossvalidated, crossvalidated_with
 from pipeline.selection.diagnosis import Diagnosis
@@ -110,8 +110,7 @@ def answer_of(it: Diagnosis, found: Fit | None = None) -> Answer:
         not_done=(*it.failed, *attempts.failed),
         evaluations=cache.evaluations + land.evaluations,
         seconds=it.seconds,
-        commit=commit(),
-        versions=versions(),
+        **made_with(),
         data=dict(it.campaign.digests),
     )
 

@@ -13,7 +13,7 @@ from meshes.files import replacing
 from pipeline.bar.record import BarRecord, MeshRecord
 from pipeline.bar.stress import marked, stress_sentences, stresses
 from pipeline.bar.stress_record import Stresses
-from pipeline.provenance import commit, versions
+from pipeline.provenance import made_with
 from pipeline.validation.case import SHIPPED, Case
 from pipeline.validation.detail import Detail
 from pipeline.validation.result import Bar, Buckling
@@ -99,8 +99,7 @@ def _record(
         ),
         said=[found.second_route.explanation, *stress_sentences(stress)],
         seconds=seconds,
-        versions=versions(),
-        commit=commit(),
+        **made_with(),
         command=typed,
         data={path.name: hashlib.sha256(path.read_bytes()).hexdigest()},
     )

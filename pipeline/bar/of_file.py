@@ -29,7 +29,7 @@ from pipeline.bar.stress import marked, stress_sentences, stresses
 from pipeline.bar.stress_record import Stresses
 from pipeline.bar.tables import FileCase, OrthotropicMaterial
 from pipeline.progress import Progress
-from pipeline.provenance import commit, versions
+from pipeline.provenance import made_with
 from pipeline.validation.entries import rows
 
 ONE_MESH = (
@@ -123,8 +123,7 @@ def bar_of_placed(
         ),
         said=[*sentences(placed, tie), *stress_sentences(stress)],
         seconds=dict(progress.seconds),
-        versions=versions(),
-        commit=commit(),
+        **made_with(),
         command=typed,
         data={path.name: hashlib.sha256(path.read_bytes()).hexdigest()},
     )

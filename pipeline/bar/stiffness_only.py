@@ -18,7 +18,7 @@ from pipeline.bar.brought_bar import asked_of, described, frame_of, relative_err
 from pipeline.bar.record import BarRecord, MeshRecord
 from pipeline.bar.tables import FileCase, OrthotropicMaterial
 from pipeline.progress import Progress
-from pipeline.provenance import commit, versions
+from pipeline.provenance import commit, made_with, versions
 from pipeline.validation.entries import rows
 
 NOT_COMPUTED = (
@@ -68,8 +68,7 @@ def stiffness_of_file(case: FileCase, folder: Path, progress: Progress, typed: s
             NOT_COMPUTED,
         ],
         seconds=dict(progress.seconds),
-        versions=versions(),
-        commit=commit(),
+        **made_with(),
         command=typed,
         data={path.name: hashlib.sha256(path.read_bytes()).hexdigest()},
     )

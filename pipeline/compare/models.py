@@ -30,7 +30,7 @@ from pipeline.inference.predicted import Prediction, moved_along
 from pipeline.inference.prediction import predict
 from pipeline.inference.residual import residual
 from pipeline.inference.suitable import check_suitable, sized_model
-from pipeline.provenance import commit, versions
+from pipeline.provenance import made_with
 from pipeline.selection.adequacy.judgement import judge
 from pipeline.selection.adequacy.untested import in_units, untested
 from pipeline.selection.examined import mistakes_of
@@ -106,9 +106,8 @@ def compare_models(
         remarks=whole.remarks,
         models=tuple(found),
         seconds=round(perf_counter() - start, 3),
-        versions=versions(),
         data=dict(whole.digests),
-        commit=commit(),
+        **made_with(),
     )
 
 

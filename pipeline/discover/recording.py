@@ -23,7 +23,7 @@ from pipeline.inference.fit import Fit, unfitted
 from pipeline.inference.load_cases import LoadCases, load_cases
 from pipeline.inference.model import Model
 from pipeline.parameter_names import path_of
-from pipeline.provenance import commit, versions
+from pipeline.provenance import made_with
 from pipeline.selection.adequacy.judgement import judge
 from pipeline.selection.criteria import CRITERIA
 from vjm.law_sites import SITE_KINDS, SiteKind
@@ -62,8 +62,7 @@ def recorded(found: Discovery, campaign: Campaign, seconds: float) -> Discovered
         noise=tuple(said for each in found.settled for said in found_noise(each, campaign, whole.predicted)),
         not_done=tuple(attempts.failed),
         seconds=round(seconds, 3),
-        commit=commit(),
-        versions=versions(),
+        **made_with(),
         data=dict(whole.campaign.digests),
     )
 

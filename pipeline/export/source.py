@@ -22,7 +22,7 @@ from pipeline.inference.model import Model
 from pipeline.inference.model_file import NAME
 from pipeline.inference.model_reading import read_model_file
 from pipeline.inference.suitable import known_effects
-from pipeline.provenance import commit, versions
+from pipeline.provenance import made_with
 from pipeline.validation.result import read_result
 from vjm.equilibrium import unloaded
 from vjm.frames import Array, exp, inverse_rotation_jacobian
@@ -93,8 +93,7 @@ def exported(asked: Sources) -> Export:
             for name, other in without.items()
             if _differ(whole.bars, other.bars) or _differ(whole.wholes, other.wholes)
         ),
-        versions=versions(),
-        commit=commit(),
+        **made_with(),
     )
 
 

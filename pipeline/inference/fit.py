@@ -67,7 +67,7 @@ class Fit:
     def numbers(self) -> int:
         """Free numbers that the readings determine, alone or together: a number that nothing reads takes no residual
         away."""
-        return int(np.sum(_seen(self._information[0])))
+        return int(np.sum(_seen(self._information[1])))
 
     @cached_property
     def degrees(self) -> int:
@@ -90,21 +90,17 @@ class Fit:
         """Whitened root mean square over the degrees of freedom; 1 is noise."""
         return float(np.sqrt(self.chi_square / max(self.degrees, 1)))
 
-    @property
-    def _scale(self) -> Array:
-        return np.array([abs(each.parameter.typical) for each in self.model.free])
-
     @cached_property
-    def _information(self) -> tuple[Array, Array]:
-        """(P,), (P, P) eigenvalues and vectors of the information on the free numbers in their typical sizes."""
-        scaled = self.jacobian * self._scale
-        values, vectors = np.linalg.eigh(scaled.T @ scaled)
-        return np.asarray(values), np.asarray(vectors)
+    def _information(self) -> tuple[Array, Array, Array]:
+        """(P,) typical sizes of the free numbers; (P,), (P, P) eigenvalues and vectors of the information in them."""
+        scale = np.array([abs(each.parameter.typical) for each in self.model.free])
+        scaled = self.jacobian * scale
+        return scale, *np.linalg.eigh(scaled.T @ scaled)
 
     @cached_property
     def covariance(self) -> Array:
         """(P, P) of the free numbers; infinite variance where the data say nothing."""
-        scale, (values, vectors) = self._scale, self._information
+        scale, values, vectors = self._information
         seen = _seen(values)
         inverse = (vectors[:, seen] / values[seen]) @ vectors[:, seen].T
         hidden = np.sum(vectors[:, ~seen] ** 2, axis=1) > PROFILE.shared**2

@@ -13,8 +13,6 @@ REACH = 0.25
 """Half edge of the default cube about home, over the characteristic length of the manipulator."""
 POINTS = 21
 
-Three = tuple[float, float, float]
-
 
 def box(
     manipulator: Manipulator, home: NDArray[np.float64], low: str | None, high: str | None, points: str

@@ -26,7 +26,7 @@ from pipeline.page.record import CandidatePage, Dossier, EffectPage, Isolability
 from pipeline.page.stages import Stages, stages
 from pipeline.page.words import SOURCES, assumptions, by_hand, following, reading, tolerances_of, why
 from pipeline.parameter_names import path_of
-from pipeline.provenance import commit, versions
+from pipeline.provenance import made_with
 from reports.quantities import sigma
 from vjm.effects import effect_of
 from vjm.effects.base import Effect
@@ -100,8 +100,7 @@ def collect(it: Subject, commands: tuple[str, ...] = (), on_progress: OnProgress
         assumptions=(*assumptions(whole, model.names, known), *reading(whole.rig.axes)),
         sources=(*SOURCES, *dict.fromkeys(f"{e.name}: {e.source}." for e in catalogue)),
         commands=commands,
-        versions=versions(),
-        commit=commit(),
+        **made_with(),
     )
 
 

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from pipeline.campaign.names import COORDINATES
 from pipeline.plan.isolability import Visible
 from pipeline.plan.next import Worth
-from pipeline.provenance import commit, versions
+from pipeline.provenance import made_with
 from pipeline.record import Record
 
 
@@ -111,6 +111,5 @@ def plan_record(
         next_test=following,
         unmeasured=tuple(unmeasured),
         refused=dict(refused),
-        commit=commit(),
-        versions=versions(),
+        **made_with(),
     )

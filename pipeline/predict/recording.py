@@ -16,7 +16,7 @@ from pipeline.predict.comparison import comparison
 from pipeline.predict.predicting import Predicted
 from pipeline.predict.ranges import Ranges
 from pipeline.predict.record import ColumnBand, Counted, PredictedRow, Predictions, Reading
-from pipeline.provenance import commit, versions
+from pipeline.provenance import made_with
 
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
@@ -45,8 +45,7 @@ def recorded(it: Predicted, seconds: float = 0.0, seed: int = 0) -> Predictions:
         not_done=tuple(attempts.failed),
         seconds=round(seconds, 3),
         seed=seed,
-        commit=commit(),
-        versions=versions(),
+        **made_with(),
         data=dict(it.fitted.whole.digests) | it.asked.digests,
     )
 

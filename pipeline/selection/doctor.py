@@ -83,9 +83,25 @@ def suspicions(cache: FitCache) -> tuple[Suspicion, ...]:
         if all(kinked.clears(it.after / share, noise / share, criteria.doctor_factor) for it in found):
             return ()
     least = max(min(it.after for it in found), noise)
-    kept = [it for it in found if it.after < least + criteria.doctor_tie * least / noise]
+    tie = least + criteria.doctor_tie * least / noise
+    kept = [it for it in found if it.after < tie]
     # Less than one of chi-square says nothing: then in the order of the columns.
-    return tuple(sorted(kept, key=lambda it: (int(it.after - least), *_place(it.mistake, cache.whole))))
+    kept.sort(key=lambda it: (int(it.after - least), *_place(it.mistake, cache.whole)))
+    return (*kept, *_beside_unusual(table, found, tie))
+
+
+def _beside_unusual(table: Table, found: Sequence[Suspicion], tie: float) -> Iterator[Suspicion]:
+    """Other mistakes of the kinds that were found that leave no more than a tie beside an effect of an unusual size: a
+    clamp may give more than is usual, and of which unit it was the table does not tell then."""
+    told, kinds = {it.mistake.words for it in found}, {it.mistake.kind for it in found}
+    for mistake in possible(table.cache.whole.campaign, table.cache.criteria):
+        if mistake.kind in kinds and mistake.words not in told:
+            mended = table.mended(mistake)
+            left = _within_its_share(mended, attrgetter("left_at_any_size"), BESIDE)
+            if left is None or left[0] >= tie:
+                continue
+            if _explained(mended.cache.fit(left[1]), mistake, table.cache.criteria, False):
+                yield Suspicion(mistake, found[0].before, *left)
 
 
 @contextmanager

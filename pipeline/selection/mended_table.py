@@ -163,6 +163,15 @@ class Table:
         )
         return misfit(cache, best), best
 
+    @cached_property
+    def left_at_any_size(self) -> tuple[float, Names]:
+        """The same of one of any size; nothing is fitted where to first order none takes nearly all."""
+        cache, root = self.cache, self.root
+        doubt = cache.criteria.estimate_error**2 * self.fit.chi_square + cache.criteria.doctor_tie
+        sets = self.sets if self.first_order < doubt else ()
+        best = min((root, *sets), key=lambda names: cache.fit(names).order)
+        return cache.fit(best).chi_square, best
+
     def left_by_two(self, singles: Iterable[Names]) -> Left:
         """What the best two effects leave, one of them that of these sets: of the second ones those that promise most,
         fitted. The best single effect, where that leaves less."""

@@ -11,7 +11,7 @@ from fem.pardiso import has_pardiso
 from meshes.files import replacing
 from pipeline.manipulator.table_record import Table1
 from pipeline.progress import Progress, Stage
-from pipeline.provenance import commit, versions
+from pipeline.provenance import made_with
 from pipeline.validation.agreement import agreement_sentences
 from pipeline.validation.alarms import alarms
 from pipeline.validation.case import Case
@@ -158,8 +158,7 @@ def run(case: Case, detail: Detail, workshop: Workshop, out: Path, typed: str) -
         yield_MPa=case.material.yield_MPa,
         story=story(bar, buckling, springs, table, limit),
         seconds=dict(job.progress.seconds),
-        versions=versions(),
-        commit=commit(),
+        **made_with(),
         command=typed,
         seed=SEED,
         solver="pardiso" if has_pardiso() else "SuperLU",

@@ -9,9 +9,10 @@ import sys
 
 from fem.material import Isotropic
 from fem.slices.stiffness import chain_stiffness
-from meshes.extrusion import section_sweep, stepped_thickness
+from meshes.extrusion import stepped_thickness
 from meshes.resolution import Resolution
 from meshes.section import ISection
+from tests.meshes.solids import section_sweep
 
 # Bar P (tests/fem/bar_p.py, which imports more than a user of the chain does).
 SECTION, LENGTH, MATERIAL = ISection(12.0, 2.2, 15.5, 4.0), 310.0, Isotropic(70e3, 0.33)

@@ -17,13 +17,14 @@ import pytest
 
 from fem.convergence import extrapolate
 from fem.slices.stiffness import chain_stiffness
-from meshes.extrusion import section_sweep, stepped_thickness
+from meshes.extrusion import stepped_thickness
 from meshes.layers import as_sweep
 from meshes.resolution import Resolution
 from meshes.solid import Floats, SolidMesh
 from meshes.store import mesh_bar
 from tests.benchmarks.test_fea_speed import MESHES, OUT, REPEATS, measured, theirs, written
 from tests.fem import bar_p
+from tests.meshes.solids import section_sweep
 from tests.peers import calculix
 
 pytestmark = pytest.mark.long

@@ -8,13 +8,15 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from scipy.integrate import solve_ivp
+from scipy.optimize import brentq
 
 from pipeline.answer.of_diagnosis import answered
 from pipeline.campaign import read
 from pipeline.inference.model import Model
 from pipeline.selection.diagnosis import diagnose
 from pipeline.selection.examined import examined
-from tests.cases.test_knocked_rows import TURN, loads, measured
+from tests.cases.test_knocked_rows import INERTIA, LENGTH, TURN, E, loads, measured
 from vjm.effects import catalogue
 
 DIALS, LOAD = slice(1, 3), slice(0, 1)
@@ -73,3 +75,36 @@ def test_two_effects_that_do_the_same_are_not_certain(tmp_path: Path) -> None:
     toml.write_text("table_checked = true\n" + toml.read_text())
     it = answered(diagnose(read(tmp_path), Model(), catalogue()))
     assert it.verdict != "identified" and not it.certain
+
+
+def bent(force: float, turn: float) -> tuple[float, float]:
+    """mm of tip and middle of an elastica on a clamp that turns by so many rad/(N·mm)."""
+    bending = E * INERTIA
+
+    def from_moment(moment: float) -> np.ndarray:
+        def along(_: float, z: np.ndarray) -> list[float]:
+            return [z[1], -force * np.cos(z[0]) / bending, np.sin(z[0])]
+
+        begin = [turn * moment, moment / bending, 0.0]
+        ends = [LENGTH / 2.0, LENGTH]
+        return np.asarray(solve_ivp(along, (0.0, LENGTH), begin, t_eval=ends, rtol=1e-10, atol=1e-12).y)
+
+    if force == 0.0:
+        return 0.0, 0.0
+    moment = brentq(lambda m: from_moment(m)[1, -1], 0.3 * force * LENGTH, 1.05 * force * LENGTH)
+    middle, tip = from_moment(moment)[2]
+    return tip, middle
+
+
+@pytest.mark.parametrize("words", ["all readings in mm are in inches", "fy_N is in lbf"])
+def test_a_clamp_that_gives_six_times_as_much_as_the_bar(tmp_path: Path, words: str) -> None:
+    """With a unit of another kind and a clamp that is usual the readings are as well explained: both are told."""
+    force, noise = loads(7), np.random.default_rng(1)
+    measured(tmp_path, force, 0.0, {})
+    read_by = np.array([(f, *bent(f, 20.0 * TURN)) for f in force]) + noise.normal(
+        0.0, [0.1, 0.002, 0.002], (7, 3)
+    )
+    rows = [",".join(f"{v:.7g}" for v in row) for row in read_by]
+    (tmp_path / "r.csv").write_text("\n".join(["load,tip,mid", *rows]) + "\n")
+    spoilt(tmp_path, *MISTAKES[words])
+    assert words in told(tmp_path)

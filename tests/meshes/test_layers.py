@@ -8,14 +8,14 @@ import numpy as np
 import pytest
 
 from meshes.bar import Bar, Lug
-from meshes.extrusion import section_mesh, section_sweep, stepped_thickness
+from meshes.extrusion import section_mesh, stepped_thickness
 from meshes.layers import as_sweep, clusters
 from meshes.resolution import Resolution
 from meshes.section import Rectangle, Round, Section, Tube
 from meshes.solid import SolidMesh
 from meshes.store import mesh_bar
 from tests.fem import bar_p
-from tests.meshes.solids import section_solid
+from tests.meshes.solids import section_solid, section_sweep
 
 SECTIONS = [bar_p.SECTION, Rectangle(6.0, 10.0), Round(12.0), Tube(12.0, 2.0)]
 NAMES = ["I", "rectangle", "round", "tube"]

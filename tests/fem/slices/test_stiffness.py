@@ -24,7 +24,7 @@ from fem.slices.condensed import Prism
 from fem.slices.stiffness import chain_stiffness, first_half
 from fem.space import Space
 from meshes.bar import Bar, Lug
-from meshes.extrusion import drawn, kind_of, section_mesh, section_sweep, stepped_thickness
+from meshes.extrusion import drawn, kind_of, section_mesh, stepped_thickness
 from meshes.layers import Sweep, as_sweep
 from meshes.plane import PlaneMesh
 from meshes.resolution import Resolution
@@ -33,7 +33,7 @@ from meshes.solid import Floats, SolidMesh
 from meshes.store import mesh_bar
 from tests.fem import bar_p
 from tests.fem.slices.oracle import by_strain_energy
-from tests.meshes.solids import section_solid
+from tests.meshes.solids import section_solid, section_sweep
 
 COARSE = Resolution(bar_p.SIZE)
 

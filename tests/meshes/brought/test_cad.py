@@ -13,12 +13,13 @@ from fem.mesh_limit import limit, swept_limit
 from fem.section_torsion import torsion_limit
 from fem.slices.stiffness import chain_stiffness
 from meshes.brought.child import in_child
-from meshes.extrusion import section_sweep, stepped_thickness
+from meshes.extrusion import stepped_thickness
 from meshes.resolution import Resolution
 from meshes.section import Rectangle, Tube
 from tests.fem import bar_p as bar_p_data
 from tests.meshes.brought import finest, made
 from tests.meshes.brought.made import bars, bore, brought, cad, difference, plane
+from tests.meshes.solids import section_sweep
 
 ENDS = (plane(0, 0, 0), plane(60, 0, 0))
 
