@@ -108,7 +108,7 @@ class LinearModel:
 
     @property
     def solved_by(self) -> str:
-        """The solver that the unit motions took."""
+        """The solver that the unit motions took: "slice chain, quarter section", "pardiso", "SuperLU", .."""
         return self._units[1]
 
     @cached_property

@@ -13,15 +13,12 @@ from fem.distributed import distributed_stiffness
 from fem.elasticity import stiffness_matrix
 from fem.end_states import EndStates
 from fem.linear import LinearModel
-from fem.linkage import Linkage, single_bar
+from fem.linkage import single_bar
 from fem.material import Isotropic
 from fem.part_space import part_space
-from fem.slices.chain import Chain
-from fem.slices.solver import ChainSolver
-from fem.solvers import Solver, automatic
+from fem.slices.solver import SolverOf, by_chain
 from fem.space import Space
 from meshes.facets import facet_normals
-from meshes.layers import SweptMesh, as_sweep
 from meshes.part import CORNERS, PartMesh
 from meshes.solid import Floats, Ints
 
@@ -49,19 +46,22 @@ class PartBar:
         if tie == "rigid":
             return self._rigid
         if tie == "pinned":
-            return self._model(single_bar(self.space, self.length, pinned=True))
+            return self._model(pinned=True)
         half = single_bar(self._half, self.length)
         return LinearModel(half, self.material, known=self._elastic, states=self._states)
 
     @cached_property
     def _rigid(self) -> LinearModel:
-        return self._model(single_bar(self.space, self.length))
+        return self._model(pinned=False)
 
-    def _model(self, linkage: Linkage) -> LinearModel:
-        solver: Solver = automatic
-        if self._chain is not None and isinstance(self.material, Isotropic):
-            solver = ChainSolver(linkage, self.material, known=self._chain)
-        return LinearModel(linkage, self.material, solver, self._elastic, self._states)
+    def _model(self, pinned: bool) -> LinearModel:
+        linkage = single_bar(self.space, self.length, pinned)
+        return LinearModel(linkage, self.material, self.solver_of(linkage), self._elastic, self._states)
+
+    @cached_property
+    def solver_of(self) -> SolverOf:
+        """Of linkages of parts like this one with rigid ends."""
+        return by_chain(self.mesh, self.material)
 
     @cached_property
     def _states(self) -> EndStates:
@@ -71,34 +71,6 @@ class PartBar:
     def _elastic(self) -> sp.csr_matrix:
         """(dofs, dofs) stiffness of the part, nothing held: what all ties and supports share."""
         return stiffness_matrix(self.space, self.material)
-
-    @cached_property
-    def _chain(self) -> Chain | None:
-        """Of a swept part of one isotropic material."""
-        if self._swept is None or not isinstance(self.material, Isotropic):
-            return None
-        return Chain.of(self._swept, self.material)
-
-    @property
-    def solved_by(self) -> str:
-        """The linear solver of its rigid ends, in words: "slice chain, quarter section", "pardiso", "SuperLU", .."""
-        if self._chain is not None:
-            return self._chain.name
-        return self._rigid.solved_by
-
-    @property
-    def swept(self) -> bool:
-        """Whether the cells stand in layers between planes across the bar, so that a chain of slices solves them."""
-        return self._swept is not None
-
-    @cached_property
-    def _swept(self) -> SweptMesh | None:
-        if self.mesh.kind != "hexahedron27":
-            return None
-        try:
-            return as_sweep(self.mesh)
-        except ValueError:
-            return None
 
     @cached_property
     def _half(self) -> Space:

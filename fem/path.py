@@ -167,9 +167,9 @@ def settle(
     free = r.others([driven, *held])
     limit = RELATIVE_RESIDUAL * scale * max(abs(value), 1e-3)
     state = pinned_down(r, start, driven, value)
-    if factor is not None:
-        state = approached(model, free, state, factor, limit)
     for iteration in range(most):
+        if factor is not None:
+            state = approached(model, free, state, factor, limit)
         residual, tangent = residual_and_tangent(model, state)
         error = float(np.abs(residual[free]).max())
         if error >= limit and iteration + 1 == most:

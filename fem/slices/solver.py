@@ -11,6 +11,7 @@ from functools import cached_property
 import numpy as np
 import scipy.sparse as sp
 
+from fem.anisotropic import Regional
 from fem.factor import Factor, SolveError, Sparse
 from fem.linkage import Linkage
 from fem.material import Isotropic
@@ -18,7 +19,7 @@ from fem.reduction import Reduction
 from fem.slices.chain import Chain
 from fem.solvers import Coarse, Solver, automatic
 from meshes.layers import as_sweep
-from meshes.solid import Floats, Ints
+from meshes.solid import Floats, Ints, SolidMesh
 
 # Relative to the largest force: a matrix that differs more is not that of the chain, but a tangent of a stressed state.
 SAME_MATRIX = 1e-9
@@ -28,7 +29,7 @@ SAME_MATRIX = 1e-9
 class ChainSolver:
     """A `Solver` for the stiffness of one linkage; other matrices go to `otherwise`.
 
-    known : the chain of its only member, where that is there already
+    known : the chain of its members, where that is there already and all are on one mesh
     Raises ValueError when first used if a mesh of the linkage is no sweep (`meshes.layers.as_sweep` says why).
     """
 
@@ -41,7 +42,7 @@ class ChainSolver:
     def chains(self) -> tuple[Chain, ...]:
         """Of every member; members with the same space share one."""
         if self.known is not None:
-            return (self.known,)
+            return (self.known,) * len(self.linkage.members)
         made: dict[int, Chain] = {}
         for member in self.linkage.members:
             if id(member.space) not in made:
@@ -68,6 +69,21 @@ class ChainSolver:
         wanted = (matrix @ np.concatenate((x, np.zeros(matrix.shape[0] - inner))))[:inner]
         found = inner_forces(x[:, None], self.chains, r)[:, 0]
         return bool(np.abs(found - wanted).max() <= SAME_MATRIX * np.abs(wanted).max())
+
+
+SolverOf = Callable[[Linkage], Solver]
+
+
+def by_chain(mesh: SolidMesh, material: Isotropic | Regional) -> SolverOf:
+    """The solver of every linkage of bars on this mesh: one chain of slices for all, where the mesh is a sweep of one
+    isotropic material, else the automatic one."""
+    if isinstance(material, Regional):
+        return lambda _: automatic
+    try:
+        chain = Chain.of(as_sweep(mesh), material)
+    except ValueError:
+        return lambda _: automatic
+    return lambda linkage: ChainSolver(linkage, material, known=chain)
 
 
 @dataclass(frozen=True, eq=False)

@@ -232,7 +232,7 @@ def sentences(placed: Placed, tie: str) -> list[str]:
     finest = placed.bars[-1]
     said = [
         f"Meshed: {brought.told['meshed']}.",
-        f"Solved by: {finest.solved_by}, {finest.mesh.dofs} unknowns on the finest mesh.",
+        f"Solved by: {finest.model('rigid').solved_by}, {finest.mesh.dofs} unknowns on the finest mesh.",
     ]
     said += [
         f"Length {placed.frame.length:.6g} mm from base point to tip point, {placed.frame.said}.",

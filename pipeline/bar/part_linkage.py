@@ -12,6 +12,7 @@ from fem.anisotropic import Regional
 from fem.beam import Segment
 from fem.material import Isotropic
 from fem.part_bar import PartBar
+from fem.slices.solver import SolverOf
 from fem.space import Space
 from meshes.solid import Floats
 from pipeline.bar.record import NEGLIGIBLE
@@ -68,6 +69,11 @@ class PartSpecimen:
     def space(self) -> Space:
         """Of the working mesh, its ends as they are tied."""
         return self.bar.model(self.tie).linkage.members[0].space
+
+    @property
+    def solver_of(self) -> SolverOf:
+        """Of linkages of bars on the working mesh."""
+        return self.bar.solver_of
 
     @cached_property
     def path_space(self) -> Space:

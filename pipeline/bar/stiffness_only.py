@@ -137,5 +137,5 @@ def _of_meshes(case: FileCase, brought: Brought) -> Found:
         study_dofs=[bar.mesh.dofs for bar in part.bars],
         quality=quality,
     )
-    said = [f"Solved by: {finest.solved_by}, {finest.mesh.dofs} unknowns on the finest mesh."]
+    said = [f"Solved by: {finest.model('rigid').solved_by}, {finest.mesh.dofs} unknowns on the finest mesh."]
     return Found(limit.value, limit.error, mesh, [*said, *([ONE_MESH] if len(part.bars) == 1 else [])])

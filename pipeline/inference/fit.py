@@ -65,8 +65,7 @@ class Fit:
 
     @cached_property
     def numbers(self) -> int:
-        """Free numbers that the readings determine, alone or together: a number that nothing reads takes no residual
-        away."""
+        """Free numbers that the readings determine, alone or together: those that nothing reads take no residual."""
         return int(np.sum(_seen(self._information[1])))
 
     @cached_property

@@ -64,7 +64,6 @@ def found_in(file: Path) -> Found:
     except FileNotFoundError:
         raise InputError(f"{file} is missing, allowed is a file of readings") from None
     except BadTable as error:
-        place = f"{file} line {error.line}" if error.line else f"{file}"
-        raise InputError(f"{place}: {error}") from error
+        raise InputError(f"{file}{f' line {error.line}' if error.line else ''}: {error}") from error
     except OSError as error:
         raise InputError(f"{file} {unread(error)}") from error

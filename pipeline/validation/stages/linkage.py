@@ -13,6 +13,7 @@ from fem.factor import Factor
 from fem.linear import LinearModel
 from fem.linkage import parallelogram
 from fem.path import follow, with_imperfection
+from fem.solvers import automatic
 from fem.space import Space
 from pipeline.progress import Stage
 from pipeline.validation.entries import rows
@@ -73,7 +74,8 @@ class SolidStiffness(BaseModel):
 def solid_linkage(case: Sized, s: SolidBar, space: Space, q_deg: float) -> LinearModel:
     """The parallelogram of two solid bars at an angle."""
     size = case.linkage
-    return LinearModel(parallelogram(space, size.length_mm, size.width_mm, radians(q_deg)), s.material)
+    linkage = parallelogram(space, size.length_mm, size.width_mm, radians(q_deg))
+    return LinearModel(linkage, s.material, s.solver_of(linkage) if space is s.space else automatic)
 
 
 def solid_stiffness(case: Sized, s: SolidBar) -> list[SolidStiffness]:

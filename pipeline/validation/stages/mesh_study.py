@@ -9,7 +9,9 @@ from fem.axial import axial_stiffness
 from fem.convergence import Extrapolation, extrapolate
 from fem.linear import LinearModel
 from fem.linkage import single_bar
+from fem.slices.stiffness import chain_stiffness
 from fem.space import Space
+from meshes.layers import as_sweep
 from meshes.solid import Floats
 from pipeline.progress import Stage
 from pipeline.validation.entries import ENTRIES, rows
@@ -34,13 +36,12 @@ def mesh_study(s: Specimen, stage: Stage) -> MeshStudy:
     for number, level in enumerate(s.detail.study):
         mesh = s.mesh(level)
         stage.say(f"{mesh.dofs} unknowns")
-        model = LinearModel(single_bar(Space.of(mesh), s.bar.length), s.material)
         if number < GEOMETRIC_LEVELS:
-            both = axial_stiffness(model)
+            both = axial_stiffness(LinearModel(single_bar(Space.of(mesh), s.bar.length), s.material))
             elastic.append(both.elastic)
             geometric.append(both.geometric)
         else:
-            elastic.append(model.stiffness)
+            elastic.append(chain_stiffness(as_sweep(mesh).sweep, s.material))
         dofs.append(mesh.dofs)
     sizes = [s.size / level for level in s.detail.study]
     working = s.detail.study.index(s.detail.working)

@@ -11,6 +11,7 @@ from fem.linear import LinearModel
 from fem.linkage import single_bar
 from fem.material import Isotropic
 from fem.section_constants import SectionConstants, section_constants
+from fem.slices.solver import SolverOf, by_chain
 from fem.space import Space
 from fem.stiffness import bar_stiffness
 from meshes.bar import Bar, Lug
@@ -55,7 +56,13 @@ class Specimen:
     @cached_property
     def model(self) -> LinearModel:
         """The clamped bar on the working mesh; its matrix is kept."""
-        return LinearModel(single_bar(self.space, self.bar.length), self.material)
+        clamped = single_bar(self.space, self.bar.length)
+        return LinearModel(clamped, self.material, self.solver_of(clamped))
+
+    @cached_property
+    def solver_of(self) -> SolverOf:
+        """Of linkages of bars on the working mesh."""
+        return by_chain(self.space.mesh, self.material)
 
     @cached_property
     def path_space(self) -> Space:

@@ -6,6 +6,7 @@ from typing import Protocol
 from fem.anisotropic import Regional
 from fem.beam import Segment
 from fem.material import Isotropic
+from fem.slices.solver import SolverOf
 from fem.space import Space
 from pipeline.validation.case_tables import LinkageSize
 from pipeline.validation.detail import Detail
@@ -39,6 +40,11 @@ class SolidBar(Protocol):
 
     @property
     def space(self) -> Space: ...
+
+    @property
+    def solver_of(self) -> SolverOf:
+        """The solver of a linkage of bars on the working mesh."""
+        ...
 
     @property
     def path_space(self) -> Space: ...
