@@ -98,9 +98,8 @@ def _beside_unusual(table: Table, found: Sequence[Suspicion], tie: float) -> Ite
         if mistake.kind in kinds and mistake.words not in told:
             mended = table.mended(mistake)
             left = _within_its_share(mended, attrgetter("left_at_any_size"), BESIDE)
-            if left is None or left[0] >= tie:
-                continue
-            if _explained(mended.cache.fit(left[1]), mistake, table.cache.criteria, False):
+            near = left is not None and left[0] < tie
+            if left and near and _explained(mended.cache.fit(left[1]), mistake, table.cache.criteria, False):
                 yield Suspicion(mistake, found[0].before, *left)
 
 
