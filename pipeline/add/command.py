@@ -9,11 +9,10 @@ from pipeline.add.fitting import Added, add, remove
 from pipeline.answer.tables.added import show
 from pipeline.campaign import Campaign
 from pipeline.command import usable, usable_places
-from pipeline.inference.model_file import NAME, ModelFile, write_model
+from pipeline.inference.model_file import NAME, fitted_now, write_model
 from pipeline.inference.suitable import Known, named_effects
 from pipeline.opened import opened
 from pipeline.progress import Progress
-from pipeline.provenance import commit, versions
 from pipeline.typed import command
 
 
@@ -78,6 +77,4 @@ def remove_effects(
 
 def save(path: Path, found: Added, campaign: Campaign, known: Known) -> None:
     """Write the model with where it comes from."""
-    files = known.files_of(found.model.names)
-    it = ModelFile(found.model, found.uncertainty, files, campaign.name, commit(), versions())
-    write_model(path, it)
+    write_model(path, fitted_now(found.model, found.uncertainty, known, campaign.name))

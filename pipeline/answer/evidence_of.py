@@ -119,8 +119,12 @@ def _sensors(it: Diagnosis) -> Iterator[SensorInstead]:
 
 
 def _look_alikes(it: Diagnosis) -> Iterator[LookAlike]:
+    cache, best = it.cache, frozenset(it.sets[0])
     for a in it.alike:
-        if a.correlation > LOOKS_LIKE and a.effect in it.sets[0] and a.size < a.needed:
+        # Alike to first order: fits with it in the place of the effect may have told them apart.
+        tried = [names for names in cache.fits if a.rival in names and a.effect not in names]
+        apart = bool(tried) and all(worse(cache, names, best) > needed(cache, names, best) for names in tried)
+        if a.correlation > LOOKS_LIKE and a.effect in best and a.size < a.needed and not apart:
             yield LookAlike(
                 effect=a.effect, rival=a.rival, correlation=a.correlation, size=a.size, needed=a.needed
             )

@@ -49,8 +49,7 @@ def values_of(model: Model, intervals: Sequence[Interval]) -> dict[str, Value]:
 
 
 def uncertainty_of(values: Mapping[str, Value], model: Model) -> dict[str, Uncertainty]:
-    """Of every number that a fit of the model may move, for the model's file; of one that the readings do not see,
-    that nothing is known."""
+    """Of every number that a fit of the model may move, for the model's file; empty of one that no reading sees."""
     free = {each.name for each in model.free}
     return {name: Uncertainty(it.std, it.low95, it.high95) for name, it in values.items() if name in free}
 

@@ -25,9 +25,8 @@ from pipeline.face.subject import Subject
 from pipeline.improve.command import improved
 from pipeline.improve.steps import steps
 from pipeline.inference.model import Model
-from pipeline.inference.model_file import NAME, ModelFile, write_model
+from pipeline.inference.model_file import NAME, fitted_now, write_model
 from pipeline.parameter_names import parted
-from pipeline.provenance import commit, versions
 from pipeline.selection.diagnosis import diagnose as search
 from vjm.effects import shipped
 from vjm.effects.base import Effect
@@ -95,9 +94,8 @@ class Addition(OfAnswer):
                     f"{term.effect.name} is defined in no file of its own, allowed is open(folder, effects=[file])"
                 )
         place = Path(path) if path is not None else Path(campaign.folder or "") / NAME
-        files = known.files_of(self.model.names)
         told = uncertainty_of(self.answer.parameters, self.model)
-        write_model(place, ModelFile(self.model, told, files, self.name, commit(), versions()))
+        write_model(place, fitted_now(self.model, told, known, self.name))
         return place
 
     def plot(self) -> Picture:

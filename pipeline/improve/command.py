@@ -16,11 +16,10 @@ from pipeline.discover.beyond_catalogue import with_laws
 from pipeline.improve.steps import Step, steps
 from pipeline.improve.table import closing, following, waterfall
 from pipeline.inference.model import Model
-from pipeline.inference.model_file import NAME, ModelFile, Uncertainty, write_model
+from pipeline.inference.model_file import NAME, Uncertainty, fitted_now, write_model
 from pipeline.inference.suitable import Known
 from pipeline.opened import opened
 from pipeline.progress import Progress
-from pipeline.provenance import commit, versions
 from pipeline.selection.diagnosis import Diagnosis, diagnose
 from pipeline.terminal import terminal
 
@@ -92,5 +91,4 @@ def _watched(found: Diagnosis, quiet: bool) -> list[Step]:
 def _write(
     path: Path, model: Model, uncertainty: dict[str, Uncertainty], campaign: Campaign, known: Known
 ) -> None:
-    files = known.files_of(model.names)
-    write_model(path, ModelFile(model, uncertainty, files, campaign.name, commit(), versions()))
+    write_model(path, fitted_now(model, uncertainty, known, campaign.name))

@@ -134,8 +134,7 @@ class Model:
         return replace(self, terms=tuple(terms))
 
     def freed(self, began: Model) -> Model:
-        """The model with no other fixed numbers than the one it began with: what readings do not see is open, and a
-        prediction that it matters to has a wide interval."""
+        """With no other fixed numbers than the one it began with: predictions are wide where readings see none."""
         return replace(self, fixed=began.fixed)
 
     def without(self, name: str) -> Model:

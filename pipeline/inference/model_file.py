@@ -30,7 +30,9 @@ import tomlkit
 from tomlkit.items import InlineTable, Table
 
 from pipeline.inference.model import Model, Term
+from pipeline.inference.suitable import Known
 from pipeline.parameter_names import path_of
+from pipeline.provenance import commit, versions
 from pipeline.saving import put
 
 NAME = "model.toml"
@@ -64,6 +66,13 @@ class ModelFile:
     campaign: str = ""
     commit: str = ""
     versions: Mapping[str, str] = field(default_factory=dict)
+
+
+def fitted_now(
+    model: Model, uncertainty: Mapping[str, Uncertainty], known: Known, campaign: str
+) -> ModelFile:
+    """Of a model that was fitted to a campaign of that name by this program."""
+    return ModelFile(model, uncertainty, known.files_of(model.names), campaign, commit(), versions())
 
 
 def write_model(path: Path, it: ModelFile) -> None:

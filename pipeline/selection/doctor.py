@@ -91,8 +91,8 @@ def suspicions(cache: FitCache) -> tuple[Suspicion, ...]:
 
 
 def _beside_unusual(table: Table, found: Sequence[Suspicion], tie: float) -> Iterator[Suspicion]:
-    """Other mistakes of the kinds that were found that leave no more than a tie beside an effect of an unusual size: a
-    clamp may give more than is usual, and of which unit it was the table does not tell then."""
+    """Other mistakes of these kinds that leave no more than a tie beside an effect of an unusual size: a clamp may give
+    more than is usual, and of which unit it was the table does not tell then."""
     told, kinds = {it.mistake.words for it in found}, {it.mistake.kind for it in found}
     for mistake in possible(table.cache.whole.campaign, table.cache.criteria):
         if mistake.kind in kinds and mistake.words not in told:

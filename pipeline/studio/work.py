@@ -15,7 +15,7 @@ from pipeline.campaign import read
 from pipeline.campaign.reading import DESCRIPTION
 from pipeline.discover.beyond_catalogue import with_laws
 from pipeline.discover.command import LawsFound, laws_found
-from pipeline.inference.model_file import NAME, ModelFile, model_text
+from pipeline.inference.model_file import NAME, fitted_now, model_text
 from pipeline.inference.model_reading import read_model_file
 from pipeline.inference.suitable import known_effects, named_effects
 from pipeline.init.choices import Choices, filled
@@ -28,7 +28,6 @@ from pipeline.page.record import Isolability, Page
 from pipeline.page.rivals import possible
 from pipeline.plan.command import plan_of
 from pipeline.plan.record import Plan
-from pipeline.provenance import commit, versions
 from pipeline.selection.diagnosis import diagnose
 from pipeline.selection.mending import Mend, mends
 from pipeline.studio.preview import Preview, preview_of
@@ -162,7 +161,7 @@ def _proposal(task: Task, it: Subject, on_progress: OnProgress) -> Proposal:
     answer, model = it.answer, shown_model(it).freed(it.model)
     assert answer is not None
     told = uncertainty_of(answer.parameters, model)
-    file = ModelFile(model, told, it.known.files_of(model.names), it.campaign.name, commit(), versions())
+    file = fitted_now(model, told, it.known, it.campaign.name)
     page = collect(it, (), on_progress)
     return Proposal(page, model_text(file, task.at), model_text(file, task.folder), answer)
 
@@ -172,8 +171,7 @@ def _changed(task: Task, found: Added, subject: Subject, on_progress: OnProgress
 
 
 def _shown(task: Task, it: Subject, on_progress: OnProgress) -> Done:
-    files = it.known.files_of(it.model.names)
-    file = ModelFile(it.model, it.uncertainty, files, it.campaign.name, commit(), versions())
+    file = fitted_now(it.model, it.uncertainty, it.known, it.campaign.name)
     return Done(
         task.kind,
         model_text(file, task.at),

@@ -32,6 +32,12 @@ def test_every_command_says_the_same_error(bench: parastiff.Bench) -> None:
     assert saved.degrees == 14 - len(SEEN)
 
 
+def test_nothing_looks_like_what_a_fit_told_apart(bench: parastiff.Bench) -> None:
+    """A tilt and a bow are alike to the base to first order, and leave 16 sigma where they are fitted in its place."""
+    found = bench.diagnose().answer
+    assert found.evidence is not None and not found.evidence.look_alikes
+
+
 def test_a_saved_model_does_not_say_that_it_knows_them(bench: parastiff.Bench, tmp_path: Path) -> None:
     found = bench.improve()
     told = {name for name, it in found.answer.parameters.items() if it.interval != "fixed"}
