@@ -93,9 +93,9 @@ def suspicions(cache: FitCache) -> tuple[Suspicion, ...]:
 def _beside_unusual(table: Table, found: Sequence[Suspicion], tie: float) -> Iterator[Suspicion]:
     """Other mistakes of these kinds that leave no more than a tie beside an effect of an unusual size: a clamp may give
     more than is usual, and of which unit it was the table does not tell then."""
-    told, kinds = {it.mistake.words for it in found}, {it.mistake.kind for it in found}
+    told = {it.mistake.words: it.mistake.kind for it in found}
     for mistake in possible(table.cache.whole.campaign, table.cache.criteria):
-        if mistake.kind in kinds and mistake.words not in told:
+        if mistake.kind in told.values() and mistake.words not in told:
             mended = table.mended(mistake)
             left = _within_its_share(mended, attrgetter("left_at_any_size"), BESIDE)
             near = left is not None and left[0] < tie
@@ -194,15 +194,16 @@ def _kinds(campaign: Campaign) -> list[Effect]:
 def _found(table: Table, promising: list[Mistake], fault: float) -> list[Suspicion]:
     """Every mistake that is enough, of the first ones and then of those of the kinds that were found: a sign lost in
     the load or in the displacement reads alike. fault: what the fault of one sensor leaves."""
-    criteria = table.cache.criteria
-    if fault < criteria.doctor_factor * max(table.fit.degrees, 1):
+    if fault < table.cache.criteria.doctor_factor * max(table.fit.degrees, 1):
         return []
-    count = criteria.doctor_fitted
-    out, skipped = _looked_at(table, promising[:count], fault)
+    count, out, skipped, rest = table.cache.criteria.doctor_fitted, list[Suspicion](), False, promising
+    # To first order the best come first, but of a table that is far off that order says little.
+    while rest and not out and (rest is promising or is_far(table.fit)):
+        out, one = _looked_at(table, rest[:count], fault)
+        skipped, rest = skipped or one, rest[count:]
     if skipped and not out:
         raise TooMuch("it would take too long")
-    kinds = {it.mistake.kind for it in out}
-    alike = [mistake for mistake in promising[count:] if mistake.kind in kinds]
+    alike = [mistake for mistake in rest if mistake.kind in {it.mistake.kind for it in out}]
     return [*out, *_looked_at(table, alike[:count], fault, out)[0]]
 
 

@@ -96,15 +96,23 @@ def bent(force: float, turn: float) -> tuple[float, float]:
     return tip, middle
 
 
-@pytest.mark.parametrize("words", ["all readings in mm are in inches", "fy_N is in lbf"])
-def test_a_clamp_that_gives_six_times_as_much_as_the_bar(tmp_path: Path, words: str) -> None:
-    """With a unit of another kind and a clamp that is usual the readings are as well explained: both are told."""
-    force, noise = loads(7), np.random.default_rng(1)
+@pytest.mark.parametrize(
+    ("words", "turn"),
+    [
+        ("all readings in mm are in inches", 20.0 * TURN),
+        ("fy_N is in lbf", 20.0 * TURN),
+        # Not among the four that promise most: no look at a table that is so far off goes by that alone.
+        ("all readings in mm are in inches", 4.0 * TURN),
+    ],
+)
+def test_a_clamp_that_gives_more_than_the_bar(tmp_path: Path, words: str, turn: float) -> None:
+    """With a unit of another kind and a clamp that is usual some readings are as well explained: both are told."""
+    rows = 7 if turn > 4.0 * TURN else 13
+    force, noise = loads(rows), np.random.default_rng(1)
     measured(tmp_path, force, 0.0, {})
-    read_by = np.array([(f, *bent(f, 20.0 * TURN)) for f in force]) + noise.normal(
-        0.0, [0.1, 0.002, 0.002], (7, 3)
-    )
-    rows = [",".join(f"{v:.7g}" for v in row) for row in read_by]
-    (tmp_path / "r.csv").write_text("\n".join(["load,tip,mid", *rows]) + "\n")
+    exact = np.array([(f, *bent(f, turn)) for f in force])
+    read_by = exact + noise.normal(0.0, [0.1, 0.002, 0.002], exact.shape)
+    lines = [",".join(f"{v:.7g}" for v in row) for row in read_by]
+    (tmp_path / "r.csv").write_text("\n".join(["load,tip,mid", *lines]) + "\n")
     spoilt(tmp_path, *MISTAKES[words])
     assert words in told(tmp_path)
