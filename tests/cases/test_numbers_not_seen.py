@@ -25,17 +25,13 @@ def test_every_command_says_the_same_error(bench: parastiff.Bench) -> None:
     assert found.answer.added == added.answer.added == ("base_compliance",)
     assert added.answer.error[-1].degrees == found.answer.error[-1].degrees == 14 - len(SEEN)
     assert added.answer.error[-1].fit == pytest.approx(found.answer.error[-1].fit, abs=0.005)
+    # A tilt and a bow are alike to the base to first order, and leave 16 sigma where they are fitted in its place.
+    assert found.answer.evidence is not None and not found.answer.evidence.look_alikes
     again = added.diagnose()
     assert again.verdict == "within_noise"
     assert again.answer.error[-1].fit == pytest.approx(found.answer.error[-1].fit, abs=0.005)
     saved = next(it for it in added.compare().record.models if it.model == "saved")
     assert saved.degrees == 14 - len(SEEN)
-
-
-def test_nothing_looks_like_what_a_fit_told_apart(bench: parastiff.Bench) -> None:
-    """A tilt and a bow are alike to the base to first order, and leave 16 sigma where they are fitted in its place."""
-    found = bench.diagnose().answer
-    assert found.evidence is not None and not found.evidence.look_alikes
 
 
 def test_a_saved_model_does_not_say_that_it_knows_them(bench: parastiff.Bench, tmp_path: Path) -> None:

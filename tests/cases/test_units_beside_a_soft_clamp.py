@@ -28,6 +28,8 @@ MISTAKES = {
     "fy_N is in lbf": (LOAD, 4.4482216),
 }
 
+SLOW = ("all readings in mm are in thousandths of an inch", "all readings in mm are in cm")
+
 
 def spoilt(folder: Path, columns: slice, factor: float) -> None:
     """The columns of the table as they read in a unit of so many of the right one."""
@@ -43,14 +45,16 @@ def told(folder: Path) -> list[str]:
 
 
 @pytest.mark.parametrize("turn", [pytest.param(0.0, marks=pytest.mark.long), TURN])
-@pytest.mark.parametrize("words", MISTAKES)
+@pytest.mark.parametrize(
+    "words", [pytest.param(it, marks=pytest.mark.long) if it in SLOW else it for it in MISTAKES]
+)
 def test_a_unit_is_among_what_is_told(tmp_path: Path, words: str, turn: float) -> None:
     measured(tmp_path, loads(7), turn, {})
     spoilt(tmp_path, *MISTAKES[words])
     assert words in told(tmp_path)
 
 
-@pytest.mark.parametrize("turn", [0.0, TURN])
+@pytest.mark.parametrize("turn", [pytest.param(0.0, marks=pytest.mark.long), TURN])
 def test_a_modulus_in_gpa_is_told_and_nothing_named(tmp_path: Path, turn: float) -> None:
     measured(tmp_path, loads(7), turn, {})
     toml = tmp_path / "campaign.toml"
@@ -99,7 +103,7 @@ def bent(force: float, turn: float) -> tuple[float, float]:
 @pytest.mark.parametrize(
     ("words", "turn"),
     [
-        ("all readings in mm are in inches", 20.0 * TURN),
+        pytest.param("all readings in mm are in inches", 20.0 * TURN, marks=pytest.mark.long),
         ("fy_N is in lbf", 20.0 * TURN),
         # Not among the four that promise most: no look at a table that is so far off goes by that alone.
         ("all readings in mm are in inches", 4.0 * TURN),
