@@ -88,7 +88,5 @@ def _watched(found: Diagnosis, quiet: bool) -> list[Step]:
     return done
 
 
-def _write(
-    path: Path, model: Model, uncertainty: dict[str, Uncertainty], campaign: Campaign, known: Known
-) -> None:
-    write_model(path, fitted_now(model, uncertainty, known, campaign.name))
+def _write(path: Path, model: Model, told: dict[str, Uncertainty], campaign: Campaign, known: Known) -> None:
+    write_model(path, fitted_now(model, told, known, campaign.name))

@@ -66,7 +66,9 @@ class Fit:
     @cached_property
     def numbers(self) -> int:
         """Free numbers that the readings determine, alone or together: those that nothing reads take no residual."""
-        return int(np.sum(_seen(self._information[1])))
+        free = len(self.model.free)
+        # Beside a function at a site the slopes are those of the function.
+        return int(np.sum(_seen(self._information[1]))) if self.jacobian.shape[1] == free else free
 
     @cached_property
     def degrees(self) -> int:
