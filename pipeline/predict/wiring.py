@@ -41,7 +41,7 @@ def register(app: typer.Typer, guarded: Callable[[Callable[[], object]], None]) 
         written about the rig (its tolerances), and of the noise.
         TABLE.csv has the columns of measurements.csv that are prescribed,
         with the id of a test, or q_deg (at_x_mm, at_y_mm, at_z_mm), and
-        numbers of [rig] such as length_mm. Rows in order are one history.
+        numbers of the rig such as length_mm. Rows in order are one history.
         """
         from pipeline.predict.command import Asking, predict_readings
 
