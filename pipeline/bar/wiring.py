@@ -46,7 +46,7 @@ def register(app: typer.Typer, guarded: Callable[[Callable[[], object]], None]) 
     ) -> None:
         """One bar alone: K_b and K_g with their bands, critical loads, a page.
 
-        FILE is a case with a section, a case whose table bar names a file, or the file itself: STEP, IGES, BREP or a mesh.
+        FILE is a case with a section, a case whose table bar names a file, or the file: STEP, IGES, BREP or a mesh.
         Without --base and --tip its faces are listed, each with the text that names it.
         """
         from pipeline.bar.command import Asked
