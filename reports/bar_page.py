@@ -73,14 +73,14 @@ def stiffness(record: Json) -> Table:
         *(Column(name) for name, _ in others),
     ]
     rows = []
-    for entry, band in record["numerical_band"].items():
+    for entry in record["numerical_band"] or record["modelling_band"]:
         i, j = int(entry[1]) - 1, int(entry[2]) - 1
         rows.append(
             [
                 symbol(entry),
                 entry_unit(entry),
                 number(record["stiffness"][i][j]),
-                percent(band, 3).removeprefix("+"),
+                percent(record["numerical_band"].get(entry), 3).removeprefix("+"),
                 number(record["extrapolated"][i][j]),
                 percent(record["modelling_band"].get(entry)).removeprefix("+"),
                 *(number(matrix[i][j]) for _, matrix in others),
@@ -99,11 +99,12 @@ def geometric(record: Json) -> Table:
         Column("band by tie", "±%"),
     ]
     rows = []
-    for entry, band in record["geometric_numerical_band"].items():
+    for entry in record["geometric_numerical_band"] or record["geometric_modelling_band"]:
         unit = tables_bar.AXIAL_UNITS[entry_unit(entry)]
         other = percent(record["geometric_modelling_band"].get(entry)).removeprefix("+")
         value = number(record["geometric"][int(entry[1]) - 1][int(entry[2]) - 1])
-        rows.append([symbol(entry), unit, value, percent(band, 3).removeprefix("+"), other])
+        mesh = percent(record["geometric_numerical_band"].get(entry), 3).removeprefix("+")
+        rows.append([symbol(entry), unit, value, mesh, other])
     return table("K_g, what 1 N of axial force adds to K_b", columns, rows)
 
 

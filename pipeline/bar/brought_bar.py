@@ -47,8 +47,9 @@ def frame_of(case: FileCase, brought: Brought) -> BarFrame:
 
 
 def relative_error(value: Floats, error: Floats) -> dict[str, float]:
-    """Error (6, 6) over value (6, 6) of the entries that are not negligible, by name."""
-    return {name: float(error[ij] / abs(value[ij])) for name, ij in named_entries(value).items()}
+    """Error (6, 6) over value (6, 6) of the entries that are not negligible, by name; none where it is not known."""
+    known = {name: ij for name, ij in named_entries(value).items() if error[ij] == error[ij]}
+    return {name: float(error[ij] / abs(value[ij])) for name, ij in known.items()}
 
 
 def described(case: FileCase) -> dict[str, float | str]:

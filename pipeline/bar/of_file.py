@@ -212,8 +212,7 @@ def tied(placed: Placed, tie: str) -> Tied:
 
 
 def elastic_limit(matrices: list[Floats], placed: Placed) -> Limit:
-    """K_b (6, 6) of two nested meshes without their error; of one mesh itself, its error not known and counted as
-    nothing."""
+    """K_b (6, 6) of two nested meshes without their error; of one mesh itself, its error none that is known."""
     if placed.torsion is not None:
         return swept_limit(matrices[-2], matrices[-1], placed.torsion)
     return limited(matrices, placed.bars[-1].mesh.kind)
@@ -222,7 +221,7 @@ def elastic_limit(matrices: list[Floats], placed: Placed) -> Limit:
 def limited(matrices: list[Floats], kind: str) -> Limit:
     """The same of K_b (6, 6) by the power of h alone, which the kind of cells says."""
     if len(matrices) == 1:
-        return Limit(matrices[0], np.zeros((6, 6)))
+        return Limit(matrices[0], np.full((6, 6), np.nan))
     return limit(matrices[-2], matrices[-1], SWEPT_POWER if kind == SWEPT else POWER)
 
 

@@ -50,7 +50,7 @@ class BarRecord(Record):
     extrapolated: Matrix
     """K_b of the mesh study's limit."""
     numerical_band: dict[str, float]
-    """Relative error of the entries of `stiffness` by its mesh."""
+    """Relative error of the entries of `stiffness` by its mesh; empty where it is not known: of one mesh as it came."""
     modelling_band: dict[str, float] = Field(default_factory=dict)
     """Relative spread of the entries of `stiffness` over ways to tie its ends; empty where only one was computed."""
     modelling: dict[str, Matrix] = Field(default_factory=dict)

@@ -62,17 +62,18 @@ class BarFrom:
         """Both bands of EA, EIy, EIz, GJ together, as the root of the sum of their squares."""
         return {key: hypot(self.numerical.get(key, 0.0), self.modelling.get(key, 0.0)) for key in OF}
 
-    def _by_tie(self, key: str) -> str:
-        return f"{100 * self.modelling[key]:.2g} %" if key in self.modelling else "nothing known"
-
     @property
     def said(self) -> str:
         """The bands in words."""
         parts = [
-            f"{key} {100 * self.numerical.get(key, 0.0):.2g} % by mesh and {self._by_tie(key)} by tie of the ends"
+            f"{key} {_told(self.numerical, key)} by mesh and {_told(self.modelling, key)} by tie of the ends"
             for key in OF
         ]
         return f"{self.name} adds its bands to the usual tolerance: {', '.join(parts)}"
+
+
+def _told(bands: Mapping[str, float], key: str) -> str:
+    return f"{100 * bands[key]:.2g} %" if key in bands else "nothing known"
 
 
 def bar_from(path: Path) -> BarFrom:
@@ -126,8 +127,5 @@ def _of_run(path: Path, raw: Mapping[str, Any]) -> BarFrom:
 
 def _by_stiffness(band: Mapping[str, float]) -> dict[str, float]:
     """Of each stiffness of a section the largest band of its entries."""
-    return {
-        key: max(abs(float(band[e])) for e in entries if e in band)
-        for key, entries in OF.items()
-        if any(e in band for e in entries)
-    }
+    found = {key: [abs(float(band[e])) for e in entries if e in band] for key, entries in OF.items()}
+    return {key: max(each) for key, each in found.items() if each}

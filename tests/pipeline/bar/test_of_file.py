@@ -45,6 +45,8 @@ def test_a_case_with_a_file(pipeline_command: Callable[..., Done], tmp_path: Pat
     record = json.loads((tmp_path / "it.json").read_text())
     series = 1.0 / (30 / (210e3 * 60) + 30 / (70e3 * 60))
     assert record["stiffness"][0][0] == pytest.approx(series, rel=0.03)
+    assert record["numerical_band"] == record["geometric_numerical_band"] == {} and record["modelling_band"]
+    assert "K₁₁" in (tmp_path / "results" / "link-bar" / "index.html").read_text()
     assert record["width_mm"] == 40.0 and record["length_mm"] == pytest.approx(60.0)
     assert set(record["data"]) == {"link.inp"} and set(record["modelling"]) == {"distributed"}
     said = " ".join(record["said"])
