@@ -6,7 +6,7 @@ from typing import Any
 
 from reports import part_drawing, shapes, tables_bar, tables_record, turntable
 from reports.blocks import Block, Bullets, Code, Column, Figure, Section, Table, Tables, Text, table
-from reports.formats import entry_unit, number, percent, symbol
+from reports.formats import entry_unit, named_entries, number, percent, symbol
 from reports.load import Json
 from reports.record_page import drawn
 
@@ -30,7 +30,7 @@ def sections(folder: Path, record: Json) -> list[Section]:
     """All of the page."""
     drawing = part_drawing.draw(folder, record)
     stiff: list[Block] = [Figure("part", "The bar to scale.", None, *drawing)] if drawing else []
-    stiff += [stiffness(record), geometric(record)]
+    stiff += [stiffness(record), *([geometric(record)] if record["geometric"] else [])]
     if record["said"]:
         stiff.append(Bullets(record["said"]))
     facts = {"length_mm": record["length_mm"], **record["ends"]}
@@ -73,8 +73,7 @@ def stiffness(record: Json) -> Table:
         *(Column(name) for name, _ in others),
     ]
     rows = []
-    for entry in record["numerical_band"] or record["modelling_band"]:
-        i, j = int(entry[1]) - 1, int(entry[2]) - 1
+    for entry, (i, j) in named_entries(record["stiffness"]).items():
         rows.append(
             [
                 symbol(entry),
@@ -99,10 +98,10 @@ def geometric(record: Json) -> Table:
         Column("band by tie", "±%"),
     ]
     rows = []
-    for entry in record["geometric_numerical_band"] or record["geometric_modelling_band"]:
+    for entry, (i, j) in named_entries(record["geometric"]).items():
         unit = tables_bar.AXIAL_UNITS[entry_unit(entry)]
         other = percent(record["geometric_modelling_band"].get(entry)).removeprefix("+")
-        value = number(record["geometric"][int(entry[1]) - 1][int(entry[2]) - 1])
+        value = number(record["geometric"][i][j])
         mesh = percent(record["geometric_numerical_band"].get(entry), 3).removeprefix("+")
         rows.append([symbol(entry), unit, value, mesh, other])
     return table("K_g, what 1 N of axial force adds to K_b", columns, rows)

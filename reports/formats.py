@@ -3,7 +3,10 @@
 from collections.abc import Sequence
 from decimal import Decimal
 from math import floor, isfinite, log10
+from typing import Any
 
+NEGLIGIBLE = 1e-3
+"""Of the root of K_ii K_jj: an entry below that has no relative band of its own."""
 MINUS = "\u2212"
 NARROW_SPACE = "\u202f"
 DASH = "\u2014"
@@ -76,6 +79,17 @@ def percent(ratio: float | None, decimals: int = 2) -> str:
 def symbol(entry: str) -> str:
     """K26 as K₂₆."""
     return entry[0] + entry[1:].translate(SUBSCRIPTS)
+
+
+def named_entries(matrix: Any) -> dict[str, tuple[int, int]]:
+    """Places of the entries of a (6, 6) on and above the diagonal that are not negligible, by name (K11, K26)."""
+    scale = [abs(matrix[i][i]) ** 0.5 for i in range(6)]
+    return {
+        f"K{i + 1}{j + 1}": (i, j)
+        for i in range(6)
+        for j in range(i, 6)
+        if abs(matrix[i][j]) > NEGLIGIBLE * scale[i] * scale[j]
+    }
 
 
 def entry_of(matrix: Sequence[Sequence[float]], entry: str) -> float:

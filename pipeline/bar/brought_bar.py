@@ -9,9 +9,9 @@ from typing import Any
 from meshes.brought.found import Brought
 from meshes.brought.frame import BarFrame, bar_frame
 from meshes.solid import Floats
-from pipeline.bar.record import named_entries
 from pipeline.bar.tables import FileCase
 from pipeline.errors import InputError
+from reports.formats import named_entries
 
 
 def said_of(path: Path, work: Callable[[], Any]) -> Any:

@@ -9,13 +9,14 @@ from typing import Any
 
 from meshes.brought.formats import readers
 from pipeline.bar.file_case import case_of_options, file_case, names_a_file
-from pipeline.bar.record import BarRecord, named_entries
+from pipeline.bar.record import BarRecord
 from pipeline.command import OWN, WORKSHOP, usable
 from pipeline.errors import InputError
 from pipeline.progress import Progress
 from pipeline.system import require
 from pipeline.validation.case import load_case, shipped_cases
 from pipeline.validation.detail import COARSE, DEFAULT, FINE
+from reports.formats import named_entries
 
 RECORD = "bar.json"
 

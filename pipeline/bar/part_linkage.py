@@ -15,7 +15,6 @@ from fem.part_bar import PartBar
 from fem.slices.solver import SolverOf
 from fem.space import Space
 from meshes.solid import Floats
-from pipeline.bar.record import NEGLIGIBLE
 from pipeline.progress import Progress
 from pipeline.validation.agreement import agreement_sentences
 from pipeline.validation.case_tables import LinkageSize
@@ -29,6 +28,7 @@ from pipeline.validation.stages.followed import each_path
 from pipeline.validation.stages.linkage import SolidBuckling, SolidPath, solid_buckling, solid_stiffness
 from pipeline.validation.stages.refinement import solid_meshes, spring_segments
 from pipeline.validation.stages.springs import SpringLinkage, SpringSet, linear_slope, spring_set
+from reports.formats import NEGLIGIBLE
 
 COUPLED = (
     "The bar's K_b couples what a bar with two planes of symmetry keeps apart ({entries}): Eq. 11, the beam formulas, "

@@ -5,16 +5,13 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Literal
 
-import numpy as np
 from pydantic import Field
 
 from meshes.solid import Floats
 from pipeline.bar.stress_record import Stresses
 from pipeline.record import Record
 from pipeline.validation.result import Buckling, Matrix
-
-NEGLIGIBLE = 1e-3
-"""Of the root of K_ii K_jj: an entry below that has no relative band of its own."""
+from reports.formats import named_entries
 
 
 class MeshRecord(Record):
@@ -71,17 +68,6 @@ class BarRecord(Record):
     command: str
     data: dict[str, str] = Field(default_factory=dict)
     """sha256 of each file that it was made from."""
-
-
-def named_entries(matrix: Floats) -> dict[str, tuple[int, int]]:
-    """Places of the entries of a 6x6 on and above the diagonal that are not negligible, by name (K11, K26)."""
-    scale = np.sqrt(np.abs(np.diag(matrix)))
-    return {
-        f"K{i + 1}{j + 1}": (i, j)
-        for i in range(6)
-        for j in range(i, 6)
-        if abs(matrix[i, j]) > NEGLIGIBLE * scale[i] * scale[j]
-    }
 
 
 def relative_spread(matrix: Floats, others: Mapping[str, Floats]) -> dict[str, float]:

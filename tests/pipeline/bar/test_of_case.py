@@ -16,8 +16,9 @@ from meshes.bar import Bar
 from meshes.resolution import Resolution
 from meshes.section import Rectangle
 from meshes.store import mesh_bar
-from pipeline.bar.record import named_entries, relative_spread
+from pipeline.bar.record import relative_spread
 from pipeline.cli import app
+from reports.formats import named_entries
 from tests.conftest import Done
 
 CASE = """schema = 1
