@@ -303,7 +303,10 @@ def posed(
     drives: Drives | None,
     memory: Array | None,
 ) -> tuple[Problem, Array, Array, tuple[int, ...]]:
-    """The problem with flat batch axes, unknowns and inputs to begin with, and the batch shape."""
+    """The problem with flat batch axes (B,), unknowns (B, N) and inputs (B, D) to begin with, and the batch shape.
+
+    targets: (..., 6). memory: (..., M) of the laws before the step.
+    """
     targets, numbers = _checked(targets), channel_numbers(held, len(mechanism.gauges))
     inputs = drive_values(mechanism, drives)
     shapes = [targets.shape[:-1], numbers.shape[:-1], inputs.shape[:-1]]
