@@ -23,7 +23,7 @@ def conjugate_gradients(
     sizes = np.linalg.norm(b, axis=0)
     x, r = np.zeros_like(b), b.copy()
     p, rz = np.zeros_like(b), np.ones(b.shape[1])
-    for iteration in range(most):
+    for iteration in range(most + 1):
         if np.all(np.linalg.norm(r, axis=0) <= tolerance * sizes):
             return x.reshape(rhs.shape), iteration
         z = near(r)

@@ -122,7 +122,7 @@ def _look_alikes(it: Diagnosis) -> Iterator[LookAlike]:
     cache, best = it.cache, frozenset(it.sets[0])
     for a in it.alike:
         # Alike to first order: fits with it in the place of the effect may have told them apart.
-        tried = [names for names in cache.fits if a.rival in names and a.effect not in names]
+        tried = [n for n in cache.fits if n >= best - {a.effect} | {a.rival} and a.effect not in n]
         apart = bool(tried) and all(worse(cache, names, best) > needed(cache, names, best) for names in tried)
         if a.correlation > LOOKS_LIKE and a.effect in best and a.size < a.needed and not apart:
             yield LookAlike(

@@ -115,8 +115,7 @@ def _no_commas_in_numbers(rows: list[tuple[Cell, ...]], mark: str) -> None:
     """BadTable where commas part the cells and the numbers too: whole numbers alone, more of them than names."""
     first, width, _ = _data(rows)
     names = next((row for row in reversed(rows[:first]) if len(row) > 1 and not _numbers(row)), None)
-    data = [word(cell) for row in rows[first:] for cell in row]
-    whole = bool(data) and _numbers(rows[first]) == width and not any("." in it for it in data)
+    whole = _numbers(rows[first]) == width and not any("." in word(c) for row in rows[first:] for c in row)
     if mark == "," and whole and names and len(names) < width <= 2 * len(names):
         raise BadTable(
             f"has {width} cells under {len(names)} names, as decimal commas between commas make them; allowed is a "

@@ -58,10 +58,10 @@ class Ranges:
         for column, value in columns.items():
             span = self.spans.get(column)
             # What nothing moves is predicted as zero or as the rounding of what others of its unit are.
-            small = abs(value) <= ROUNDING * self._largest.get(column.rpartition("_")[2], 0.0)
-            if span is None and not small:
+            tiny = ROUNDING * self._largest.get(column.rpartition("_")[2], 0.0)
+            if span is None and abs(value) > tiny:
                 yield f"{column} {short(value)}, in no fitted test"
-            elif span is not None and not small and _beyond(value, span):
+            elif span is not None and _beyond(value, (span[0] - tiny, span[1] + tiny)):
                 yield _said(column, value, span)
 
     @cached_property

@@ -9,7 +9,7 @@ taken, with the differences of what is prescribed through the constant stiffness
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass, replace
 from functools import partial
 from operator import attrgetter, itemgetter
@@ -87,7 +87,9 @@ def suspicions(cache: FitCache) -> tuple[Suspicion, ...]:
     kept = [it for it in found if it.after < tie]
     # Less than one of chi-square says nothing: then in the order of the columns.
     kept.sort(key=lambda it: (int(it.after - least), *_place(it.mistake, cache.whole)))
-    return (*kept, *_beside_unusual(table, found, tie))
+    with suppress(TooMuch), until(cache, KINKED):
+        kept.extend(_beside_unusual(table, found, tie))
+    return tuple(kept)
 
 
 def _beside_unusual(table: Table, found: Sequence[Suspicion], tie: float) -> Iterator[Suspicion]:
@@ -96,10 +98,10 @@ def _beside_unusual(table: Table, found: Sequence[Suspicion], tie: float) -> Ite
     told = {it.mistake.words: it.mistake.kind for it in found}
     for mistake in possible(table.cache.whole.campaign, table.cache.criteria):
         if mistake.kind in told.values() and mistake.words not in told:
-            mended = table.mended(mistake)
-            left = _within_its_share(mended, attrgetter("left_at_any_size"), BESIDE)
+            new = table.mended(mistake)
+            left = _within_its_share(new, attrgetter("left_at_any_size"), BESIDE)
             near = left is not None and left[0] < tie
-            if left and near and _explained(mended.cache.fit(left[1]), mistake, table.cache.criteria, False):
+            if left and near and _explained(new.cache.fit(left[1]), mistake, new.cache.criteria, False):
                 yield Suspicion(mistake, found[0].before, *left)
 
 

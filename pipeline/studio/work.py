@@ -160,8 +160,7 @@ def _proposal(task: Task, it: Subject, on_progress: OnProgress) -> Proposal:
     """The model with the set of an answer."""
     answer, model = it.answer, shown_model(it).freed(it.model)
     assert answer is not None
-    told = uncertainty_of(answer.parameters, model)
-    file = fitted_now(model, told, it.known, it.campaign.name)
+    file = fitted_now(model, uncertainty_of(answer.parameters, model), it.known, it.campaign.name)
     page = collect(it, (), on_progress)
     return Proposal(page, model_text(file, task.at), model_text(file, task.folder), answer)
 

@@ -122,7 +122,7 @@ def bad_readings(found: Fit, criteria: Criteria) -> tuple[BadReading, ...]:
     there &= ~_kept(shifts)
     if few:
         there &= _amid(shifts)
-    limit = float(norm.isf(0.5 * criteria.false_alarm / count))
+    limit = float(norm.isf(0.5 * criteria.false_alarm / max(count, 1)))
     channels = it.load_cases.measured.shape[1]
     out: list[tuple[int, int, float, list[int]]] = []
     refused: list[int] = []
